@@ -20,7 +20,7 @@ from library import Library, Run  # noqa: E402
 GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0
 WHEEL_INERTIA, RADIUS, LOAD, SLIP_STIFFNESS, SHAPE, RELAXATION = 1.0, 0.334, 3568.0, 70000.0, 1.4, 0.4
 TYRE_DAMPING, WALK = 1000.0, 2.5
-MASS, DRAG, ROLLING, BREAKAWAY, GRAVITY = 1455.0, 0.4, 0.012, 0.2, 9.81
+MASS, DRAG, ROLLING, BREAKAWAY, GRAVITY = 1455.0, 0.4, 0.012, 0.2, 9.80665
 STIFFNESS = [DIFFERENTIAL[f"half_shaft.{side}_stiffness"] for side in ("left", "right")]
 DAMPING = [DIFFERENTIAL[f"half_shaft.{side}_damping"] for side in ("left", "right")]
 # teeth of side gear over teeth of planet

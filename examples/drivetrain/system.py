@@ -10,6 +10,8 @@ from pythonfmu.builder import FmuBuilder
 from parameters import CONNECTIONS, END, PARTS, settings
 
 HERE = Path(__file__).parent
+# in each of these FMUs: what parts have in common, and the package's equations of tyre, motor and body
+SHARED = [HERE / "parts" / "part.py", HERE.parents[1] / "python/src/bevel_differential/vehicle/equations.py"]
 # file of each class that pythonfmu makes
 SOURCES = {"Engine": "engine.py", "FinalDrive": "final_drive.py", "Wheel": "wheel.py", "Vehicle": "vehicle.py"}
 SPACES = ('xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription" '
@@ -23,7 +25,7 @@ def make_parts(differential, folder):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for source in SOURCES.values():
-        FmuBuilder.build_FMU(str(HERE / "parts" / source), dest=str(folder), project_files=[HERE / "parts" / "part.py"],
+        FmuBuilder.build_FMU(str(HERE / "parts" / source), dest=str(folder), project_files=SHARED,
                              canGetAndSetFMUstate="true")
     shutil.copyfile(differential, folder / "BevelDifferential.fmu")
     return {name: folder / f"{name}.fmu" for name in set(PARTS.values())}

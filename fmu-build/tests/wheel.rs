@@ -1,4 +1,4 @@
-//! The Python package as a wheel: its contents, and the same bytes every time.
+//! Tests of the wheel: it contains all that the package needs, and two builds have the same bytes.
 
 use std::fs::{self, File};
 use std::io::{Cursor, Read};

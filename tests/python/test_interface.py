@@ -64,6 +64,28 @@ def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
         assert np.allclose(by_arrays[name], there[name], rtol=1e-6, atol=1e-6)
 
 
+def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(fmu_file):
+    given = {"effects.limited_slip": True, "left.load_torque": 700.0, "effects.half_shaft": True,
+             "inertia.left_end": 1.0, "inertia.right_end": 1.0}
+    times, preloads = np.array([0.0, 0.02, 0.02, 0.05]), np.array([50.0, 50.0, 200.0, 300.0])
+    names = ["left.speed", "left.shaft_torque", "heat.clutch"]
+    with Differential(given, fmu=fmu_file) as slipping:
+        here = slipping.run({"limited_slip.preload": (times, preloads)}, names, 0.06, 1e-3)
+        held = slipping.run({"limited_slip.preload": 50.0}, names, 0.06, 1e-3)
+        with slipping.fmu.open() as instance:
+            instance.initialise({**given, "limited_slip.preload": 50.0})
+            for row in range(60):
+                # two points at one time are a jump: after it the second counts
+                after = np.interp(row * 1e-3, times[2:], preloads[2:]) if row >= 20 else 50.0
+                instance.set({"limited_slip.preload": float(after)})
+                instance.step(1e-3)
+                there = instance.read(names)
+                assert there == pytest.approx([here[name][row + 1] for name in names], rel=1e-6, abs=1e-9)
+    assert abs(here["left.speed"][-1] - held["left.speed"][-1]) > 1e-4
+    with pytest.raises(DifferentialError, match="geometry.module: it is a fixed parameter; give it by `set` or `values`"):
+        slipping.run({"geometry.module": ([0.0, 1.0], [4e-3, 5e-3])})
+
+
 def test_a_jump_between_points_is_a_point(fmu_file):
     with Differential(fmu=fmu_file) as straight:
         found = straight.run({"left.load_torque": ([0.0, 0.0035, 0.0035], [835.0, 835.0, 0.0])}, stop=0.005)

@@ -1,7 +1,6 @@
 """Vehicle that goes straight ahead: mass and drag."""
 
-from math import tanh
-
+from equations import resistance
 from part import Part
 
 
@@ -18,9 +17,7 @@ class Vehicle(Part):
     outputs = (("speed", "Speed, m/s"),)
 
     def rates(self, t, x, u):
-        v = x[0]
-        resistance = self.drag * v * abs(v) + self.rolling * self.mass * 9.81 * tanh(v / self.breakaway)
-        return [(u[0] + u[1] - resistance) / self.mass]
+        return [(u[0] + u[1] - resistance(self, x[0])) / self.mass]
 
     def output_values(self, x, u):
         return {"speed": x[0]}

@@ -1,7 +1,6 @@
 """Wheel with a tyre that builds its slip up over a relaxation length, on a road with given friction."""
 
-from math import atan, sin
-
+from equations import slip_rate, tyre_force
 from part import Part
 
 
@@ -24,15 +23,12 @@ class Wheel(Part):
                ("slip", "Slip of the tyre as it has built up"))
 
     def force(self, x, v):
-        peak = self.friction * self.load
-        damping = self.damping / (1.0 + (v / self.walk) ** 2)
-        slip = x[1] + damping / self.slip_stiffness * (self.radius * x[0] - v)
-        return peak * sin(self.shape * atan(self.slip_stiffness / (self.shape * peak) * slip))
+        return tyre_force(self, x[1], self.radius * x[0], v)
 
     def rates(self, t, x, u):
         torque, v = u
         return [(torque - self.radius * self.force(x, v)) / self.inertia,
-                (self.radius * x[0] - v - abs(v) * x[1]) / self.relaxation]
+                slip_rate(self, x[1], self.radius * x[0], v)]
 
     def output_values(self, x, u):
         return {"speed": x[0], "force": self.force(x, u[1]), "slip": x[1]}

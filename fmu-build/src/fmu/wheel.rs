@@ -20,6 +20,8 @@ use crate::tools::python::{self, Environment};
 
 /// The time of all files in the wheel, in seconds of Unix: 1980-01-01, the earliest that an archive can tell.
 const TIME: &str = "315532800";
+/// Folders of examples that the package holds, and the endings of their files.
+const EXAMPLES: [(&str, &[&str]); 2] = [("design", &["toml", "csv"]), ("vehicle", &["py"])];
 /// The licences of the project. Those of all that the FMU links lie in the FMU.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
@@ -116,11 +118,13 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
     for scene in scene::files(&paths::scenes())? {
         copy_file(&scene, &package.join("scenes"))?;
     }
-    let designs = from.join("examples").join("design");
-    for file in fs::read_dir(&designs).with_context(|| format!("{} cannot be read", paths::shown(&designs)))? {
-        let file = file?.path();
-        if file.extension().is_some_and(|ending| ending == "toml" || ending == "csv") {
-            copy_file(&file, &package.join("examples"))?;
+    for (folder, endings) in EXAMPLES {
+        let examples = from.join("examples").join(folder);
+        for file in fs::read_dir(&examples).with_context(|| format!("{} cannot be read", paths::shown(&examples)))? {
+            let file = file?.path();
+            if file.extension().is_some_and(|of| endings.iter().any(|ending| of == *ending)) {
+                copy_file(&file, &package.join("examples").join(folder))?;
+            }
         }
     }
     // beside the FMU, not in it: its address stays, and links to set-ups with it

@@ -16,7 +16,7 @@ Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 
 class Table:
-    """A variable over time: Reals straight between their points, others held; constant before the first point and after the last,
+    """An input or a tunable parameter over time: Reals straight between their points, others held; constant before the first point and after the last,
     or repeated after `period` (s). Two points at one time are a jump."""
 
     def __init__(self, variable: Variable, times: Times, values: Values, period: float | None = None):
@@ -61,10 +61,10 @@ class Signals:
     @classmethod
     def of(cls, fmu: Fmu, inputs: Inputs | None) -> Self:
         """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
-        structured array with a field "time", as fmpy takes it."""
+        structured array with a field "time", as fmpy takes it. Names are those of inputs and tunable parameters."""
         constants, tables = [], []
         for name, given in _pairs(inputs):
-            variable = input_variable(fmu, name)
+            variable = changing_variable(fmu, name)
             if isinstance(given, tuple) and len(given) == 2 and np.ndim(given[0]) == 1:
                 tables.append(Table(variable, *given))
             else:
@@ -87,6 +87,15 @@ def input_variable(fmu: Fmu, name: str) -> Variable:
         article = "an" if variable.causality[0] in "aeio" else "a"
         raise DifferentialError(f"{name}: it is no input but {article} {variable.causality}")
     return variable
+
+
+def changing_variable(fmu: Fmu, name: str) -> Variable:
+    """The input or tunable parameter `name`."""
+    variable = fmu.variable(name)
+    if variable.causality == "parameter" and variable.variability == "fixed":
+        raise DifferentialError(f"{name}: it is a fixed parameter; give it by `set` or `values`, as only inputs and tunable "
+                                "parameters change during a run")
+    return variable if variable.causality == "parameter" else input_variable(fmu, name)
 
 
 def _pairs(inputs):

@@ -178,7 +178,7 @@ class Variable:
         return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
 
     def _in_unit(self):
-        return f" in {self.unit}" if self.unit else ""
+        return f" in {self.unit}" if self.unit not in (None, "", "1") else ""
 
 
 class Variables(Protocol):

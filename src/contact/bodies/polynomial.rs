@@ -2,10 +2,10 @@
 
 use crate::numeric::{PI, cos};
 
-/// Degree: couplings of eight teeth and more are met to 2e-6 of a pair's compliance, those of five to 1e-3.
+/// Degree of the polynomial. It meets couplings to 2e-6 of a pair's compliance from eight teeth on, and to 1e-3 for five teeth.
 const DEGREE: usize = 6;
 
-/// A polynomial in (u − middle)/half.
+/// A polynomial in x = (u − middle)/half, constant beyond x = ±1.
 #[derive(Clone, Debug, Default)]
 pub struct Polynomial {
     middle: f64,
@@ -19,7 +19,7 @@ impl Polynomial {
         let (middle, half, count) = (0.5 * (low + high), 0.5 * (high - low), DEGREE + 1);
         let angle = |j: usize| PI * (j as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..count).map(|j| f(middle + half * cos(angle(j)))).collect();
-        // T_n by powers
+        // coefficients of Chebyshev's polynomials T_n−1 and T_n by powers of x
         let (mut terms, mut last, mut this) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         this[0] = 1.0;
         for n in 0..count {
@@ -41,12 +41,12 @@ impl Polynomial {
         Self { middle: 0.0, per_half: 0.0, terms }
     }
 
-    /// Whether it has more than one value.
+    /// Whether the value depends on the place.
     pub fn varies(&self) -> bool {
         self.per_half > 0.0
     }
 
-    /// Value at a share from −1 to 1 of the half interval.
+    /// Value at x = (u − middle)/half, from −1 to 1.
     pub fn at_share(&self, x: f64) -> f64 {
         self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term)
     }

@@ -1,35 +1,35 @@
-//! Compliance past an end of the path, as a function of the distance from it: of a tip corner as far as one can touch,
-//! then level.
+//! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. It is that of a tip
+//! corner as far as the corner can touch, and levels out to a constant beyond.
 //!
-//! The corner moves up its mate's flank from a roll length ρ₀ on, and ρ² grows evenly with the distance. Near a base circle
-//! Hertz's part bends within a distance of ρ₀², so that the nearer half has its knots even in the eighth root of the
-//! distance and ρ₀². In the farther half they close in quadratically on the end, as the mate's tooth is thin there.
+//! The corner moves up its mate's flank from a roll length ρ₀ on, and ρ² grows linearly with x. Near a base circle Hertz's
+//! part curves within x ≈ ρ₀², so the knots of the nearer half are evenly spaced in the eighth root of x + ρ₀². In the
+//! farther half the knots close in quadratically on the end, because the mate's tooth is thin there.
 //!
-//! At the path's end the slope jumps: the own tooth's load stops at its tip, and the mate's turns back. Over a small
-//! distance a smooth step takes the table from the path's parabola to the corner, with four continuous derivatives.
+//! At the path's end the slope jumps: the load on the own tooth stays at its tip, and the load on the mate turns back. Over a
+//! short distance a smooth step leads from the path's parabola to the corner, with four continuous derivatives.
 
 use super::spline::{Cell, cells, cubic};
 use crate::numeric::{Jet, sqrt};
 
 /// Cells of each half.
 const CELLS: usize = 512;
-/// Largest change while levelling out as a share of the value, for each of slope and curvature.
+/// Largest change of the value while it levels out, as a share of it: one by the slope and one by the curvature.
 const LEVEL_CHANGE: f64 = 0.125;
-/// Step of the end slopes' differences as a share of the cell there.
+/// Step of the differences for the slopes at both ends, as a share of the cell at the end.
 const END_STEP: f64 = 0.25;
 
-/// The part of a corner.
+/// The stretch past the path's end on which a tip corner touches.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerPart {
     /// Distance over which the slope turns from that of the path to that of the corner [rad].
     pub turn: f64,
-    /// Length of the part [rad].
+    /// Length of the stretch [rad].
     pub length: f64,
-    /// ρ₀² per R_e²: the square of the mate's arc at the path's end [rad²].
+    /// Square of the mate's arc at the path's end, (ρ₀/R_e)² [rad²].
     pub bend: f64,
 }
 
-/// Continuation past an end.
+/// Continuation of the compliance past an end of the path.
 #[derive(Clone, Debug)]
 pub struct PastEnd {
     corner: Option<CornerTable>,
@@ -39,10 +39,10 @@ pub struct PastEnd {
 
 #[derive(Clone, Debug)]
 struct CornerTable {
-    /// The path's end, and how far its parabola counts.
+    /// Value and slopes at the path's end, taken outward; their parabola has weight up to the distance `turn`.
     end: Jet,
     turn: f64,
-    /// Where the halves meet and where they end.
+    /// The halves meet at `middle` and end at `length`.
     middle: f64,
     length: f64,
     bend: f64,
@@ -52,7 +52,7 @@ struct CornerTable {
     cells: Box<[Cell; 2 * CELLS]>,
 }
 
-/// Continuation with value, slope and curvature of an end that becomes constant.
+/// Continuation from the value, slope and curvature at an end to a constant.
 #[derive(Clone, Copy, Debug)]
 struct Level {
     /// Value at the end with derivatives outward.
@@ -63,7 +63,7 @@ struct Level {
 
 impl Level {
     fn new(end: Jet, length: f64) -> Self {
-        // at most half the slope and a twelfth of the curvature are added up, see `at`
+        // over the whole length `at` adds length/2 times the slope and length²/12 times the curvature to the value
         let by_slope = 2.0 * LEVEL_CHANGE * end.v / end.d.abs();
         let by_curvature = sqrt(12.0 * LEVEL_CHANGE * end.v / end.dd.abs());
         Self { end, length: length.min(by_slope).min(by_curvature) }
@@ -73,7 +73,7 @@ impl Level {
         let (e, l) = (self.end, self.length);
         let u = (x / l).min(1.0);
         let v = 1.0 - u;
-        // f′ = (1−u)²(1+2u) carries the slope, u(1−u)² the curvature; both end flat
+        // the slope fades by f′ = (1−u)²(1+2u), the curvature by f′ = u(1−u)²; f′ and f″ of both are zero at u = 1
         let slope = [u * (1.0 - u * u * (1.0 - 0.5 * u)), v * v * (1.0 + 2.0 * u), -6.0 * u * v];
         let bend = [u * u * (0.5 - u * (2.0 / 3.0 - 0.25 * u)), u * v * v, v * (1.0 - 3.0 * u)];
         Jet {
@@ -107,7 +107,7 @@ impl CornerTable {
         let far = (1..CELLS).map(|j| length - (length - middle) * square(1.0 - share(j)));
         let knots: Vec<f64> = [0.0].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
         let values: Vec<f64> = knots.iter().map(|&x| f(x)).collect();
-        // one-sided differences of fourth order: the function ends here
+        // one-sided differences of fourth order, because the function is unknown beyond its ends
         let slope = |x: f64, step: f64| {
             let sum = -25.0 * f(x) + 48.0 * f(x + step) - 36.0 * f(x + 2.0 * step) + 16.0 * f(x + 3.0 * step);
             (sum - 3.0 * f(x + 4.0 * step)) / (12.0 * step)
@@ -134,12 +134,12 @@ impl CornerTable {
         } else {
             2 * CELLS - 1 - (self.per_root * sqrt(self.length - x)) as usize
         };
-        // rounding may name a neighbour, whose cubic is the same there
+        // rounding may give the neighbouring cell: both cubics agree at the knot
         let corner = cubic(&self.cells[cell.min(2 * CELLS - 1)], x);
         if x < self.turn { self.turning(x, corner) } else { corner }
     }
 
-    /// Between the path's parabola and the corner.
+    /// Blend of the path's parabola and the value `corner` of the corner, where `x` < `turn`.
     fn turning(&self, x: f64, corner: Jet) -> Jet {
         let (end, step) = (&self.end, smooth_step(x, self.turn));
         let path = Jet { v: end.v + x * (end.d + 0.5 * x * end.dd), d: end.d + x * end.dd, dd: end.dd };
@@ -161,15 +161,15 @@ fn eighth_root(x: f64) -> f64 {
 }
 
 impl PastEnd {
-    /// The corner's positive compliance `f` along `part` from value and slopes `end` on, taken outward; constant from
-    /// `level` past its end on.
+    /// Continuation by a corner with the positive compliance `f` along `part`, and to a constant within the distance `level`
+    /// past it. `end`: value and slopes at the path's end, taken outward.
     pub fn corner(part: &CornerPart, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
         let table = CornerTable::new(part, end, f);
         let last = cubic(&table.cells[2 * CELLS - 1], part.length);
         Self { corner: Some(table), length: part.length, level: Level::new(last, level) }
     }
 
-    /// No corner: from value and slopes `end`, taken outward, to a constant from `level` on.
+    /// Continuation without a corner, from the value and slopes `end`, taken outward, to a constant within the distance `level`.
     pub fn level(end: Jet, level: f64) -> Self {
         Self { corner: None, length: 0.0, level: Level::new(end, level) }
     }
@@ -189,11 +189,11 @@ mod tests {
     use super::*;
 
     const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, bend: 0.03 };
-    /// The end of a path that leads to the function below.
+    /// Value and slopes at the end of a path before the function below.
     const END: Jet = Jet { v: 6.873, d: 1.0, dd: -3.0 };
 
-    /// The compliance of a corner whose mate's arc grows as √(x + `bend`), with the pole of Hertz's logarithm where that is
-    /// zero and the pole of a pointed tooth a little past the end.
+    /// A compliance like that of a corner. The mate's arc grows as √(x + `bend`), and Hertz's logarithm has its pole where the
+    /// arc is zero. The logarithm of a pointed tooth has its pole a little past the end.
     fn function(bend: f64) -> impl Fn(f64) -> f64 {
         move |x: f64| 5.0 - 0.5 * libm::log(x + bend) - 0.1 * libm::log(0.302 - x) + crate::numeric::sin(4.0 * x)
     }

@@ -1,4 +1,4 @@
-//! Runs of variants of one scene: how far the wanted quantities of each are from the reference, and what it costs.
+//! Runs of variants of one scene: the errors of the wanted quantities against the reference, and the cost of each run.
 
 use bevel_differential::model::Parameters;
 
@@ -8,32 +8,32 @@ use super::want::Want;
 use crate::scene::Scene;
 use crate::watch::Watch;
 
-/// A run may cost this many times the reference, and take at least so many evaluations.
+/// A run may cost this many times the reference, and every run may take so many evaluations, however cheap the reference is.
 const PATIENCE: f64 = 1.5;
 const FREE: f64 = 1e4;
-/// Runs are repeated until they are as long together [s], or as often, for their time; clocks are coarser than a short run.
+/// A timed run is repeated until its repetitions add up to this time [s], or this often: clocks are too coarse for a short run.
 const LONG_ENOUGH: f64 = 0.05;
 const OFTEN: usize = 5;
 
 /// A run that came to its end.
 #[derive(Clone)]
 pub struct Trial {
-    /// What ran.
+    /// The scene as it ran.
     pub scene: Scene,
-    /// Why it was tried.
+    /// Reason for the run, in words.
     pub what: String,
     /// Values of the wanted quantities.
     pub values: Vec<f64>,
-    /// Their errors.
+    /// Errors of the wanted quantities against the reference, as parts of their scales.
     pub errors: Vec<f64>,
-    /// What it took.
+    /// Steps, evaluations and time of the run.
     pub effort: Effort,
-    /// Price by its counts, in evaluations of plain teeth.
+    /// Cost of the run by its counts, in evaluations of plain teeth.
     pub cost: f64,
 }
 
 impl Trial {
-    /// The largest error, with the number of its want.
+    /// Index of the wanted quantity with the largest error, and that error.
     pub fn worst(&self) -> (usize, f64) {
         let errors = self.errors.iter().copied().enumerate();
         errors.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
@@ -45,35 +45,35 @@ impl Trial {
     }
 }
 
-/// All runs.
+/// The reference and all runs that are compared with it.
 pub struct Bench<'a, 'w> {
-    /// What is wanted.
+    /// The wanted quantities.
     pub wants: &'a [Want],
     /// Time from which on outputs count [s].
     pub from: f64,
-    /// What runs are compared with: the richest scene at the finest tolerance. Its errors are how far each quantity strays when
-    /// nothing but the integrator changes.
+    /// The run that all others are compared with: the richest scene at the finest tolerance. Its errors are the changes of each
+    /// quantity when nothing but the tolerance changes.
     pub reference: Trial,
     /// What 100 % of each quantity is.
     pub scales: Vec<f64>,
     /// Runs that came to their end.
     pub trials: Vec<Trial>,
-    /// Price of all runs so far, and how much it may be.
+    /// Cost of all runs so far, in evaluations of plain teeth.
     pub spent: f64,
-    /// See above.
+    /// Largest cost that all runs together may have.
     pub limit: f64,
     failed: Vec<(Parameters, String)>,
-    /// Who waits.
+    /// Is told the progress of the runs, and may stop them.
     pub watch: &'a mut Watch<'w>,
 }
 
-/// Figures of the wanted quantities in `record`.
+/// Values of the wanted quantities in `record`.
 pub fn values(wants: &[Want], record: &Record) -> Result<Vec<f64>, String> {
     wants.iter().map(|want| want.statistic.of(record, want.output)).collect()
 }
 
 impl<'a, 'w> Bench<'a, 'w> {
-    /// Begins with a reference that cost `spent` to find; `limit` for all.
+    /// A bench with a reference and its scales. The search for the reference has cost `spent`; all runs may cost `limit`.
     pub fn new(
         wants: &'a [Want],
         from: f64,
@@ -84,12 +84,12 @@ impl<'a, 'w> Bench<'a, 'w> {
         Self { wants, from, reference, scales, trials: Vec::new(), spent, limit, failed: Vec::new(), watch }
     }
 
-    /// Whether there is room for one more run like `trial`.
+    /// Whether the limit allows one more run of this cost.
     pub fn has_room(&self, cost: f64) -> bool {
         self.spent + cost <= self.limit
     }
 
-    /// Runs `scene` unless it has run: its number, or why it has no figures.
+    /// Runs `scene`, unless one with the same parameters has run. Returns the index of the run, or the reason of its failure.
     pub fn run(&mut self, scene: &Scene, what: &str) -> Result<usize, String> {
         let p = scene.parameters;
         if let Some(known) = self.trials.iter().position(|trial| trial.scene.parameters == p) {
@@ -118,7 +118,7 @@ impl<'a, 'w> Bench<'a, 'w> {
         Ok(self.trials.len() - 1)
     }
 
-    /// Time of a run on the processor, the least of some [s].
+    /// Processor time of a run of `scene`, the shortest of a few repetitions [s].
     pub fn seconds(&mut self, scene: &Scene) -> f64 {
         let (mut least, mut total) = (f64::INFINITY, 0.0);
         for _ in 0..OFTEN {

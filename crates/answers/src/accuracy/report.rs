@@ -1,4 +1,4 @@
-//! The answer in words.
+//! The answer as text for the user.
 
 use bevel_differential::model::GearContact;
 
@@ -13,14 +13,14 @@ use crate::text::table::labelled;
 
 /// Width of the first column.
 const INDENT: usize = 11;
-/// A start that takes this part of the run is named.
+/// The text mentions a start that takes more than this part of the time of the steps.
 const LONG_START: f64 = 0.2;
-/// A setting that is so many times nearer than its own gears with all effects owes that to errors that cancel.
+/// Errors cancel if the chosen setting is this many times nearer to the reference than its gears with all effects.
 const CANCELLED: f64 = 2.0;
-/// So many wanted quantities are listed by name.
+/// Most wanted quantities that the text lists by name.
 const LISTED: usize = 6;
 
-/// All of it.
+/// The whole text.
 pub fn text(answer: &Answer) -> String {
     let mut out = format!("{}: {}\n\n", answer.scene.name, answer.scene.description);
     for (title, line) in lines(answer) {
@@ -29,7 +29,7 @@ pub fn text(answer: &Answer) -> String {
     out
 }
 
-/// The lines with their titles.
+/// The lines of the text, each with its title.
 fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
     let mut lines = vec![("Wanted", wanted(answer))];
     match answer.choice() {
@@ -94,7 +94,7 @@ fn wanted(answer: &Answer) -> String {
     format!("{names} within {} %{from}.", units::digits(100.0 * answer.within))
 }
 
-/// Error and cost of a run.
+/// Error and cost of `run`; `place` is its index in [`Answer::seconds`].
 fn told(answer: &Answer, run: &Trial, place: usize) -> String {
     let (want, error) = run.worst();
     let mut text = format!("error {}", percent(error));
@@ -134,8 +134,8 @@ fn reference(answer: &Answer) -> String {
     text
 }
 
-/// A warning where the chosen setting is nearer to the reference than the same gears with all effects: what it leaves out makes up
-/// for what its gears lack, in this scene.
+/// A warning where the chosen setting is nearer to the reference than the same gears with all effects. The missing effects
+/// then make up for the errors of the gears, in this scene alone.
 fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
     let own = Gears::of(&chosen.scene.parameters);
     let (_, full) = answer.gears.iter().find(|(gears, _)| *gears == own)?;
@@ -148,7 +148,7 @@ fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
     })
 }
 
-/// Error of each plainer level and law.
+/// Error of each plainer level and law with all its effects.
 fn gears(answer: &Answer) -> String {
     let errors = answer.gears.iter().map(|(gears, run)| match run {
         Ok(run) => format!("{} is off by {}", gears.text(), percent(answer.trials[*run].error())),
@@ -162,7 +162,7 @@ fn gears(answer: &Answer) -> String {
     format!("with all effects that go with them: {}.", errors.join(", "))
 }
 
-/// Why effects are in or out, those of one reason together.
+/// Why each effect is in or out of the setting; effects with the same reason share a line.
 fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
     let names = |pick: &dyn Fn(&Switch, &Role) -> Option<String>| {

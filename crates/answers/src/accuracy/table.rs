@@ -1,4 +1,4 @@
-//! All that was tried as rows, and as CSV.
+//! All runs of an answer as rows, and as CSV.
 
 use anyhow::{Context, Result};
 use serde::Serialize;
@@ -7,28 +7,28 @@ use super::answer::Answer;
 use super::bench::Trial;
 use super::words::setting;
 
-/// A run.
+/// One run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// Why it was tried.
+    /// Reason for the run, in words.
     pub tried: String,
-    /// What it is in the answer: chosen, cheaper, richer, reference; empty for others.
+    /// Role of the run in the answer: chosen, cheaper, richer or reference; empty for other runs.
     pub place: &'static str,
     /// Level, law, effects, solver.
     pub setting: String,
-    /// The largest error, as a part of 100 %; of the reference what it strays.
+    /// Largest error of a wanted quantity, as a fraction; for the reference its largest change with the tolerance.
     pub error: f64,
-    /// The quantity that has it.
+    /// Wanted quantity with the largest error.
     pub worst: String,
     /// Evaluations of the tooth forces.
     pub evaluations: f64,
     /// Accepted steps.
     pub steps: f64,
-    /// Price, in evaluations of plain teeth.
+    /// Cost of the run, in evaluations of plain teeth.
     pub price: f64,
-    /// Time on the processor [s].
+    /// Processor time [s].
     pub seconds: f64,
-    /// Error of each quantity.
+    /// Error of each wanted quantity.
     #[serde(skip)]
     pub errors: Vec<f64>,
 }
@@ -57,7 +57,7 @@ fn row(answer: &Answer, place: &'static str, trial: &Trial) -> Row {
     }
 }
 
-/// The rows with the error of each quantity.
+/// The rows as CSV, with a column for the error of each wanted quantity.
 pub fn csv(answer: &Answer) -> Result<String> {
     let mut file = csv::Writer::from_writer(Vec::new());
     let head = ["tried", "place", "setting", "error", "worst", "evaluations", "steps", "price", "seconds"];

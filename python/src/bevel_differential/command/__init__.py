@@ -33,7 +33,7 @@ COMMANDS = {
     "spectrum": (".spectrum.command", "design",
                  "damage and life of the gears over a duty cycle: events with counts, torque and speeds"),
     "study": (".study.command", "report", "simulate the published study's two cases and compare them with it and with theory"),
-    "examples": (".command.examples", None, "copy the example files of designs, tolerances and duty cycles into a folder"),
+    "examples": (".command.examples", None, "copy the example files of designs, tolerances, duty cycles and cars into a folder"),
     "page": (".command.page", None, "open the differential live in a browser"),
 }
 PACKAGE = __package__.partition(".")[0]

@@ -1,4 +1,4 @@
-"""The command `examples`: the files of designs, tolerances and duty cycles that the documents speak of."""
+"""The command `examples`: files of designs, tolerances and duty cycles, and programs with a car, of which the documents speak."""
 
 import argparse
 import shutil
@@ -6,26 +6,30 @@ from pathlib import Path
 
 from ..values import DifferentialError
 
+# folders of examples, and the files of each
+FOLDERS = {"design": ("*.toml", "*.csv"), "vehicle": ("*.py",)}
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("--out", metavar="FOLDER", default="examples/design", help="where to copy them (start value: examples/design)")
+    parser.add_argument("--out", metavar="FOLDER", default="examples", help="where to copy them (start value: examples)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Copies the files and names them. Returns 0. Raises `DifferentialError` where one is there already."""
     out = Path(arguments.out)
-    files = sorted(file for file in folder().iterdir() if file.suffix in (".toml", ".csv"))
-    there = [file.name for file in files if (out / file.name).exists()]
+    copies = {file: out / name / file.name for name, patterns in FOLDERS.items() for pattern in patterns
+              for file in sorted((folder() / name).glob(pattern))}
+    there = [str(copy) for copy in copies.values() if copy.exists()]
     if there:
-        raise DifferentialError(f"{out}: {', '.join(there)} {'is' if len(there) == 1 else 'are'} there already; name another folder by --out")
-    out.mkdir(parents=True, exist_ok=True)
-    for file in files:
-        print(f"written: {shutil.copyfile(file, out / file.name)}")
+        raise DifferentialError(f"{', '.join(there)} {'is' if len(there) == 1 else 'are'} there already; name another folder by --out")
+    for file, copy in copies.items():
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        print(f"written: {shutil.copyfile(file, copy)}")
     return 0
 
 
 def folder() -> Path:
     """Where they are: in this package, or in the repository that it is used from."""
     shipped = Path(__file__).parents[1] / "examples"
-    return shipped if shipped.is_dir() else shipped.parents[3] / "examples" / "design"
+    return shipped if shipped.is_dir() else shipped.parents[3] / "examples"

@@ -1,0 +1,194 @@
+"""A car: motor, this differential, two tyres and the body, coupled step by step."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..fmu import Fmu
+from ..instance import Instance
+from ..plot import plot
+from ..points import Steps, TimeValue, span
+from ..values import DifferentialError, FileName, Number, Value, suggestion
+from .motion import Motion
+from .parts import Body, Motor, Tyre
+from .signals import Course, course
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# what goes to the differential, and what comes back
+LOADS = ("carrier.torque_command", "left.load_torque", "right.load_torque")
+SPEEDS = ("carrier.speed", "left.wheel_speed", "right.wheel_speed")
+# units of what is recorded of the parts
+UNITS = {"motor.torque": "N.m", "motor.speed": "rad/s", "left_tyre.force": "N", "right_tyre.force": "N", "left_tyre.slip": "",
+         "right_tyre.slip": "", "body.speed": "m/s", "body.lateral_speed": "m/s", "body.yaw_rate": "rad/s",
+         "body.lateral_acceleration": "m/s2", "body.steer": "rad"}
+# what `run` records if nothing is said
+USUAL = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "left.wheel_speed", "right.wheel_speed", "body.speed")
+# what a controller sets beside inputs of the differential
+REQUESTS = ("motor.request", "body.steer")
+
+# gets the time (s) and what is recorded, by name; gives what it sets, by name
+Controller = Callable[[float, dict[str, Number]], Mapping[str, Value] | None]
+
+
+class Car:
+    """A car with this differential in its driven axle.
+
+    `differential`: parameters as `Differential` takes them. The car sets how it is driven: by torques at all three shafts, with the
+    motor's inertia at the carrier (beside `inertia.carrier`) and the wheels' at the half-shafts.
+
+    >>> from bevel_differential.vehicle import Car, Tyre
+    >>> car = Car({"contact.law": "line"}, left=Tyre(friction=0.15))
+    >>> record = car.run(request=100.0, stop=0.2)
+    >>> bool(record["left.wheel_speed"][-1] > record["right.wheel_speed"][-1])
+    True
+    """
+
+    def __init__(self, differential: Mapping[str, Value] | None = None, *, motor: Motor | None = None, left: Tyre | None = None,
+                 right: Tyre | None = None, body: Body | None = None, fmu: FileName | Fmu | None = None):
+        self.fmu = Fmu.of(fmu)
+        self.motor, self.body = motor or Motor(), body or Body()
+        self.tyres = (left or Tyre(), right or Tyre())
+        self._given = self._checked(differential or {})
+
+    def run(self, outputs: Sequence[str] = USUAL, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
+            steer: Course = 0.0, speed: float = 0.0, controller: Controller | None = None) -> np.ndarray:
+        """Simulates from 0 to `stop` in communication steps of `step` (s, or text such as "1 ms"). Records `outputs` of the
+        differential and of the parts (`UNITS`) at each, SI.
+
+        `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left: each a number, a pair (times,
+        values) or a function of time. `speed`: of the car at the start, m/s. `controller(time, values)` is called before each step with
+        what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
+        Returns a structured array with a field "time"."""
+        stop, step = span("stop", stop), span("step", step)
+        self._check_step(step)
+        ask, turn = course("request", request), course("steer", steer)
+        names = self._recorded(outputs)
+        motion = Motion(self.motor, self.tyres, self.body, float(speed))
+        steps = Steps.of(stop, step, ())
+        record = np.empty(len(steps.points), [("time", np.float64), *((name, np.float64) for name in names)])
+        with self.fmu.open() as instance:
+            run = _Run(instance, motion, [name for name in names if name not in UNITS])
+            run.start(self._start(motion, float(speed), ask(0.0)), stop)
+            for row, time in enumerate(steps.points.tolist()):
+                values = run.values(turn(time))
+                record[row] = (time, *(values[name] for name in names))
+                if row + 1 == len(steps.points):
+                    break
+                wanted = controller(time, {name: values[name] for name in names}) if controller else None
+                asked = dict(zip(REQUESTS, (ask, turn)))
+                for name, value in (wanted or {}).items():
+                    if name in REQUESTS:
+                        asked[name] = course(name, value)
+                    else:
+                        instance.set({name: value})
+                run.step(time, steps.points[row + 1] - time, [asked[name] for name in REQUESTS])
+        return record
+
+    def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":
+        """Draws a record, a panel for each unit; as `Differential.plot`."""
+        return plot(_Names(self.fmu), record, title, caption, file)
+
+    def _checked(self, given):
+        own = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive", "scene.start", "scene.planet_spin", *LOADS,
+               "inertia.left_end", "inertia.right_end", "carrier.speed_command")
+        for name in given:
+            if name in own:
+                raise DifferentialError(f"{name}: the car sets it; what acts on the shafts are motor, tyres and body")
+        self.fmu.numbers(given)
+        return dict(given)
+
+    def _start(self, motion, speed, request):
+        left, right = self.tyres
+        carrier = self.fmu.variable("inertia.carrier")
+        given = carrier.number(self._given.get("inertia.carrier", carrier.start))
+        if speed:
+            motion.x[0] = min(max(request, -self.motor.peak), self.motor.peak)
+        return {**self._given, "inertia.carrier": given + self.motor.inertia * self.motor.ratio**2,
+                "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",
+                "scene.start": "equilibrium" if speed else "rest", "carrier.speed_command": speed / (0.5 * (left.radius + right.radius)),
+                "inertia.left_end": left.inertia, "inertia.right_end": right.inertia}
+
+    def _recorded(self, outputs):
+        names = list(outputs)
+        for name in names:
+            if name not in UNITS and name not in self.fmu.variables:
+                raise DifferentialError(f"{name}: neither the differential nor the car has it"
+                                        f"{suggestion(name, [*self.fmu.variables, *UNITS])}")
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice:
+            raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
+        return names
+
+    def _check_step(self, step):
+        for side, tyre in zip(("left", "right"), self.tyres):
+            # a load that is late by a step acts as a damper of minus stiffness times step
+            longest = min(tyre.damping * tyre.relaxation / tyre.slip_stiffness,
+                          2.0 * math.sqrt(tyre.inertia * tyre.relaxation / tyre.slip_stiffness) / tyre.radius)
+            if step > longest:
+                raise DifferentialError(f"step = {step:g} s: the {side} tyre at standstill is stable with steps up to "
+                                        f"{longest:.2g} s (damping times relaxation length by slip stiffness, or twice the "
+                                        "wheel's period by 2 pi); take a shorter one")
+
+
+class _Run:
+    """One run: the differential takes lines of torque from step to step, the parts take lines of speed."""
+
+    def __init__(self, instance: Instance, motion: Motion, names: list[str]):
+        self.instance, self.motion, self.names = instance, motion, names
+        self.speeds: list[list[float]] = []
+        self.read: list[Number] = []
+
+    def start(self, values, stop):
+        at = values["carrier.speed_command"]
+        self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
+        self._look()
+
+    def _look(self):
+        *speeds, = self.instance.read((*SPEEDS, *self.names))
+        self.speeds, self.read = [*self.speeds[-1:], speeds[:3]], speeds[3:]
+
+    def values(self, steer):
+        return dict(zip(self.names, self.read)) | self.motion.outputs(self.speeds[-1], steer)
+
+    def step(self, time, size, asked):
+        """The parts go first, along the line through the last two speeds; the differential then knows the torques at both ends."""
+        before, now = self.speeds[0], self.speeds[-1]
+        slopes = [(b - a) / size for a, b in zip(before, now)]
+
+        def line(t):
+            return [value + slope * t for value, slope in zip(now, slopes)]
+
+        begin = self.motion.loads(now)
+        self.motion.advance(size, line, *(lambda t, of=of: of(time + t) for of in asked))
+        end = self.motion.loads(line(size))
+        if not all(map(math.isfinite, end)):
+            raise DifferentialError(f"at {time:g} s: the tyres' loads are no numbers; take shorter steps, or look at the parameters")
+        self.instance.set(dict(zip(LOADS, begin)))
+        self.instance.set_slopes({name: (b - a) / size for name, a, b in zip(LOADS, begin, end)})
+        self.instance.do_step(time, size)
+        self._look()
+
+
+class _Names:
+    """Variables of the differential and of the parts, as `plot` asks for them."""
+
+    def __init__(self, fmu):
+        self.fmu = fmu
+
+    def variable(self, name):
+        return _Output(name) if name in UNITS else self.fmu.variable(name)
+
+
+class _Output:
+    kind = "Real"
+
+    def __init__(self, name):
+        self.name, self.unit = name, UNITS[name]
+        self.description = name
+
+    def shown(self, values):
+        return self.unit, values

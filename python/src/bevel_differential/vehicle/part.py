@@ -1,0 +1,35 @@
+"""What tyre, motor and body have in common: parameters with units and ranges."""
+
+import math
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from ..values import DifferentialError
+
+
+def parameter(value: float, unit: str, text: str, least: float | None = None) -> Any:
+    """A parameter of a part with its start value; it is above `least`, if there is one."""
+    return field(default=value, metadata={"unit": unit, "text": text, "least": least})
+
+
+@dataclass
+class Part:
+    """A part with parameters, SI units. `described` lists them."""
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            name, value = f"{type(self).__name__}.{each.name}", getattr(self, each.name)
+            unit, least = each.metadata["unit"], each.metadata["least"]
+            try:
+                number = float(value)
+            except (TypeError, ValueError):
+                raise DifferentialError(f"{name} = {value!r}: it is a number, {unit}") from None
+            if not math.isfinite(number) or (least is not None and not number > least):
+                allowed = "a finite number" if least is None else f"a finite number above {least:g}"
+                raise DifferentialError(f"{name} = {value!r}: it is {allowed}, {unit}")
+            setattr(self, each.name, number)
+
+    @classmethod
+    def described(cls) -> dict[str, tuple[float, str, str]]:
+        """Its parameters by name: (start value, unit, what it is)."""
+        return {each.name: (each.default, each.metadata["unit"], each.metadata["text"]) for each in fields(cls)}

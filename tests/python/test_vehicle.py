@@ -1,0 +1,182 @@
+"""The car around the differential: against all its equations at once, its mirror, and what it refuses."""
+
+import runpy
+from math import atan, pi, sin, sqrt, tanh
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bevel_differential import DifferentialError
+from bevel_differential.command import main
+from bevel_differential.vehicle import UNITS, Body, Car, Motor, Tyre
+from scipy.integrate import solve_ivp
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# ideal gears with inertias that the reference knows: carrier, side gear, two planets (kg.m2), so light that the carrier does not feel them;
+# ratio of their teeth
+CARRIER, SIDE, PLANET, RATIO = 0.05, 1.2e-4, 1e-9, 10 / 14
+IDEAL = {"scene.gear_contact": "ideal", "inertia.from_geometry": False, "inertia.carrier": CARRIER, "inertia.side_gear": SIDE,
+         "inertia.planet": PLANET, "geometry.planet_count": 2, "geometry.planet_teeth": 10, "geometry.side_teeth": 14}
+LEFT, RIGHT = Tyre(friction=0.3), Tyre()
+OUTPUTS = ["motor.torque", "left.wheel_speed", "right.wheel_speed", "left_tyre.slip", "right_tyre.slip", "body.speed",
+           "body.lateral_speed", "body.yaw_rate"]
+END = 0.6
+
+
+def request(time):
+    return 150.0 * sin(pi * min(time, 0.2) / 0.4) ** 2
+
+
+def steer(time):
+    return 0.05 * sin(pi * min(time, 0.4) / 0.8) ** 2
+
+
+def magic(tyre, slip):
+    """Pacejka's formula with E = 0."""
+    peak = tyre.friction * tyre.load
+    return peak * sin(tyre.shape * atan(tyre.slip_stiffness / (tyre.shape * peak) * slip))
+
+
+def reference(speed, motor, body):
+    """All equations as one system, by a solver with variable steps at 1e-10: Willis' equation as a constraint."""
+    mass_matrix = np.array([[CARRIER + motor.inertia * motor.ratio**2 + 2 * SIDE + LEFT.inertia + RIGHT.inertia,
+                             RATIO * (LEFT.inertia - RIGHT.inertia)],
+                            [RATIO * (LEFT.inertia - RIGHT.inertia),
+                             RATIO**2 * (2 * SIDE + LEFT.inertia + RIGHT.inertia) + 2 * PLANET]])
+    wheelbase, g = body.front + body.rear, 9.80665
+    limits = body.grip * body.mass * g * body.rear / wheelbase, body.grip * body.mass * g * body.front / wheelbase
+
+    def rates(time, y):
+        torque, carrier, spin, s_l, s_r, v, w, r, front, rear = y
+        wheels = carrier + RATIO * spin, carrier - RATIO * spin
+        centres = v - 0.5 * body.track * r, v + 0.5 * body.track * r
+        forces, slips = [], []
+        for tyre, omega, centre, slip in zip((LEFT, RIGHT), wheels, centres, (s_l, s_r)):
+            creep = tyre.radius * omega - centre
+            fading = tyre.damping / (1.0 + (centre / tyre.walk) ** 2)
+            forces.append(magic(tyre, slip + fading / tyre.slip_stiffness * creep))
+            slips.append((creep - abs(centre) * slip) / tyre.relaxation)
+        load_l, load_r = (tyre.radius * force for tyre, force in zip((LEFT, RIGHT), forces))
+        drive = motor.ratio * torque
+        alpha = np.linalg.solve(mass_matrix, [drive - load_l - load_r, RATIO * (load_r - load_l)])
+        y_front = limits[0] * tanh(body.front_stiffness * front / limits[0])
+        y_rear = limits[1] * tanh(body.rear_stiffness * rear / limits[1])
+        delta = steer(time)
+        against = body.drag * v * abs(v) + body.rolling * body.mass * g * tanh(v / body.breakaway)
+        asked = min(request(time), motor.peak) / sqrt(1.0 + (motor.ratio * carrier / motor.knee) ** 2)
+        return [(asked - torque) / motor.lag, *alpha, *slips, (sum(forces) - y_front * delta - against) / body.mass + w * r,
+                (y_front + y_rear) / body.mass - v * r,
+                (body.front * y_front - body.rear * y_rear + 0.5 * body.track * (forces[1] - forces[0])) / body.yaw_inertia,
+                (v * delta - w - body.front * r - abs(v) * front) / body.relaxation,
+                (body.rear * r - w - abs(v) * rear) / body.relaxation]
+
+    begin = [0.0, speed / LEFT.radius, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0, 0.0]
+    y = solve_ivp(rates, (0.0, END), begin, "LSODA", rtol=1e-10, atol=1e-12).y[:, -1]
+    wheels = y[1] + RATIO * y[2], y[1] - RATIO * y[2]
+    return dict(zip(OUTPUTS, [y[0], *wheels, y[3], y[4], y[5], y[6], y[7]]))
+
+
+@pytest.mark.parametrize("speed", [0.0, 15.0])
+def test_the_coupled_car_converges_with_the_square_of_the_step_to_all_equations_at_once(fmu_file, speed):
+    car = Car(IDEAL, left=LEFT, right=RIGHT, fmu=fmu_file)
+    expected = reference(speed, car.motor, car.body)
+    errors = {}
+    for step in (2e-3, 1e-3, 5e-4):
+        record = car.run(OUTPUTS, END, step, request=request, steer=steer, speed=speed)
+        errors[step] = max(abs(record[name][-1] - value) / max(abs(value), 0.01 * np.abs(record[name]).max())
+                           for name, value in expected.items())
+    assert errors[5e-4] < 1e-3, errors
+    assert errors[2e-3] / errors[5e-4] > 10.0, errors
+
+
+def test_the_mirrored_car_moves_the_mirrored_way(fmu_file):
+    tyres = Tyre(friction=0.3), Tyre(inertia=1.2)
+    names = ["left.wheel_speed", "right.wheel_speed", "left_tyre.force", "right_tyre.force", "body.speed", "body.yaw_rate",
+             "body.lateral_speed"]
+    one, other = (Car(IDEAL, left=a, right=b, fmu=fmu_file).run(names, 0.5, 1e-3, request=100.0, steer=turn, speed=8.0)
+                  for a, b, turn in ((*tyres, 0.02), (*tyres[::-1], -0.02)))
+    for name in ("body.yaw_rate", "body.lateral_speed"):
+        assert np.allclose(one[name], -other[name], rtol=1e-9, atol=1e-12)
+    for a, b in (("left.wheel_speed", "right.wheel_speed"), ("left_tyre.force", "right_tyre.force")):
+        for name, twin in ((a, b), (b, a)):
+            assert np.allclose(one[name], other[twin], rtol=1e-9, atol=1e-9)
+
+
+def test_a_slow_turn_follows_the_geometry_of_the_axles(fmu_file):
+    """Without slip the driven axle goes around a circle of the radius wheelbase by steering angle."""
+    car = Car(IDEAL, body=Body(rolling=0.0, drag=0.0), fmu=fmu_file)
+    record = car.run(["body.speed", "body.yaw_rate", "left.wheel_speed", "right.wheel_speed"], 6.0, 2e-3, steer=0.05, speed=1.0)
+    speed, yaw, left, right = (record[name][-1] for name in record.dtype.names[1:])
+    assert yaw == pytest.approx(speed * 0.05 / (car.body.front + car.body.rear), rel=5e-3)
+    assert (right - left) * car.tyres[0].radius == pytest.approx(yaw * car.body.track, rel=2e-3)
+
+
+def test_a_controller_sets_inputs_and_requests(fmu_file):
+    seen = []
+
+    def controller(time, values):
+        seen.append((time, values["body.speed"]))
+        return {"motor.request": 80.0, "left.brake_torque": 100.0}
+
+    car = Car(IDEAL | {"effects.wheel_brake": True}, fmu=fmu_file)
+    outputs = ["body.speed", "motor.torque", "left.shaft_torque", "left_tyre.force"]
+    record = car.run(outputs, 1.0, 1e-3, controller=controller)
+    assert len(seen) == 1000 and seen[0] == (0.0, 0.0)
+    assert record["motor.torque"][-1] == pytest.approx(80.0, rel=0.02)
+    free = car.run(outputs, 1.0, 1e-3, request=80.0)
+    assert 0.0 < record["body.speed"][-1] < free["body.speed"][-1]
+
+
+def test_constant_power_above_the_knee(fmu_file):
+    car = Car(IDEAL, motor=Motor(knee=100.0), left=Tyre(), fmu=fmu_file)
+    record = car.run(["motor.torque", "motor.speed"], 0.3, 1e-3, request=100.0, speed=40.0)
+    power = record["motor.torque"][-1] * record["motor.speed"][-1]
+    assert power == pytest.approx(100.0 * 100.0, rel=0.01)
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda fmu: Tyre(radius=-0.3), "Tyre.radius = -0.3: it is a finite number above 0, m"),
+    (lambda fmu: Body(mass=float("nan")), "Body.mass = nan: it is a finite number above 0, kg"),
+    (lambda fmu: Motor(lag="slow"), "Motor.lag = 'slow': it is a number, s"),
+    (lambda fmu: Car({"left.load_torque": 3.0}, fmu=fmu), "left.load_torque: the car sets it"),
+    (lambda fmu: Car({"contact.lawn": "line"}, fmu=fmu), "contact.lawn: there is no such variable"),
+    (lambda fmu: Car(fmu=fmu).run(["body.sped"]), "body.sped: neither the differential nor the car has it (did you mean body.speed"),
+    (lambda fmu: Car(fmu=fmu).run(["body.speed"] * 2), "body.speed: it is recorded twice"),
+    (lambda fmu: Car(fmu=fmu).run(step="20 ms"), "step = 0.02 s: the left tyre at standstill is stable with steps up to 0.0057 s"),
+    (lambda fmu: Car(fmu=fmu).run(request=([0, 1], [2])), "request: it is a pair of lists"),
+    (lambda fmu: Car(fmu=fmu).run(steer="left"), "steer = 'left': it is a finite number"),
+])
+def test_what_cannot_be_is_refused_by_name(fmu_file, make, message):
+    with pytest.raises(DifferentialError) as refused:
+        make(fmu_file)
+    assert message in str(refused.value)
+
+
+def test_all_that_can_be_recorded_is_drawn(fmu_file, tmp_path):
+    car = Car(IDEAL, fmu=fmu_file)
+    record = car.run(list(UNITS), 0.05, 1e-3, request=50.0)
+    assert record.dtype.names == ("time", *UNITS)
+    car.plot(record, tmp_path / "car.png")
+    assert (tmp_path / "car.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("name, words", [("launch", ["open", "limited slip", "lock"]), ("torque_vectoring", ["off", "on"])])
+def test_the_examples_run_and_each_case_beats_the_one_before(fmu_file, tmp_path, monkeypatch, capsys, name, words):
+    """Speed after the launch; yaw rate in the bend."""
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    monkeypatch.setattr("sys.argv", [name, str(tmp_path / "picture.png")])
+    runpy.run_path(str(ROOT / "examples" / "vehicle" / f"{name}.py"), run_name="__main__")
+    lines = capsys.readouterr().out.splitlines()[1:]
+    assert [line[:12].strip() for line in lines] == words
+    figures = [float(line[12:].split()[0]) for line in lines]
+    assert figures == sorted(figures) and figures[-1] > 1.2 * figures[0]
+    assert (tmp_path / "picture.png").is_file()
+
+
+def test_the_command_copies_all_examples_and_never_over_others(tmp_path, capsys):
+    assert main(["examples", "--out", str(tmp_path)]) == 0
+    assert {file.parent.name for file in tmp_path.rglob("*.*")} == {"design", "vehicle"}
+    assert (tmp_path / "vehicle" / "launch.py").is_file() and (tmp_path / "design" / "study_gears.toml").is_file()
+    assert main(["examples", "--out", str(tmp_path)]) != 0
+    assert "are there already" in capsys.readouterr().err
