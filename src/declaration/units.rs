@@ -1,4 +1,4 @@
-//! Units of the interface and the units people think in.
+//! SI units of the interface, and the units in which users read values.
 
 use std::f64::consts::PI;
 
@@ -15,12 +15,12 @@ pub struct Base {
     pub rad: i32,
 }
 
-/// A unit other than SI to show values in: `shown = factor · SI value`.
+/// A unit other than SI in which values are shown: `shown = factor · SI value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayUnit {
     /// Name as shown.
     pub name: &'static str,
-    /// Value in this unit of one SI unit.
+    /// How many of this unit make one SI unit.
     pub factor: f64,
 }
 
@@ -31,11 +31,11 @@ pub struct Unit {
     pub name: &'static str,
     /// Base exponents; `None` where FMI 2.0's integer exponents cannot express it.
     pub base: Option<Base>,
-    /// Display units on offer.
+    /// Units in which its values may be shown.
     pub display: &'static [DisplayUnit],
 }
 
-/// A unit with one to show its values in, where people think in another.
+/// An SI unit and, where users expect another one, the unit in which its values are shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown(pub Unit, pub Option<DisplayUnit>);
 
@@ -79,10 +79,12 @@ pub const UM: DisplayUnit = shown("um", 1e6);
 pub const N_PER_MM: DisplayUnit = shown("N/mm", 1e-3);
 /// Newton per micrometre.
 pub const N_PER_UM: DisplayUnit = shown("N/um", 1e-6);
-/// Newton per millimetre and micrometre.
+/// Newton per millimetre of face width and micrometre of deflection.
 pub const N_PER_MM_UM: DisplayUnit = shown("N/(mm.um)", 1e-9);
 /// Millipascal-second.
 pub const MPA_S: DisplayUnit = shown("mPa.s", 1e3);
+/// Kilometre per hour.
+pub const KM_PER_H: DisplayUnit = shown("km/h", 3.6);
 /// Kilonewton.
 pub const KN: DisplayUnit = shown("kN", 1e-3);
 /// Kilonewton-metre.
@@ -115,9 +117,9 @@ units! {
     KG_PER_M3 = "kg/m3", base(1, -3, 0, 0), [];
     /// Moment of inertia.
     KG_M2 = "kg.m2", base(1, 2, 0, 0), [];
-    /// Contact stiffness of exponent 1.5.
+    /// Contact stiffness K of F = K d^1.5.
     N_PER_M15 = "N/m^1.5", None, [N_PER_MM15];
-    /// Damping.
+    /// Translational damping.
     NS_PER_M = "N.s/m", base(1, 0, -1, 0), [NS_PER_MM];
     /// Force.
     NEWTON = "N", base(1, 1, -2, 0), [KN];
@@ -132,18 +134,18 @@ units! {
     /// Time.
     SECOND = "s", base(0, 0, 1, 0), [];
     /// Speed.
-    M_PER_S = "m/s", base(0, 1, -1, 0), [];
+    M_PER_S = "m/s", base(0, 1, -1, 0), [KM_PER_H];
     /// Acceleration.
     M_PER_S2 = "m/s2", base(0, 1, -2, 0), [];
-    /// Line load, and stiffness.
+    /// Line load, and linear stiffness.
     N_PER_M = "N/m", base(1, 0, -2, 0), [N_PER_MM, N_PER_UM];
-    /// Stiffness per width.
+    /// Stiffness per face width.
     N_PER_M2 = "N/m2", base(1, -1, -2, 0), [N_PER_MM_UM];
     /// Torsional stiffness.
     NM_PER_RAD = "N.m/rad", base(1, 2, -2, -1), [];
     /// Torsional damping.
     NMS_PER_RAD = "N.m.s/rad", base(1, 2, -1, -1), [];
-    /// Torque by the square of a speed.
+    /// Torque per square of angular speed.
     NMS2_PER_RAD2 = "N.m.s2/rad2", base(1, 2, 0, -2), [];
     /// Viscosity.
     PA_S = "Pa.s", base(1, -1, -1, 0), [MPA_S];

@@ -130,11 +130,19 @@ def test_what_cannot_be_is_said_at_once(turn, use, parts):
     assert all(part in str(error.value) for part in parts), error.value
 
 
+def test_a_value_with_its_unit_is_not_taken_for_another_unit(fmu_file):
+    with pytest.raises(DifferentialError) as refused:
+        Differential({"geometry.module": "450 mm"}, fmu=fmu_file)
+    assert str(refused.value) == "geometry.module: 450 mm is outside [0.2, 100] mm"
+    with pytest.raises(DifferentialError, match="did you mean 4.5 mm"), Differential({"geometry.module": 4.5}, fmu=fmu_file) as bare:
+        bare.run(stop=0.01)
+
+
 def test_the_fmu_s_own_message_reaches_the_user_and_the_instance_goes_on(turn):
     expected = turn.run(outputs=OUTPUTS, stop=0.01)
     with pytest.raises(DifferentialError, match=r"geometry.module: -0.0045 m is outside \["):
-        Differential({**TURN, "geometry.module": "-4.5 mm"}, fmu=turn.fmu.file).run()
-    turn.set({"geometry.module": "-4.5 mm"})
+        Differential({**TURN, "geometry.module": -4.5e-3}, fmu=turn.fmu.file).run()
+    turn.set({"geometry.module": -4.5e-3})
     with pytest.raises(DifferentialError):
         turn.run(stop=0.01)
     assert same(expected, turn.set({"geometry.module": "4.5 mm"}).run(outputs=OUTPUTS, stop=0.01))

@@ -130,7 +130,7 @@ def test_a_controller_sets_inputs_and_requests(fmu_file):
 
 def test_constant_power_above_the_knee(fmu_file):
     car = Car(IDEAL, motor=Motor(knee=100.0), left=Tyre(), fmu=fmu_file)
-    record = car.run(["motor.torque", "motor.speed"], 0.3, 1e-3, request=100.0, speed=40.0)
+    record = car.run(["motor.torque", "motor.speed"], 0.3, 1e-3, request=100.0, speed="144km/h")
     power = record["motor.torque"][-1] * record["motor.speed"][-1]
     assert power == pytest.approx(100.0 * 100.0, rel=0.01)
 
@@ -145,6 +145,7 @@ def test_constant_power_above_the_knee(fmu_file):
     (lambda fmu: Car(fmu=fmu).run(["body.speed"] * 2), "body.speed: it is recorded twice"),
     (lambda fmu: Car(fmu=fmu).run(step="20 ms"), "step = 0.02 s: the left tyre at standstill is stable with steps up to 0.0057 s"),
     (lambda fmu: Car(fmu=fmu).run(request=([0, 1], [2])), "request: it is a pair of lists"),
+    (lambda fmu: Car(fmu=fmu).run(speed="fast"), "speed = 'fast': it is m/s, or a number and one of m/s, km/h"),
     (lambda fmu: Car(fmu=fmu).run(steer="left"), "steer = 'left': it is a finite number"),
 ])
 def test_what_cannot_be_is_refused_by_name(fmu_file, make, message):

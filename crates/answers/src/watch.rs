@@ -1,15 +1,15 @@
-//! Who waits for an answer: is told how far the work is, and may stop it.
+//! Progress of the work on an answer, for the caller that waits for it. The caller may stop the work.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
-/// Between two communication points of a run whoever waits is asked this often.
+/// Least interval between two calls of the caller, except by [`Watch::say`].
 const OFTEN: Duration = Duration::from_millis(50);
 
-/// Is given the part of the work that is done and what is being done; says whether to go on.
+/// Takes the part of the work that is done, from 0 to 1, and the name of the present task. Returns whether to go on.
 type Tell<'a> = Box<dyn FnMut(f64, &str) -> bool + 'a>;
 
-/// Whoever waits.
+/// Reports progress to the caller and remembers whether the caller stopped the work.
 pub struct Watch<'a> {
     tell: Tell<'a>,
     done: f64,
@@ -18,7 +18,7 @@ pub struct Watch<'a> {
     stopped: bool,
 }
 
-/// The work was stopped by whoever waited for it.
+/// The caller stopped the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopped;
 
@@ -31,30 +31,30 @@ impl fmt::Display for Stopped {
 impl std::error::Error for Stopped {}
 
 impl<'a> Watch<'a> {
-    /// `tell` is given the part of the work that is done, from 0 to 1, and what is being done. It returns whether to go on.
+    /// `tell` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go on.
     pub fn new(tell: impl FnMut(f64, &str) -> bool + 'a) -> Self {
         Self { tell: Box::new(tell), done: 0.0, what: String::new(), asked: None, stopped: false }
     }
 
-    /// Nobody who would stop it.
+    /// No caller: nothing is reported, and the work is never stopped.
     pub fn nobody() -> Self {
         Self::new(|_, _| true)
     }
 
-    /// Says what is done now, unless the work is stopped.
+    /// Reports a new task `what` at once, unless the work is stopped.
     pub fn say(&mut self, done: f64, what: &str) {
         self.done = done;
         what.clone_into(&mut self.what);
         self.ask();
     }
 
-    /// Says how far it is; more often than can be read it says nothing.
+    /// Reports the part that is done, at most once every `OFTEN`. Fails if the work is stopped.
     pub fn advance(&mut self, done: f64) -> Result<(), Stopped> {
         self.done = done;
         self.go_on()
     }
 
-    /// Whether to go on.
+    /// Fails if the work is stopped. Asks the caller at most once every `OFTEN`.
     pub fn go_on(&mut self) -> Result<(), Stopped> {
         if self.asked.is_none_or(|asked| asked.elapsed() > OFTEN) {
             self.ask();

@@ -1,13 +1,13 @@
-"""The summary of work_precision.csv: what a tolerance gives and costs, and what is cheapest for an accuracy."""
+"""The summary of work_precision.csv: error and time by tolerance, and the cheapest method for an accuracy."""
 
 from bevel_differential.records import read
 from bevel_differential.text import markdown
 from tools import significant
 
-# errors of speed that are asked for; below AT_REST they are rounding
+# errors of speed in the table of cheapest methods; an error below AT_REST is rounding
 WANTED, AT_REST = (1e-3, 1e-6, 1e-9), 1e-12
 OWN, DEFAULT = "adaptive", 1e-6
-# tolerances that only the file has
+# tolerances of the file that the table leaves out
 LEFT_OUT = (1e-5, 1e-7, 1e-9)
 
 
@@ -17,7 +17,7 @@ def summary(folder):
     cases = {}
     for row in rows:
         cases.setdefault(row["case"], []).append(row)
-    # at rest, and in closed form, no tolerance makes an error: there is nothing to solve
+    # without cases at rest or in closed form: the solver makes no error there, whatever the tolerance
     solved = {case: own for case, own in cases.items()
               if any(row["method"] == OWN and not (good(row) and row["speed_error"] <= AT_REST) for row in own)}
     tolerances = [each for each in dict.fromkeys(row["setting"] for row in rows if row["method"] == OWN) if each not in LEFT_OUT]
@@ -37,7 +37,7 @@ def summary(folder):
 
 
 def _cheapest(rows, wanted, unit):
-    """The cheapest method for an error of speed, and the default one beside it."""
+    """The cheapest method with an error of speed of at most `wanted` and its time over `unit`; beside it the default method."""
     found = sorted((row for row in rows if good(row) and row["speed_error"] <= wanted), key=lambda row: row["cpu_s"])
     if not found:
         return "none"

@@ -1,8 +1,8 @@
-"""The communication step: error of a coupled run against the host's step, with and without rollback, by the host in coupling.c.
+"""Error of a coupled run against the communication step of the host, with and without rollback. The host is coupling.c.
 Writes communication_step.csv.
 
-Held as they are at the begin of a step, inputs are late by half a step on average: the run is of order 1. A host that can take the
-step back repeats it with the mean of the inputs at both ends: order 2."""
+Inputs that are held from the beginning of a step are late by half a step on average: order 1. A host that can take a step back
+repeats the step with the mean of the inputs at both ends: order 2."""
 
 import math
 import subprocess
@@ -16,16 +16,17 @@ from tools import say, write_measured
 
 HEAD = ["coupling", "fidelity", "h_s", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high", "cost", "speed_error",
         "force_error", "order", "steps", "rhs_calls"]
-# what is run: a coupling as coupling.c takes it, a fidelity, and its name
+# runs: the coupling as an argument of coupling.c, the level of gear contact, the name in the CSV file
 COUPLINGS = [("0", "impact", "plain"), ("1", "impact", "rollback_once"), ("2", "impact", "rollback_twice"),
              ("constant", "impact", "constant_inputs"), ("0", "ideal", "plain"), ("2", "ideal", "rollback_twice")]
-# inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], stiffness of a tyre [N], its radius [m], as in coupling.c
+# as in coupling.c: inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], slip stiffness of a tyre [N], its radius [m],
+# force of a tyre at the start [N]
 WHEEL, SPEED, STIFFNESS, RADIUS, FORCE = 1.0, 70.0, 6e4, 0.3, 0.5 * 50.0 / 0.3
-# the step whose cost, in plain stepping with teeth, is the unit [s]
+# communication step [s]; cost is relative to stepping without rollback at this step, with teeth
 UNIT = 1e-3
-# tolerance of the differential: small enough for the errors of coupling to show; and of the reference without coupling
+# tolerance of the differential, small enough for the errors of coupling to show; tolerance of the reference with constant inputs
 TOLERANCE, FINEST = 1e-9, 1e-11
-# step of the run in one piece [s]: an explicit method has to resolve the damping of teeth
+# step of the reference that integrates host and differential as one system [s]: explicit, so it has to resolve the damping of teeth
 IN_ONE_PIECE = {"ideal": 1e-4, "impact": 1e-6}
 FULL = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1)
 QUICK = (1e-4, 1e-3, 1e-2, 1e-1)
@@ -33,7 +34,7 @@ RUNS = 5
 
 
 class Host:
-    """The host in C on an FMU; `folder` is where it is built and finds its start values."""
+    """The host in C on an FMU. `folder` takes the built program and its start values."""
 
     def __init__(self, fmu, folder):
         self.fmu, self.folder, self.program = fmu, Path(folder), compiled(folder, "coupling", "-lm")
@@ -41,7 +42,7 @@ class Host:
         self.references = [str(fmu.variable(name).reference) for name in names]
 
     def run(self, how, fidelity, step, tolerance=TOLERANCE, runs=1):
-        """Samples, shape (times, 4), steps and evaluations, and seconds of the processor of each run. Raises `ValueError`."""
+        """Samples of shape (times, 4); steps and evaluations; processor time of each run [s]. Raises `ValueError`."""
         values = {**FIDELITIES[fidelity], "scene.carrier_drive": "torque", "inertia.left_end": WHEEL, "inertia.right_end": WHEEL,
                   "carrier.speed_command": SPEED, "solver.relative_tolerance": tolerance}
         write_start(self.folder / "set", self.fmu, values)
@@ -56,19 +57,19 @@ class Host:
         return samples, [int(count) for count in told[0][:2]] if told else [], [seconds for *_, seconds in told]
 
     def reference(self, how, fidelity):
-        """What a run is compared with."""
+        """Samples of the reference."""
         if how == "constant":
             return self.run(how, fidelity, 0.1, FINEST)[0]
         return self.run("whole", fidelity, IN_ONE_PIECE[fidelity], 1e-6)[0]
 
 
 def longest_stable_step():
-    """Communication step at which a tyre that grips makes plain stepping unstable [s]: 2 J v/(C r²)."""
+    """Communication step beyond which a tyre that grips is unstable without rollback [s]: 2 J v/(C r²), v the speed of the car."""
     return 2.0 * WHEEL * RADIUS * SPEED / (1.0 + FORCE / STIFFNESS) / (STIFFNESS * RADIUS**2)
 
 
 def measure(fmu, folder, steps, rounds, begin, end):
-    """Measures, and writes the file; the bar moves from `begin` to `end`."""
+    """Measures and writes the file. The progress bar moves from `begin` to `end`."""
     host, runs, exact = Host(fmu, folder), [], {}
     for done, (how, fidelity, name) in enumerate(COUPLINGS):
         say(begin + 0.4 * (end - begin) * done / len(COUPLINGS), "coupled runs: errors")

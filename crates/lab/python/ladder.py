@@ -8,29 +8,19 @@ from bevel_differential import DifferentialError, Scene
 from calls import Calls, in_turn, quartiles
 from tools import say, write_measured
 
-HEAD = ["scene", "rung", "adds", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
+HEAD = ["scene", "rung", "words", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
         "cpu_s_high", "cost"]
-SOLID, TOOTH = {"scene.gear_contact": "solid"}, {"scene.gear_contact": "tooth"}
-# all rungs, the plainest first: what each adds, in words, and how it follows from the rung before; solids are as exact teeth with the
-# same law become if they are cut into facets
+# all rungs, the plainest first: what each is, in words, and how it follows from the rung before
 RUNGS = {
-    "ideal": ("no teeth: Willis' equation", {"scene.gear_contact": "ideal"}),
-    "lumped": ("a spring with play per mesh", {"scene.gear_contact": "lumped"}),
-    "solid, 4 facets": ("IMPACT on facets: no hand-over left", {**SOLID, "solid.facets": 4}),
-    "solid, 8 facets": ("hand-over washed out", {"solid.facets": 8}),
-    "solid, 16 facets": ("hand-over late", {"solid.facets": 16}),
-    "solid, 32 facets": ("deflection of exact teeth to 3 %", {"solid.facets": 32}),
-    "solid, 64 facets": ("to 1 %", {"solid.facets": 64}),
-    "solid, 128 facets": ("to 0.3 %", {"solid.facets": 128}),
-    "tooth, impact": ("tooth pairs, Adams' IMPACT", TOOTH),
-    "tooth, line": ("stiffness from the teeth's shape", {"contact.law": "line"}),
-    "tooth, line_weber": ("Hertz part by load", {"contact.law": "line_weber"}),
-    "+ friction": ("flanks, washers and pins rub", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
-    "+ pins and case": ("give way; slices over the face", {"effects.pin_compliance": True}),
-    "+ gear bodies": ("turn, tilt and couple their teeth", {"effects.body_compliance": True}),
+    "ideal": ("ideal gears", {"scene.gear_contact": "ideal"}),
+    "lumped": ("a spring with play for each mesh", {"scene.gear_contact": "lumped"}),
+    "tooth, impact": ("tooth pairs, Adams' IMPACT", {"scene.gear_contact": "tooth"}),
+    "tooth, line": ("tooth pairs with their own stiffness", {"contact.law": "line"}),
+    "tooth, line_weber": ("Hertz's part by load as well", {"contact.law": "line_weber"}),
+    "+ friction": ("and friction", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
+    "+ pins and case": ("and elastic pins and case", {"effects.pin_compliance": True}),
+    "+ gear bodies": ("and elastic gear bodies", {"effects.body_compliance": True}),
 }
-# of solid teeth the short form has two
-LONG = ("solid, 4 facets", "solid, 16 facets", "solid, 64 facets", "solid, 128 facets")
 # communication step while times are measured [s], and runs of each in a round: all rungs take turns
 STEP, RUNS, ROUNDS = 1e-3, 5, 3
 OUTPUTS = ["left.speed", "carrier.speed", "planet[1].left_normal_force", "left.shaft_torque", "planet[1].left_transmission_error"]
@@ -94,14 +84,12 @@ def record(fmu, scene, values):
 
 def measure(fmu, folder, short, begin, end):
     """Measures, and writes the file; the bar moves from `begin` to `end`."""
-    rungs = {name: rung for name, rung in RUNGS.items() if not (short and name in LONG)}
     scenes, calls, runs = [Turn(), Clunk(fmu)], Calls(folder), []
     for scene in scenes:
         values = dict(scene.values)
-        for name, (adds, more) in RUNGS.items():
+        for name, (words, more) in RUNGS.items():
             values |= more
-            if name in rungs:
-                runs.append((scene, name, adds, dict(values)))
+            runs.append((scene, name, words, dict(values)))
     found = []
     for done, (scene, name, _, values) in enumerate(runs):
         say(begin + 0.2 * (end - begin) * done / len(runs), f"ladder: {scene.name}, {name}")
@@ -117,12 +105,12 @@ def measure(fmu, folder, short, begin, end):
     bar = begin + 0.2 * (end - begin), end
     seconds = in_turn(list(zip(runs, found)), 1 if short else ROUNDS, take, bar, "ladder: times")
     rows = [HEAD]
-    for place, ((scene, name, adds, _), (status, message, values)) in enumerate(zip(runs, found)):
-        first = place // len(rungs) * len(rungs)
+    for place, ((scene, name, words, _), (status, message, values)) in enumerate(zip(runs, found)):
+        first = place // len(RUNGS) * len(RUNGS)
         median, low, high = quartiles(seconds[place])
-        unit, richest = quartiles(seconds[first])[0], found[first + len(rungs) - 1][2]
+        unit, richest = quartiles(seconds[first])[0], found[first + len(RUNGS) - 1][2]
         for (quantity, unit_of), value, best in zip(scene.quantities.items(), values, richest):
-            rows.append([scene.name, name, adds, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
+            rows.append([scene.name, name, words, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
                          len(seconds[place]), median, low, high, median / unit])
     write_measured(folder / "fidelity_ladder.csv", [
         "error: difference from the richest rung over its value; cost: cpu_s over that of the ideal rung",

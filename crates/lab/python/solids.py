@@ -2,8 +2,9 @@
 
 usage: solids.py FMU FOLDER [--quick]
 
-Solids of 4 to 128 facets a flank run together with teeth on the path of contact, with the deepest point nearly alone and with the
-patch. Writes CSV files, study.md and pictures; prints the page; fails if solids miss the mean force of exact teeth."""
+Simulates exact teeth, and solids of 4 to 128 facets per flank with two smoothings: nearly the deepest point alone, and the patch.
+Writes CSV files, study.md and pictures, and prints the section of docs/cost.md. Fails if the mean force of solids is too far from
+that of exact teeth."""
 
 import math
 import sys
@@ -21,17 +22,17 @@ sys.path.append(str(WORKSPACE / "benches" / "peers"))
 import gears  # noqa: E402
 
 STEP = 1e-3
-# records between communication points where one mesh cycle is looked at closely
+# records per communication step in the mesh cycle with close records
 CLOSE = 10
-# nearly the deepest point alone, which is what a general program does with faceted solids, and the patch that is the default
+# smoothing of nearly the deepest point alone, as a general multibody program has it, and of the patch, the default
 SMOOTHINGS = (0.02, 1.0)
-# tolerance at which integration hides nothing of the facets, and the default
+# tolerance with an error of integration far below that of facets, and the default tolerance
 TIGHT, USUAL = 1e-9, 1e-6
 RUNS = 5
 SPEED, SPIN, LOAD = 954.0, 200.0, 835.0
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"), "carrier.speed_command": (SPEED, "deg/s")}
 WILLIS = [SPEED + sign * SPIN * gears.PLANET_TEETH / gears.SIDE_TEETH for sign in (1.0, -1.0)]
-# facets, and how far from that of exact teeth their mean force may be, relative
+# by facets: largest relative deviation of the mean force from that of exact teeth
 BOUNDS = {32: 1e-2, 128: 1e-3}
 COLUMNS = {"speed": "{}.speed", "force": "{}.normal_force", "tangential": "{}.tangential_force",
            "error": "planet[1].{}_transmission_error", "pairs": "planet[1].{}_pairs"}
@@ -39,7 +40,7 @@ COLUMNS = {"speed": "{}.speed", "force": "{}.normal_force", "tangential": "{}.ta
 
 @dataclass(frozen=True)
 class Plan:
-    """Facets, and when runs settle, are looked at closely and end [s]."""
+    """Numbers of facets; times at which runs have settled, close records begin, and runs end [s]."""
 
     facets: tuple[int, ...]
     settled: float
@@ -54,8 +55,9 @@ QUICK = Plan((4, 8, 16, 32), 0.02, 0.05, 0.1)
 
 @dataclass
 class Row:
-    """One kind of teeth: exact ones have no facets. `errors`: at the tight tolerance and at the usual one; of exact teeth those of
-    integration. `seconds`: median and quartiles of the processor's time at the usual one; `counts`: steps and evaluations there."""
+    """Results of one kind of teeth; exact teeth have 0 facets. `errors`: at the tight and at the usual tolerance; for exact
+    teeth those of the integration. `seconds`: median and quartiles of the processor time at the usual tolerance; `counts`: steps
+    and evaluations of that run."""
 
     facets: int
     smoothing: float
@@ -70,19 +72,19 @@ class Row:
 
     @property
     def taken(self):
-        """Median of the processor's time [s]."""
+        """Median of the processor time [s]."""
         return self.seconds[0]
 
 
 class Found:
-    """All of it. `rows`: exact teeth first; `overlap`: d of K d^e = F for a pair that carries alone what a mesh has [m]."""
+    """All results. `rows`: exact teeth first; `overlap`: d of K d^e = F for one pair under the whole force F of a mesh [m]."""
 
     def __init__(self, plan, rows, overlap):
         self.plan, self.rows, self.tooth, self.overlap = plan, rows, rows[0], overlap
         self.of = {(row.facets, row.smoothing): row for row in rows}
 
     def solid(self, facets, which):
-        """The row of facets at SMOOTHINGS[which], if there is one."""
+        """The row of so many facets at SMOOTHINGS[which]; None if there is none."""
         return self.of.get((facets, SMOOTHINGS[which]))
 
     def series(self, quantity, which):
@@ -91,7 +93,7 @@ class Found:
 
 
 def arc_height(facets):
-    """Heights of the flanks' arcs over their facets, planet and side gear together at the mean cone distance [m]."""
+    """Largest height of an arc over its facet at the mean cone distance, that of the planet plus that of the side gear [m]."""
     height, radius = 0.0, gears.ROOT_FILLET / gears.OUTER_CONE
     for gear in (gears.PLANET, gears.SIDE):
         start = max(gears.arc(gear.base, max(gear.root + radius, gear.base)) - radius, 0.0)
@@ -150,7 +152,7 @@ def measured(fmu, plan, folder):
 
 
 def overlap(fmu):
-    """That of the study's K [m]."""
+    """Overlap of one pair under the whole force of a mesh, by the study's K and e [m]."""
     force = LOAD / (gears.PLANETS * gears.MEAN_CONE * math.sin(gears.SIDE.base))
     stiffness, exponent = (fmu.variable(f"contact.{name}").start for name in ("stiffness", "exponent"))
     return (force / stiffness) ** (1.0 / exponent)
@@ -187,7 +189,7 @@ def write(found, folder):
 
 
 def verdict(found):
-    """Whether solids come to exact teeth; whether they are faster than real time is only reported, as machines differ."""
+    """Fails if the mean force of solids misses its bound. Their speed is only reported, as machines differ."""
     for facets, bound in BOUNDS.items():
         row = found.solid(facets, 1)
         off = abs(row.look["mean"] / found.tooth.look["mean"] - 1.0) if row else 0.0

@@ -1,4 +1,4 @@
-"""Pictures of what facets of solid teeth cost, from the CSV files of what was measured."""
+"""Figures of the errors and cost of faceted solid teeth, from solids.csv and solids_cycle.csv."""
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
@@ -9,9 +9,9 @@ from bevel_differential.style import BLUE, FAINT, INK, RED, TEXT
 
 # smoothing: colour, marker, name
 KINDS = {0.02: (RED, "s", "deepest point"), 1.0: (BLUE, "o", "patch (default)")}
-# facets in the picture of one cycle, and those marked on axes
+# numbers of facets: in the figure of one mesh cycle, and marked on the axes
 CYCLE, MARKED = [4, 8, 16, 32], (4, 8, 16, 32, 64, 128)
-# panels: title, unit, whether in per cent of the mean force, and columns with their lines and names
+# panels: title, label of the y axis, whether in per cent of the mean force; columns, each with line style and name
 PANELS = [
     ("Transmission error", "error, µm", False,
      [("te_rms_um", "-", "all (rms)"), ("te_swing_rms_um", ":", "swing, mean taken out (rms)")]),
@@ -23,7 +23,7 @@ PANELS = [
 
 
 def draw(folder):
-    """Both pictures."""
+    """Draws both figures into `folder`, which holds the CSV files."""
     style.apply()
     machine, rows = read(folder / "solids.csv")
     convergence(folder, machine, rows)
@@ -74,7 +74,7 @@ def against_cost(axes, exact, solids):
         own = [row for row in solids if row["smoothing"] == smoothing]
         axes.plot([1.0 / row["real_time"] for row in own], [row["speed_rms_deg_s"] for row in own], color=color, marker=marker,
                   ms=5, label=name)
-        # numbers of the patch above its line, of the deepest point below
+        # the patch has its numbers of facets above the line, the deepest point below
         above = smoothing == 1.0
         for row in own:
             if row["facets"] in MARKED:

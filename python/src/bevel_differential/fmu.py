@@ -16,7 +16,7 @@ from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
 
 _loaded: dict[tuple[int, Path], "Fmu"] = {}
-# processes and the folders that they have made
+# process numbers, each with a folder that this process has extracted
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
 
@@ -24,9 +24,9 @@ _lock = threading.Lock()
 class Fmu:
     """An extracted FMU and its variables.
 
-    `Fmu.of(path)` gives the one of this process; without a path it is the FMU that came with the package, or the one that the
-    environment variable BEVEL_DIFFERENTIAL_FMU names. `Fmu(path)` is a new one; the path may also be that of a folder with an
-    FMU that is extracted already.
+    `Fmu.of(path)` returns the `Fmu` of this file that the process shares. Without a path the file is that of the environment
+    variable BEVEL_DIFFERENTIAL_FMU, else the FMU of the package. `Fmu(path)` extracts the file anew; the path may also be that of
+    a folder with an extracted FMU.
 
     Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as fmpy reads it."""
 
@@ -41,7 +41,7 @@ class Fmu:
 
     @classmethod
     def of(cls, file: "FileName | Fmu | None" = None) -> "Fmu":
-        """The FMU of `file`, extracted when it is asked for first. An `Fmu` stays what it is."""
+        """The shared `Fmu` of `file`, extracted at the first call. An `Fmu` is returned as it is."""
         if isinstance(file, Fmu):
             return file
         file = Path(file or usual()).resolve()
@@ -58,7 +58,7 @@ class Fmu:
 
     @classmethod
     def alike(cls, file: str, sha256: str) -> "Fmu":
-        """The FMU with this SHA-256: that of `file`, or the usual one of this machine."""
+        """The FMU with this SHA-256: `file`, or else the default FMU of this machine."""
         for place in (Path(file), Path(usual())):
             if place.is_file() and cls.of(place).sha256 == sha256:
                 return cls.of(place)
@@ -66,7 +66,7 @@ class Fmu:
                                 f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines")
 
     def __reduce__(self) -> tuple:
-        # other processes and machines have files of their own
+        # another process or machine finds the FMU by its hash, as its files may be elsewhere
         return Fmu.alike, (str(self.file), self.sha256)
 
     @cached_property
@@ -88,36 +88,40 @@ class Fmu:
         return tuple(self.variable(name) for name in names)
 
     def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:
-        """Values of parameters and inputs as the FMU takes them, [(variable, number)]; given as to `Differential.set`."""
+        """Pairs (variable, number) of parameters and inputs as the FMU takes them; values as in `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
         for name, value in {**(values or {}), **named}.items():
             variable = self.variable(name)
             if variable.causality not in ("parameter", "input"):
                 raise DifferentialError(f"{name}: it is calculated and cannot be set")
-            pairs.append((variable, variable.number(value)))
+            number = variable.number(value)
+            if variable.has_unit(value):
+                # the FMU's own message guesses at the unit that was meant
+                variable.check_range(number, value)
+            pairs.append((variable, number))
         return pairs
 
     def open(self, kind: str = "CoSimulation", name: str = "differential") -> Instance:
         """A new instance, to be driven call by call; `kind` is "CoSimulation" or "ModelExchange", `name` appears in logs.
 
-        Used in a `with` statement it is freed at the end."""
+        A `with` statement frees the instance at its end."""
         return Instance(self, kind, name)
 
 
 def usual() -> FileName:
-    """The FMU that is taken where none is named."""
+    """Path of the default FMU."""
     return os.environ.get("BEVEL_DIFFERENTIAL_FMU") or shipped()
 
 
 def shipped() -> Path:
-    """The FMU in this package."""
+    """Path of the FMU in this package."""
     return Path(__file__).with_name("BevelDifferential.fmu")
 
 
 @atexit.register
 def _remove_folders():
     for process, folder in _extracted:
-        # a child that was forked has the entries of its parent
+        # a forked child has the entries of its parent, and must leave the parent's folders
         if process == os.getpid():
             shutil.rmtree(folder, ignore_errors=True)

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .values import DifferentialError
+from .values import DifferentialError, split
 
 # a time as a user writes it: s, or text such as "5 ms"
 TimeValue: TypeAlias = float | str
@@ -22,9 +22,9 @@ PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1
 def seconds(what: str, time: TimeValue) -> float:
     """A time: seconds, or text such as "5 ms". `what` names it in errors."""
     if isinstance(time, str):
-        number, _, unit = time.strip().partition(" ")
+        number, unit = split(time)
         try:
-            time = float(number) / PER_SECOND[unit.strip()]
+            time = float(number) / PER_SECOND[unit]
         except (KeyError, ValueError):
             raise DifferentialError(f"{what} = {time!r}: write seconds, or a number and one of s, ms, us, min, h") from None
     try:

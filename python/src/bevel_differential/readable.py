@@ -41,3 +41,28 @@ def ratio(value):
 
 def wrapped(text, width):
     return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False))
+
+
+# groups of variables that name the quantity, not the body
+QUANTITIES = ("safety", "heat", "stress", "damage", "power", "life")
+STATISTICS = {"peak_to_peak": "{}, peak to peak", "min": "least {}", "max": "largest {}"}
+
+
+def in_words(name):
+    """A variable, or a wanted figure of one, in words: "planet[1].left_force_max:mean" is "largest force, planet 1 left, mean"."""
+    name, _, statistic = str(name).partition(":")
+    group, _, last = name.rpartition(".")
+    body = group.replace("[", " ").replace("]", "")
+    for side in ("left", "right"):
+        if last.startswith(f"{side}_"):
+            body, last = f"{body} {side}".strip(), last.removeprefix(f"{side}_")
+    pattern = "{}"
+    for ending, words in STATISTICS.items():
+        if last.endswith(f"_{ending}"):
+            pattern, last = words, last.removesuffix(f"_{ending}")
+    last = last.replace("_", " ")
+    if group in QUANTITIES:
+        last, body = f"{last} {group}", ""
+    elif " " not in body:
+        last, body = f"{body} {last}".strip(), ""
+    return ", ".join(filter(None, [pattern.format(last), body, "" if statistic == "final" else statistic.replace("_", " ")]))

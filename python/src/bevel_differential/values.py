@@ -26,6 +26,12 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m", "1/min": "rpm"}
 
 
+def split(text: str) -> tuple[str, str]:
+    """Number and unit of a text, with or without a blank between; a text that begins with no number is all number."""
+    match = _NUMBER_AND_UNIT.match(text)
+    return (match[1], match[2] or "") if match else (text.strip(), "")
+
+
 class DifferentialError(ValueError):
     """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
 
@@ -109,6 +115,22 @@ class Variable:
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
                                     "number")
         return tuple(self.number(part) for part in parts)
+
+    def has_unit(self, value: Value) -> bool:
+        """Whether `value` is written with its unit."""
+        if self.kind != "Real":
+            return False
+        match = _NUMBER_AND_UNIT.match(value) if isinstance(value, str) else None
+        return bool(match and match[2]) or (isinstance(value, tuple) and value[1] is not None)
+
+    def check_range(self, number: Number, written: Value) -> None:
+        """Refuses an SI number outside the range of the model description, in the unit in which values are usually shown."""
+        low, high = self.minimum, self.maximum
+        if (low is None or number >= low) and (high is None or number <= high):
+            return
+        text = " ".join(map(str, written)) if isinstance(written, tuple) else written
+        unit, ends = self.shown(np.array([-math.inf if low is None else low, math.inf if high is None else high]))
+        raise DifferentialError(f"{self.name}: {text} is outside [{ends[0]:.6g}, {ends[1]:.6g}] {unit}".rstrip())
 
     def shown(self, values: _Shown) -> tuple[str, _Shown]:
         """Unit in which the variable is usually shown, and SI `values` in it."""

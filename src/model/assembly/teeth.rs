@@ -12,7 +12,7 @@ use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
 /// Sign σ of the left and right side.
 pub const SIGMA: [f64; 2] = [1.0, -1.0];
 
-/// A differential with teeth.
+/// Constants of a differential with teeth.
 #[derive(Clone, Debug)]
 pub struct Teeth {
     /// The mesh, alike for all planets and both sides.
@@ -21,9 +21,9 @@ pub struct Teeth {
     pub plan: Plan,
     /// Index of each degree of freedom.
     pub layout: Layout,
-    /// Inertias by degree of freedom, of planets and pins singly [kg·m², for seats kg].
+    /// Inertia of each degree of freedom, that of planets and pins for a single one [kg·m², for seats kg].
     pub inertia: [f64; MAX_DOF],
-    /// Their reciprocals, 0 where the motion is imposed.
+    /// Reciprocals of the inertias, 0 where the motion is imposed.
     pub inverse_inertia: [f64; MAX_DOF],
     /// Inertias of the wheel-side ends that are rigid on their side gears [kg·m²].
     pub rigid_end: [f64; 2],
@@ -31,17 +31,17 @@ pub struct Teeth {
     pub sin_base: [f64; 2],
     /// Base pitch on the unit sphere [rad].
     pub base_pitch: f64,
-    /// Largest approach of flanks: more exceeds the working depth, or half the base pitch [rad].
+    /// Largest approach of flanks: the working depth or half the base pitch, whichever is smaller [rad].
     pub deflection_limit: f64,
-    /// The bodies of the gears that pairs share, where they are elastic.
+    /// Elastic gear bodies that couple the tooth pairs; `None` where bodies are rigid.
     pub shared: Option<Arc<SharedBodies>>,
-    /// What acts besides plain teeth; boxed, so that the layout of these constants is the same in every build.
+    /// Constants of the effects; boxed, so that the layout of `Teeth` is the same in every build.
     pub effect_terms: Box<EffectTerms>,
 }
 
 impl Teeth {
-    /// The same teeth with their planets in one group, where they are simulated singly for what may happen to one of them
-    /// and are plain until then.
+    /// The same teeth with all planets in one group, for the time before an event such as a broken tooth makes one differ.
+    /// `None` where planets are not alike and plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
         let is_plain = !self.effect_terms.body_effects.always
@@ -50,7 +50,7 @@ impl Teeth {
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
     }
 
-    /// Constants of the scene `plan` with the meshes `mesh` of `pair`.
+    /// Constants for the scene plan `plan` and the gears `pair`, with their mesh and elastic bodies.
     pub fn new(
         pair: &Pair,
         (mesh, shared): (Mesh, Option<Arc<SharedBodies>>),
@@ -93,20 +93,20 @@ impl Teeth {
     }
 }
 
-/// What acts in a scene besides plain teeth.
+/// Constants of the effects that act besides plain teeth.
 #[derive(Clone, Debug)]
 pub struct EffectTerms {
-    /// The mesh in detail.
+    /// The mesh in detail, summed over the face.
     pub detailed: Detailed,
-    /// Whether an effect needs it while all teeth are sound.
+    /// Whether an effect needs the mesh in detail even while no tooth is broken.
     pub in_detail: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat: usize,
-    /// Gaps of the tooth pairs, while intact and once a tooth is broken.
+    /// Gaps of the tooth pairs before and after a tooth breaks.
     pub gaps: [Option<Arc<FlankGaps>>; 2],
-    /// Teeth without errors, for their numbers.
+    /// Teeth without errors, which give each tooth its number.
     pub perfect: FlankGaps,
-    /// Mass of a planet times its distance from the carrier's axis [kg·m].
+    /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m].
     pub planet_moment: f64,
     /// Effects on bodies.
     pub body_effects: BodyEffects,

@@ -1,4 +1,4 @@
-//! Imposed speeds: which there are, and how they jump to their commands.
+//! Imposed speeds of a scene, and their jumps to the commands.
 
 use crate::model::assembly::{BodyEffects, Gears, Model};
 use crate::model::dynamics::State;
@@ -6,11 +6,11 @@ use crate::model::scene::{CARRIER, Inputs, MAX_DOF, PLANET};
 
 /// An imposed speed.
 pub struct ImposedSpeed {
-    /// Its degree of freedom.
+    /// Index of its degree of freedom.
     pub freedom: usize,
-    /// Its value under the commands [rad/s].
+    /// Commanded value [rad/s].
     pub value: f64,
-    /// Inertia of all bodies that have it [kg·m²].
+    /// Inertia of all bodies with this speed [kg·m²].
     inertia: f64,
 }
 
@@ -51,7 +51,7 @@ pub fn imposed_speeds<'a>(
     ends.chain(carrier).chain(planets)
 }
 
-/// Whether imposed speeds are what they are commanded to be.
+/// Whether all imposed speeds equal their commands.
 pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let (plan, layout) = (&model.ideal.plan, &model.layout);
     (!plan.carrier_imposed || state.carrier_command == inputs.carrier_speed)
@@ -59,7 +59,7 @@ pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
         && (0..2).all(|s| !plan.side_imposed[s] || state.v[layout.end(s)] == inputs.side_speed[s])
 }
 
-/// Sets imposed speeds to their commands. Gears without teeth are constrained by Willis' equation; nothing else changes.
+/// Sets imposed speeds to their commands. Without teeth side gears follow by Willis' equation; free speeds stay.
 pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     let q = state.q;
@@ -71,7 +71,7 @@ pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// Whether free speeds of gears without teeth must follow a jump of imposed ones from `before` to `inputs`.
+/// Whether a jump of imposed speeds from `before` to `inputs` changes free speeds of gears without teeth.
 pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
     let [by_carrier, by_spin] = model.ideal.impulse();
     matches!(&model.gears, Gears::Ideal(_))
@@ -79,7 +79,7 @@ pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
             || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
 }
 
-/// Adds such a jump to free speeds of gears without teeth.
+/// Lets free speeds of gears without teeth follow a jump of imposed speeds from `before` to `inputs`.
 pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
     if is_impulse(model, before, inputs) {
         let carrier = |command: f64| body_effects(model).carrier_speed(&state.q, command);
@@ -90,14 +90,14 @@ pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &m
     }
 }
 
-/// Adds to free speeds of gears without teeth what follows from a jump of carrier speed and spin.
+/// Adds to free speeds of gears without teeth their change by a jump of carrier speed and spin.
 pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_DOF]) {
     let [by_carrier, by_spin] = model.ideal.impulse();
     v[PLANET] += by_carrier * carrier;
     v[CARRIER] += by_spin * spin;
 }
 
-/// Sets imposed speeds to their commands at once; the energy of the jump is impulsive work of the input.
+/// Sets imposed speeds to their commands and lets free speeds follow; the energy of the jump is impulsive work of the input.
 pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {

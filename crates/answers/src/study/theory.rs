@@ -1,4 +1,4 @@
-//! Closed forms for what the study measures, from the geometry in the library.
+//! Closed forms of the quantities that the study compares, from the library's gear geometry.
 
 use bevel_differential::contact::hertz;
 use bevel_differential::geometry::{AddendumSystem, Pair, Tredgold};
@@ -14,20 +14,20 @@ pub fn carrier_speed(speed: f64, radius: f64) -> f64 {
     (speed / KMH / radius).to_degrees()
 }
 
-/// Load on one half-shaft at the limit of adhesion [N·m]: half of (weight on the axle · adhesion · tyre radius).
+/// Load on one half-shaft at the limit of adhesion [N·m]: (weight on the axle · adhesion · tyre radius)/2.
 pub fn load_torque() -> f64 {
     use published::{ADHESION, CAR_MASS, FRONT_SHARE, GRAVITY, TYRE_RADIUS};
     CAR_MASS * GRAVITY * FRONT_SHARE * ADHESION * TYRE_RADIUS / 2.0
 }
 
-/// Theory of one differential.
+/// Closed forms for one differential.
 pub struct Theory {
     parameters: Parameters,
     pair: Pair,
 }
 
 impl Theory {
-    /// Theory of `parameters`.
+    /// Closed forms for the differential of `parameters`.
     pub fn new(parameters: &Parameters) -> Self {
         Self { parameters: *parameters, pair: Pair::new(&parameters.geometry) }
     }
@@ -37,19 +37,19 @@ impl Theory {
         &self.pair
     }
 
-    /// Hertz stiffness of spheres with the outer pitch radii [N/m^1.5].
+    /// Hertz stiffness of two spheres with the outer pitch radii of planet and side gear [N/m^1.5].
     pub fn hertz_stiffness(&self) -> f64 {
         let radius = |i| self.pair.outer_pitch_diameter(i) / 2.0;
         let material = &self.parameters.material;
         hertz::stiffness(radius(0), radius(1), material.young_modulus, material.poisson_ratio)
     }
 
-    /// Tangential force of all planets on one side gear at the outer pitch circle: T/r [N].
+    /// Tangential force of all planets on one side gear, referred to its outer pitch circle of radius r: T/r [N].
     pub fn outer_tangential_force(&self, torque: f64) -> f64 {
         torque / (self.pair.outer_pitch_diameter(1) / 2.0)
     }
 
-    /// Normal force of one mesh at the mean cone distance [N]: T / (N R_m sinδ_b).
+    /// Normal force of one mesh at the mean cone distance [N]: T / (N R_m sinδ_b), with N planets and δ_b of the side gear.
     pub fn normal_force(&self, torque: f64) -> f64 {
         let planets = f64::from(self.parameters.geometry.planet_count);
         torque / (planets * self.pair.mean_cone * self.pair.sin_base()[1])
@@ -60,7 +60,7 @@ impl Theory {
         self.normal_force(torque) * self.pair.pressure_angle.cos()
     }
 
-    /// Speeds of left and right side gear for carrier speed and planet spin, in their unit: ω_c ± ω_p z_p/z_s.
+    /// Speeds of left and right side gear, ω_c ± ω_p z_p/z_s, in the unit of the carrier's speed ω_c and the planets' spin ω_p.
     pub fn side_speeds(&self, carrier: f64, spin: f64) -> [f64; 2] {
         let geometry = &self.parameters.geometry;
         let difference = spin * f64::from(geometry.planet_teeth) / f64::from(geometry.side_teeth);
@@ -72,7 +72,7 @@ impl Theory {
         f64::from(self.parameters.geometry.planet_teeth) * spin.abs() / 360.0
     }
 
-    /// Largest addendum without interference over the module: the side gear's, limited by the planet's base circle.
+    /// Largest addendum of the side gear without interference at the planet's base circle [modules].
     pub fn addendum_limit(&self) -> f64 {
         self.pair.limit_addendum(1) / self.pair.module
     }
@@ -82,7 +82,7 @@ impl Theory {
         [self.pair.path.contact_ratio, Tredgold::new(&self.pair).contact_ratio]
     }
 
-    /// Whether standard addenda cut or jam: at the planet, and at the side gear.
+    /// Whether with standard addenda a mate's tip reaches below the base circle: the planet's, and the side gear's.
     pub fn standard_addenda_clip(&self) -> [bool; 2] {
         let spec = bevel_differential::geometry::GearSpec {
             addendum_system: AddendumSystem::Standard,

@@ -3,8 +3,8 @@
     python crates/lab/python/designs/overhead.py [--runs N] [--designs N]
 
 Needs the package with its extra [sweep], the FMU (BEVEL_DIFFERENTIAL_FMU) and a C compiler. Runs with and without the package
-alternate, and the fastest of each are compared: those that other work of the machine weighs on least. Rows with workers are wall
-times and need an idle machine."""
+alternate. The fastest of each are compared, because other load of the machine slows them least. Rows with workers are wall times
+and need an idle machine."""
 
 import argparse
 import sys
@@ -24,7 +24,7 @@ from calls import TEN, Calls  # noqa: E402
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
 STOP = 0.5
-# most that Python may take over the calls
+# limits: time with the package over time of the calls in C; for the Monte Carlo wall time [s]
 LIMIT_FINAL, LIMIT_RECORD, LIMIT_DRAWN, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0
 LOADS = {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_torque": "normal(835 N.m, 40 N.m)",
          "geometry.backlash": "uniform(0.05 mm, 0.15 mm)", "tooth_friction.coefficient": "uniform(0.03, 0.08)"}
@@ -42,7 +42,7 @@ def timed(action, *arguments):
 
 
 def overhead(calls, fmu, runs):
-    """Rows: a turn through the package over the calls in C."""
+    """Rows of one turn: time through the package and time of the calls in C."""
     with Differential(TURN, fmu=fmu.file) as turn:
         for what, step, use, limit in [
                 ("0.5 s turn, final values", None, lambda: turn.final(TEN, stop=STOP), LIMIT_FINAL),
@@ -50,14 +50,14 @@ def overhead(calls, fmu, runs):
             use()
             package, bare = [], []
             for _ in range(max(1, runs // 20)):
-                # the first run makes what follows from the gears
+                # the first run computes the tables of the gears
                 bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, [(STOP, step)], 21)[1:]]
                 package += [timed(use) for _ in range(20)]
             yield row(what, min(package) * 1e3, min(bare) * 1e3, "ms", limit)
 
 
 def row(what, package, bare, unit, limit):
-    """A row of the table; without calls to compare with the limit is of the package's time itself."""
+    """A row of the table. If `bare` is None, the limit holds for the package's time itself."""
     ratio = package / bare if bare else None
     kept = (ratio if bare else package) <= limit
     return (what, f"{package:.3f} {unit}", f"{bare:.3f} {unit}" if bare else "-", f"{ratio:.2f}" if bare else "-",
@@ -65,7 +65,7 @@ def row(what, package, bare, unit, limit):
 
 
 def monte_carlo(fmu, designs, workers):
-    """Rows: plain turns with drawn loads, backlash and friction, by workers of all cores."""
+    """Rows of turns with random loads, backlash and friction, simulated by `workers` processes."""
     with Farm(workers) as farm:
         for what, values in FRICTION.items():
             with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene:
@@ -77,7 +77,7 @@ def monte_carlo(fmu, designs, workers):
 
 
 def drawn(fmu, designs, workers):
-    """Rows: designs with drawn errors or geometry on workers over the calls of the same designs in C, shared by the workers."""
+    """Rows of designs with random tooth errors or geometry: wall time on workers, and time of the bare calls over the workers."""
     for what, (values, vary) in DRAWN.items():
         with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene, Farm(workers) as farm:
             task = Task(scene, ["left.speed", "right.speed", "efficiency"])
@@ -88,7 +88,7 @@ def drawn(fmu, designs, workers):
 
 
 def bare_designs(fmu, values, plan):
-    """Seconds of the calls of all designs, one after the other: those of `Instance`, with arrays that are ready."""
+    """Seconds of the bare calls for all designs in sequence, through `Instance` with arrays made before."""
     from bevel_differential.batches import Batches
     from bevel_differential.instance import Instance
     instance, batches = Instance(fmu), Batches([fmu.variable(name) for name in ("left.speed", "right.speed", "efficiency")])
@@ -108,7 +108,7 @@ def bare_designs(fmu, values, plan):
 
 
 def scaling(fmu, designs):
-    """Rows: designs/s by workers."""
+    """Rows: designs per second by number of workers, as processes and as threads."""
     with Scene("turn", stop=STOP, set=TURN, fmu=fmu.file) as scene:
         task, first = Task(scene, ["left.speed:mean"]), None
         plan = Plan.parse(Space.parse(fmu, LOADS), "random", designs, 1).designs()

@@ -1,4 +1,4 @@
-//! The commands that measure by scripts: crates/lab/python has them, or the folder of what is compared.
+//! The commands that measure by a Python script. The scripts are in crates/lab/python, benches and examples.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -9,8 +9,8 @@ use fmu_build::tools::progress::Progress;
 
 use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number, path};
 
-/// What accuracy costs: methods over tolerances and steps, the communication step of a coupled run, decisions, laws of tooth pairs, and
-/// the ladder of fidelities; each is a CSV file and a picture.
+/// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by quantity,
+/// contact laws, and levels of gear contact.
 pub const COST: Script = Script {
     name: "cost",
     about: "Measures what accuracy costs: methods, fidelities, settings and communication steps",
@@ -30,7 +30,7 @@ pub const COST: Script = Script {
     ..SCRIPT
 };
 
-/// What facets cost in accuracy and in time: solid teeth in the study's turn, compared with exact teeth.
+/// Error and time of faceted solid teeth against exact teeth, in the study's turn.
 pub const SOLIDS: Script = Script {
     name: "solids",
     about: "Measures how the number of facets of solid teeth affects accuracy and time",
@@ -50,8 +50,8 @@ pub const SOLIDS: Script = Script {
     ..SCRIPT
 };
 
-/// Whether answers of the command `accuracy` can be trusted: random scenes whose chosen settings run in the packaged FMU, against
-/// another method; and how long the answers for the shipped scenes take.
+/// Check of the command `accuracy`. For random scenes each chosen setting runs in the packaged FMU and is compared with another
+/// method. For the shipped scenes the time of an answer is measured.
 pub const SURVEY: Script = Script {
     name: "survey",
     about: "Checks answers of `accuracy` on random scenes, in the FMU, against another method",
@@ -75,7 +75,7 @@ pub const SURVEY: Script = Script {
     ..SCRIPT
 };
 
-/// This program beside other simulators, on the study's two cases.
+/// This program against other simulators, on the study's two cases.
 pub const SIMULATORS: Script = Script {
     name: "compare-simulators",
     alias: Some("peers"),
@@ -91,7 +91,7 @@ pub const SIMULATORS: Script = Script {
     ..SCRIPT
 };
 
-/// This program's methods beside solvers written by others, on the same equations.
+/// This program's methods against solvers of other authors, on the same equations.
 pub const SOLVERS: Script = Script {
     name: "compare-solvers",
     alias: Some("foreign"),
@@ -106,7 +106,8 @@ pub const SOLVERS: Script = Script {
     ..SCRIPT
 };
 
-/// A whole drivetrain of FMUs beside all its equations at once. libcosim sets no enumerations, and the scene is made of them.
+/// A drivetrain coupled from FMUs against one system with all its equations. The FMU has integers in the place of enumerations,
+/// because libcosim cannot set enumerations.
 pub const DRIVETRAIN: Script = Script {
     name: "drivetrain",
     about: "Couples a whole drivetrain from FMUs and compares it with all its equations at once (many minutes)",
@@ -146,8 +147,8 @@ pub const PATTERNS: Script = Script {
     ..SCRIPT
 };
 
-/// What levels, laws and effects cost in time: each alone, each pair, all together; or how the times of two builds compare. By the
-/// prices of each alone the command `accuracy` counts, and the page shows them.
+/// Times of levels, laws and effects: each alone, each pair, all together; or the ratios of the times of two builds. The command
+/// `accuracy` and the page use the prices of each alone.
 pub const PRICES: Script = Script {
     name: "prices",
     about: "Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some minutes)",

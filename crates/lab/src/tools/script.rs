@@ -1,4 +1,5 @@
-//! Commands that run a script in Python. What it prints is for the terminal, and where asked for, documents take it with its pictures.
+//! Commands that run a Python script. Its tables go to the terminal. With the option `write` they and the figures also go into the
+//! documents.
 
 use std::ffi::OsString;
 use std::fs;
@@ -16,33 +17,33 @@ use super::command::Command;
 
 /// A command that runs a script.
 pub struct Script {
-    /// Its name.
+    /// Name of the command.
     pub name: &'static str,
-    /// A former name.
+    /// A former name of the command.
     pub alias: Option<&'static str>,
-    /// What it does, in a line.
+    /// The help text in one line.
     pub about: &'static str,
-    /// What its help says beyond that.
+    /// A second paragraph of the long help text.
     pub more: Option<&'static str>,
-    /// `write` renews the documents, `out` names the folder of results.
+    /// Options of the command. A switch `write` renews the documents, a path `out` replaces the folder of results.
     pub options: fn() -> Vec<Arg>,
-    /// What it runs in.
+    /// Python environment of the script.
     pub needs: Needs,
-    /// Its path in the workspace, or a module of Python.
+    /// Path of the script in the workspace, or a Python module.
     pub file: &'static str,
-    /// What it does, beside the bar.
+    /// Text beside the progress bar.
     pub doing: &'static str,
-    /// The folder of its results in the target directory, if it leaves any; options in braces stand for their values.
+    /// Folder of the results in the target directory, if there are any. The name of an option in braces stands for its value.
     pub folder: Option<&'static str>,
-    /// Its arguments.
+    /// Arguments of the script, in order.
     pub given: &'static [Given],
-    /// What documents take.
+    /// Sections of documents that `write` renews.
     pub sections: &'static [Section],
-    /// Whether documents show the pictures in its folder.
+    /// Whether `write` copies the pictures of the folder to the documents.
     pub has_pictures: bool,
 }
 
-/// What most scripts have in common.
+/// Defaults of a script.
 pub const SCRIPT: Script = Script {
     name: "",
     alias: None,
@@ -58,13 +59,13 @@ pub const SCRIPT: Script = Script {
     has_pictures: false,
 };
 
-/// The environment of a script.
+/// The Python environment of a script.
 pub enum Needs {
-    /// That of users' commands.
+    /// The environment of the Python package's commands.
     Users,
-    /// The same with the packages of the tests.
+    /// The same environment with the packages of the tests.
     Tests,
-    /// One of its own: the folder with its list of packages, its place in the target directory, the packages in a few words.
+    /// An environment of the script's own: folder of requirements.txt, folder in the target directory, main packages.
     Own([&'static str; 3]),
 }
 
@@ -72,9 +73,9 @@ pub enum Needs {
 pub enum Given {
     /// The packaged FMU.
     Fmu,
-    /// The same for hosts without enumerations.
+    /// The packaged FMU with integers in the place of enumerations.
     PlainFmu,
-    /// The library with the equations of motion.
+    /// A library with the equations of motion, for other solvers.
     Equations,
     /// The folder of results.
     Folder,
@@ -82,32 +83,33 @@ pub enum Given {
     Target(&'static str),
     /// The folder of the repository.
     Workspace,
-    /// A word as it is.
+    /// A fixed word.
     Word(&'static str),
     /// The value of an option.
     Value(&'static str),
-    /// An option by its name: alone if it is a switch, or with its value; nothing if it is not there.
+    /// An option, passed on as `--NAME`, with its path if it has one. Nothing if the option is not set.
     Named(&'static str),
-    /// What a function makes of the options.
+    /// Arguments that a function computes from the options.
     Made(fn(&ArgMatches, &Progress) -> Result<Vec<OsString>>),
 }
 
-/// A section of a document: path in the workspace, name in its marks, and the file of results that has it; without a file it is
-/// what the script prints. Without a name the document is a copy of the file. A file that the script does not write renews nothing.
+/// A section of a document: path of the document in the workspace, name in the marks of the section, file of results. If the file is
+/// empty, the section is the printed output. If the name is empty, the document becomes a copy of the file. A section whose file the
+/// script did not write stays as it is.
 pub type Section = (&'static str, &'static str, &'static str);
 
-/// A switch.
+/// An option without a value.
 pub fn flag(name: &'static str, help: &'static str) -> Arg {
     Arg::new(name).long(name).help(help).action(ArgAction::SetTrue)
 }
 
-/// A whole number.
+/// An option with a whole number, `usual` if not given.
 pub fn number(name: &'static str, value: &'static str, usual: &'static str, help: &'static str) -> Arg {
     let number = Arg::new(name).long(name).help(help).value_name(value);
     number.default_value(usual).value_parser(value_parser!(u64))
 }
 
-/// A file or a folder.
+/// An option with the path of a file or folder.
 pub fn path(name: &'static str, value: &'static str, help: &'static str) -> Arg {
     Arg::new(name).long(name).help(help).value_name(value).value_parser(value_parser!(PathBuf))
 }
@@ -117,7 +119,7 @@ fn is_set(options: &ArgMatches, name: &str) -> bool {
 }
 
 impl Script {
-    /// The command.
+    /// The script as a command of the program.
     pub fn command(self) -> Command {
         let declared = clap::Command::new(self.name).about(self.about).aliases(self.alias).args((self.options)());
         let declared = match self.more {
@@ -127,7 +129,7 @@ impl Script {
         Command { declared, run: Box::new(move |options| self.run(options)) }
     }
 
-    /// Runs it with `options`, and renews the documents if asked for.
+    /// Runs the script with `options`. Renews the documents if `write` is set.
     pub fn run(&self, options: &ArgMatches) -> Result<()> {
         let folder = self.folder(options);
         let printed = self.follow(folder.as_deref(), |progress| {
@@ -137,7 +139,7 @@ impl Script {
         if is_set(options, "write") { self.renew(&printed, &folder.unwrap_or_default()) } else { Ok(()) }
     }
 
-    /// Runs it with the arguments that `prepare` returns, prints its tables and where its results are, and returns the tables.
+    /// Runs the script with the arguments from `prepare`. Prints its tables and the folder of results. Returns the tables.
     pub fn follow(
         &self,
         folder: Option<&Path>,
@@ -153,7 +155,7 @@ impl Script {
         let arguments = prepare(&progress)?;
         if let Some(folder) = folder {
             paths::create_folder(folder)?;
-            // what is there afterwards is of this run
+            // so that every file found after the run is from this run
             for (.., file) in self.sections.iter().filter(|(.., file)| folder.join(file).is_file()) {
                 fs::remove_file(folder.join(file)).with_context(|| format!("{file} cannot be removed"))?;
             }
@@ -175,7 +177,7 @@ impl Script {
         Ok(printed)
     }
 
-    /// The folder of results: the one that an option names, or its own.
+    /// Folder of results: the value of the option `out`, else `folder`.
     fn folder(&self, options: &ArgMatches) -> Option<PathBuf> {
         if let Ok(Some(named)) = options.try_get_one::<PathBuf>("out") {
             return Some(named.clone());
@@ -214,7 +216,7 @@ impl Script {
     }
 }
 
-/// An environment beside those of users and tests, made if it is not there.
+/// The environment of `Needs::Own`, made if it does not exist.
 pub fn environment([list, place, holds]: [&'static str; 3], report: impl Fn(&str)) -> Result<Environment> {
     let requirements = paths::workspace().join(list).join("requirements.txt");
     Wanted { folder: paths::target().join(place), requirements, holds }.made(report)

@@ -1,4 +1,4 @@
-"""Which model is accurate enough: the cheapest that gives wanted quantities to an accuracy, proven in runs of the scene."""
+"""The cheapest model that gives wanted quantities to an accuracy, proven by runs of the scene."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,22 +13,23 @@ from ..values import FileName, Value
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# kinds of settings, by what their text begins with: the order is that of the legend
+# beginnings of the text of a setting with their markers, in the order of the legend; the first that fits counts
 KINDS = [("ideal", "o"), ("lumped", "s"), ("tooth impact", "^"), ("tooth line +", "P"), ("tooth line_weber +", "D"),
          ("tooth line_weber", "X"), ("tooth line", "v"), ("solid", "<")]
-# settings with another method: their counts do not compare
+# other methods of integration, as settings name them: counts of different methods cannot be compared
 METHODS = ("rodas4", "dormand_prince", "fixed steps", "radau")
-# errors below this part of the accuracy are drawn there
+# smallest error that is drawn, as a part of the accuracy; smaller errors are drawn at this one
 FLOOR = 1e-7
 LONGEST = 90
 
 
 @dataclass(frozen=True)
 class Run:
-    """A run of the scene that was tried.
+    """A run of the scene.
 
-    `error`: the largest of the wanted quantities, as a part of 100 %, and `worst`, the quantity that has it. `place`: "chosen",
-    "cheaper", "richer", "reference" or "". `price`: in evaluations of plain teeth. `seconds`: time on the processor, s."""
+    `tried`: the reason for the run, in words. `error`: the largest error of a wanted quantity, as a fraction; `worst`: the
+    quantity with this error. `place`: its role, "chosen", "cheaper", "richer", "reference" or "". `price`: its cost, in
+    evaluations of plain teeth. `seconds`: processor time, s."""
 
     tried: str
     place: str
@@ -45,7 +46,7 @@ class Run:
 class Choice:
     """A setting of the scene.
 
-    `set`: values by name, as `Scene.set` takes them. `run`: how it did. `difference`: what it has otherwise than the chosen one, in
+    `set`: values by name, as `Scene.set` takes them. `run`: its run. `difference`: its differences from the chosen setting, in
     words."""
 
     set: dict[str, Value]
@@ -57,10 +58,12 @@ class Choice:
 class Accuracy:
     """The answer.
 
-    `wants`: what was wanted; `values`: by it what the reference gives, SI. `use`: the chosen setting, None if nothing is accurate enough; `cheaper`: the dearest one below it, which fails; `richer`: the
-    next one nearer to the reference; `reference`: what all were compared with. `needed`, `out`: effects that are in the setting, and
-    that are not, by how much each changes a wanted quantity. `effects`: what became of each effect, and why. `uncertain`: the
-    reference itself is not sure to a third of the accuracy. `runs`: all that was tried; `table`: the same as CSV."""
+    `wants`: the wanted quantities; `values`: their values in the reference, SI. `use`: the chosen setting, None if nothing is
+    accurate enough; `cheaper`: the dearest of the cheaper settings that are not accurate enough; `richer`: the cheapest of the
+    dearer settings with a smaller error; `reference`: the run that all others are compared with. `needed`, `out`: effects that
+    the setting needs, and effects that it leaves out, with the largest change of a wanted quantity by each. `effects`: the role
+    of each effect, and why. `uncertain`: the reference strays by more than a third of the accuracy. `runs`: all runs; `table`:
+    the same as CSV."""
 
     scene: str
     wants: list[str]
@@ -83,7 +86,7 @@ class Accuracy:
         return self.text
 
     def plot(self, file: FileName | None = None) -> "Figure":
-        """Draws error against cost of all that was tried."""
+        """Draws the error of all runs against their cost."""
         needed("matplotlib", "plot")
         from .. import style
 
@@ -96,10 +99,11 @@ def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: fl
              progress: Progress | None = None) -> Accuracy:
     """The cheapest level, law, set of effects and tolerance that give the wanted quantities of a scene to an accuracy.
 
-    `scene`: a file, the name of a shipped scene, or a `Scene`. `want`: "OUTPUT:STATISTIC" each, such as "left.speed:mean"; none =
-    all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this time on, s or with a unit. `set`: changes
-    of the scene. `timed`: measure times on the processor, too. `file`: where a scene file with the setting will be; its text is
-    `answer["file"]`. Ctrl-C stops the work. Raises `DifferentialError`."""
+    `scene`: a file, the name of a shipped scene, or a `Scene`. `want`: one or several "OUTPUT:STATISTIC", such as
+    "left.speed:mean"; without it all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this time
+    on, s or with a unit. `set`: changes of the scene. `timed`: whether processor times are measured, too. `file`: the intended
+    place of a scene file with the setting, which is not written: its text is `answer["file"]`. Ctrl-C stops the work. Raises
+    `DifferentialError`."""
     question = {"ask": "accuracy", "of": about(scene, set), "want": [want] if isinstance(want, str) else list(want),
                 "within": str(within), "from": None if from_ is None else str(from_), "timed": timed,
                 "file": None if file is None else Path(file)}

@@ -11,7 +11,7 @@ QUICK = {"population": 32, "generations": 12, "starts": 1}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("problem", type=Path, help="problem file (TOML), such as study_gears.toml of `bevel-differential examples`")
     parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")
     parser.add_argument("--population", type=int, help="designs of a generation")
@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Optimises. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    """Runs the optimisation. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
     from .search import Store
@@ -81,7 +81,7 @@ def _optimise(arguments, problem, out, store, workers):
 
 
 def _held(confirmed, problem):
-    """How the confirmation went, a line for each model."""
+    """A line for each richer model: how many designs still meet all conditions, and by how much objectives change."""
     for model in problem.confirm:
         ran = [each for each in confirmed if model in each.models]
         broken = [each for each in ran if each.models[model].refused]

@@ -7,6 +7,7 @@ import pandas as pd
 
 from .. import cad
 from ..answers import ask, assignments
+from ..readable import in_words, wrapped
 from ..values import FileName
 from .design_task import Confirmed, DesignRow
 from .front import costs, dominates
@@ -123,8 +124,8 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
 def _label(catalogue, objective: Objective) -> str:
     unit = catalogue.variable(objective.want.name).shown(0.0)[0]
     better = "less" if objective.sign > 0.0 else "more"
-    name = str(objective.want).removesuffix(":final").replace("_transmission_error", "\n_transmission_error")
-    return f"{name}{f', {unit}' if unit else ''}\n({better} is better)"
+    name = in_words(objective.want)
+    return wrapped(f"{name}{f', {unit}' if unit else ''} ({better} is better)", 34)
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:

@@ -9,9 +9,9 @@ import numpy as np
 from ..scene import Scene
 from ..values import DifferentialError, Number
 
-# effects that change no motion and only give outputs; a test holds the command `accuracy` to the same ones
+# effects that add outputs and change no motion; a test checks that the command `accuracy` has the same list
 ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history")
-# runs of which the fastest is timed, if they are short, s
+# the fastest of several runs counts: most runs, and the time after which no further run begins, s
 TIMED, SHORT = 3, 0.5
 
 
@@ -19,10 +19,10 @@ TIMED, SHORT = 3, 0.5
 class Simulated:
     """A scene and its record.
 
-    `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: what the scene as it is
-    written took. `says`: what the FMU says that it simulates. `added`: effects that only give outputs and were switched on for
-    the record. `refused`: by such an effect, why the FMU does not have it here. `difference`: largest difference of the scene's
-    own outputs with and without what was added, relative to their largest values."""
+    `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: time of a run of the scene
+    as it is written. `says`: the FMU's own description of the simulated model. `added`: effects that only add outputs, switched
+    on for the record. `refused`: by such an effect, the FMU's reason to refuse it. `difference`: largest difference between the
+    scene's own outputs with and without the added effects, relative to their largest values."""
 
     scene: Scene
     record: np.ndarray
@@ -35,7 +35,7 @@ class Simulated:
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        """Simulates a scene: as it is written, and with all that can be recorded."""
+        """Simulates a scene as it is written, then with all effects that only add outputs."""
         seconds: list[float] = []
         while not seconds or (len(seconds) < TIMED and sum(seconds) < SHORT):
             begin = time.perf_counter()

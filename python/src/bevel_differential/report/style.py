@@ -1,4 +1,4 @@
-"""One style for all pictures of a report. Letters and axes take the colour of the page's text: they show in light and dark."""
+"""The style of all pictures in a report. Letters and axes take the colour of the page's text, light or dark."""
 
 import io
 import re
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY = "#2f7fc1", "#d1495b", "#4a9a5a", "#c58a1f", "#8d6cc0", "#a06a50", "#808890"
 CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d08cb0"]
-# inches
+# width of a picture, inches
 WIDTH = 10.0
-# stands for the colour of the page's text, and becomes it when a picture is written
+# placeholder for the colour of the page's text: `_svg` writes `currentColor` in its place
 INK = "#0a0b0d"
-# what artists that show data are called in the file, so that an empty picture can be told
+# beginning of the ids of artists that show data, by which tests find empty pictures
 MARK = "mark"
 
 
@@ -37,8 +37,8 @@ STYLE = {
 
 
 def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Callable[..., str]]:
-    """Makes a function that draws into an empty picture, its first argument, one that gives the picture of this name as an `svg`
-    element. Panels arrange themselves; `height` in inches."""
+    """Decorates a function that draws into its first argument, an empty picture. The decorated function makes the picture and
+    returns it as an `svg` element, whose ids begin with `name`. Panels arrange themselves; `height` in inches."""
     def decorated(draw):
         @wraps(draw)
         def written(*arguments):
@@ -55,13 +55,13 @@ def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Cal
 
 
 def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
-    """What values are divided by to be shown, and the prefix of their unit: thousands where the largest has some."""
+    """Divisor of shown values and prefix of their unit: (1000, "k") where the largest magnitude is 1000 or more, else (1, "")."""
     largest = max(float(np.max(np.abs(each), initial=0.0)) for each in values)
     return (1e3, "k") if largest >= 1e3 else (1.0, "")
 
 
 def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_height: float, held: bool = False) -> np.ndarray:
-    """Draws outputs over time, a panel for each unit; those that are `held` between communication points in steps."""
+    """Draws outputs over time, a panel for each unit; as steps if values are `held` between communication points."""
     panels = by_unit(run.scene.fmu, run.record, names)
     picture.set_figheight(panel_height * len(panels) + 0.6)
     axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -72,8 +72,8 @@ def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_h
 
 
 def _svg(picture: "Figure", name: str) -> str:
-    """The picture as an `svg` element. `name` stands before its ids, which would clash with those of other pictures."""
-    # names all that shows data; grids, axes and letters are not among it
+    """The picture as an `svg` element. Its ids begin with `name`, so that they do not clash with those of other pictures."""
+    # artists that show data; grids, axes and letters are not among them
     shown = [artist for axes in picture.get_axes() if axes.get_label() != "<colorbar>"
              for artist in (*axes.lines, *axes.collections, *axes.patches, *axes.images)]
     for number, artist in enumerate(shown, 1):
@@ -86,7 +86,7 @@ def _svg(picture: "Figure", name: str) -> str:
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text).replace("xlink:href=", "href=")
     text = re.sub(r'(<svg[^>]*?)\swidth="[^"]*"\sheight="[^"]*"', r"\1", text, count=1)
     text = re.sub(r'(?<=\bid=")|(?<=url\(#)|(?<=href="#)', f"{name}-", text)
-    # others where a machine does not have the first
+    # further fonts for machines without DejaVu Sans
     text = text.replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
     return text.replace(INK, "currentColor").strip()
 

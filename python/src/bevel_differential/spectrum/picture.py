@@ -1,5 +1,5 @@
-"""The picture of a duty cycle: damage by event, and the load spectrum of the critical mode: stresses, how often they occur, and the
-S–N curves that limit them. A `result` is a `SpectrumResult`."""
+"""The picture of a duty cycle: damage by event, and the load spectrum of the critical mode with its S–N curves. A `result` is a
+`SpectrumResult`."""
 
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from ..values import FileName
 from .slow import SnCurve
 
 MPA = 1e6
-# events that are drawn by name, if they do this part of the damage; the others are one bar
+# most events with a bar of their own, and their least part of the damage; the others share one bar
 MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 
@@ -30,7 +30,7 @@ def draw(result: Any, file: FileName) -> Path:
 
 
 def _draw_events(axes, result, colour):
-    """Bars of the critical mode, the worst event on top, and what they add up to."""
+    """Bars of the damage by event, the worst event on top, and the cumulative damage."""
     table = result.table()
     named = max(1, min(MOST_BARS, np.count_nonzero(table["share"] >= LEAST_SHARE)))
     names, shares = list(table["event"][:named]), 100.0 * table["share"][:named]
@@ -93,22 +93,22 @@ def curves(result: Any) -> tuple[SnCurve, SnCurve]:
 
 
 def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty
-    cycle; shapes (events that roll,). Of flanks it is the rated contact pressure."""
+    """Largest stress [Pa] of each event in which teeth roll, and its number of load cycles on a tooth of the critical gear in a
+    duty cycle; shapes (events that roll,). The stress is that of the root or, for flanks, the rated contact pressure."""
     rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
     if result.is_flank:
         stresses = [result.strength.pitting.strength / one.safety_flank for one in rolling]
     else:
         stresses = [one.root_stress * (result.side_ratio if result.critical else 1.0) for one in rolling]
-    # each flank of a planet has one mesh, that of a side gear one with each planet
+    # a flank of a planet meets one side gear, a flank of a side gear meets every planet
     is_side = result.critical % 2 == 1
     per_turn = result.planets * result.teeth[0] / result.teeth[1] if is_side else 1.0
     return np.array(stresses), np.array([one.event.count * one.turns * per_turn for one in rolling])
 
 
 def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Pulsating root stress [Pa] of the slow cycles at the worse fillet of the critical gear, and their counts in a duty cycle;
-    empty for flanks, which they do not damage."""
+    """Pulsating root stress [Pa] of the slow cycles at the worse fillet of the critical gear, and their counts in a duty cycle.
+    Both are empty for flanks, because slow cycles do not damage flanks."""
     if result.is_flank:
         return np.empty(0), np.empty(0)
     slow = result.slow.scaled(result.side_ratio) if result.critical else result.slow

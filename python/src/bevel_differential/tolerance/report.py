@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..extras import needed
+from ..readable import in_words
 from ..records import write
 from ..text import aligned
 from ..values import FileName
@@ -166,7 +167,7 @@ def _histogram(style, axes, plan, result, want):
             axes.axvline(variable.shown(limit.limit)[1], color=style.RED, label=f"limit {label}")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best")
-    axes.set(xlabel=f"{want}, {unit}" if unit else str(want), ylabel="differentials")
+    axes.set(xlabel=f"{in_words(want)}, {unit}" if unit else in_words(want), ylabel="differentials")
 
 
 def _bars(style, axes, result, want, with_legend):

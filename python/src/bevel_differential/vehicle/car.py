@@ -13,7 +13,7 @@ from ..points import Steps, TimeValue, span
 from ..values import DifferentialError, FileName, Number, Value, suggestion
 from .motion import Motion
 from .parts import Body, Motor, Tyre
-from .signals import Course, course
+from .signals import Course, course, speed_value
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,24 +55,25 @@ class Car:
         self._given = self._checked(differential or {})
 
     def run(self, outputs: Sequence[str] = USUAL, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
-            steer: Course = 0.0, speed: float = 0.0, controller: Controller | None = None) -> np.ndarray:
+            steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
         """Simulates from 0 to `stop` in communication steps of `step` (s, or text such as "1 ms"). Records `outputs` of the
         differential and of the parts (`UNITS`) at each, SI.
 
         `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left: each a number, a pair (times,
-        values) or a function of time. `speed`: of the car at the start, m/s. `controller(time, values)` is called before each step with
+        values) or a function of time. `speed`: of the car at the start, m/s, or text such as "54 km/h". `controller(time, values)` is called before each step with
         what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
         Returns a structured array with a field "time"."""
         stop, step = span("stop", stop), span("step", step)
         self._check_step(step)
         ask, turn = course("request", request), course("steer", steer)
         names = self._recorded(outputs)
-        motion = Motion(self.motor, self.tyres, self.body, float(speed))
+        begin = speed_value(speed)
+        motion = Motion(self.motor, self.tyres, self.body, begin)
         steps = Steps.of(stop, step, ())
         record = np.empty(len(steps.points), [("time", np.float64), *((name, np.float64) for name in names)])
         with self.fmu.open() as instance:
             run = _Run(instance, motion, [name for name in names if name not in UNITS])
-            run.start(self._start(motion, float(speed), ask(0.0)), stop)
+            run.start(self._start(motion, begin, ask(0.0)), stop)
             for row, time in enumerate(steps.points.tolist()):
                 values = run.values(turn(time))
                 record[row] = (time, *(values[name] for name in names))

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..values import DifferentialError
+from ..values import DifferentialError, split
 
 # a number, a pair (times, values) with straight lines between, or a function of time
 Course: TypeAlias = float | tuple[Sequence[float], Sequence[float]] | Callable[[float], float]
@@ -30,3 +30,19 @@ def course(name: str, given: Course) -> Callable[[float], float]:
     if not math.isfinite(value):
         raise DifferentialError(f"{name} = {given!r}: it is a finite number, a pair (times, values) or a function of time")
     return lambda _: value
+
+
+# m/s by unit
+SPEED_UNITS = {"": 1.0, "m/s": 1.0, "km/h": 1.0 / 3.6}
+
+
+def speed_value(given: float | str) -> float:
+    """A speed: m/s, or text such as "54 km/h"."""
+    number, unit = split(str(given))
+    try:
+        value = float(number) * SPEED_UNITS[unit]
+    except (KeyError, ValueError):
+        value = math.nan
+    if not math.isfinite(value):
+        raise DifferentialError(f"speed = {given!r}: it is m/s, or a number and one of m/s, km/h, such as \"54 km/h\"")
+    return value

@@ -1,4 +1,4 @@
-//! Tests of the stick element.
+//! Tests of dry friction that sticks.
 
 use super::dry_friction::*;
 use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
@@ -6,7 +6,7 @@ use super::friction_state::{FrictionState, Mode};
 
 const STIFFNESS: f64 = 1e3;
 
-/// A clutch whose limit torque is its load.
+/// A clutch with a limit torque equal to its load.
 fn clutch() -> DryFriction {
     let mut clutch = DryFriction::new(DAMPING_TIME, 0);
     clutch.push(FrictionPart { per_load: 1.0, static_ratio: 1.0, ..FrictionPart::NONE }, STIFFNESS);
@@ -20,7 +20,7 @@ fn pressed(load: f64) -> SurfaceLoad {
 #[test]
 fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
     let clutch = clutch();
-    // slides under 10 N·m: the spring holds as much
+    // sliding at a limit of 10 N·m winds the spring to 10 N·m
     let anchor = clutch.drag(0.0, 0.5, 10.0);
     assert!((STIFFNESS * (0.5 - anchor) - 10.0).abs() < 1e-9);
     // the load rises a hundredfold while the body slides by 1 mrad, which winds the spring by 1 N·m
@@ -49,7 +49,7 @@ fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
 fn a_held_body_slides_where_its_command_falls_below_its_torque() {
     let mut brake = DryFriction::commanded(DAMPING_TIME, 0);
     brake.push(FrictionPart { per_load: 1.0, ..FrictionPart::NONE }, STIFFNESS);
-    // 4 N·m are held while the command falls from 10 N·m to nothing: six tenths of the way
+    // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached at six tenths of the way
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
     for speed in [0.0, 1e-12, -1e-12] {
         let turn = Slip { position: 4.0 / STIFFNESS, speed };
@@ -57,7 +57,7 @@ fn a_held_body_slides_where_its_command_falls_below_its_torque() {
         assert!((part - 0.6).abs() < 1e-4, "{part}");
         assert!(brake.is_due(&hold, &turn, &pressed(3.9)) && !brake.is_due(&hold, &turn, &pressed(4.1)));
     }
-    // no torque holds nothing: a body that turns back goes on sliding
+    // a command of 0 N·m holds nothing: a body that reverses goes on sliding
     let mut slides = FrictionState { mode: Mode::Forward, ..hold };
     brake.settle(&mut slides, &Slip { position: 0.0, speed: -0.1 }, &pressed(0.0), 1.0, &mut [0.0]);
     assert_eq!(slides.mode, Mode::Backward);

@@ -1,8 +1,8 @@
 //! Damage and largest stresses along a step, by a quadrature over its continuous extension.
 //!
-//! Steps end where the motion lets them, and damage goes with the ninth or thirteenth power of the load. So loads are looked at
-//! in the middle and at both ends of a step, and Simpson's rule is halved where it differs from the straight line by more than
-//! [`ROUGH`] of the damage: then its own error is some 1e-5. Peaks are those of the parabolas through these loads.
+//! Step control follows the motion alone, but damage grows with the ninth or thirteenth power of the load. So loads are taken at
+//! both ends and in the middle of a step. The step is halved while Simpson's rule differs from the trapezoidal rule by more than
+//! [`ROUGH`] of the damage; the error of Simpson's rule is then some 1e-5. Peaks are those of the parabolas through these loads.
 
 use super::interval::{Three, bend, crest, mean, turn};
 use super::overload::{Overload, Stressed};
@@ -10,9 +10,10 @@ use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
 use crate::model::scene::MAX_GROUPS;
 use crate::strength::{Cycle, loaded_flank};
 
-/// Largest difference of Simpson's rule from the straight line, as a part of the damage of the step or of the run on the mean.
+/// Largest difference of Simpson's from the trapezoidal rule, as a part of the mean damage of a cycle in the step or the run.
 const ROUGH: f64 = 0.02;
-/// Largest bend of a load at a turn, as a part of the largest load: the parabola then turns within a hundredth of this.
+/// Largest second difference of a load at a turn, as a part of the largest load. The parabola then turns within a hundredth of
+/// that part.
 const BLUNT: f64 = 0.005;
 /// How often a step may be halved.
 const HALVINGS: u32 = 6;
@@ -31,33 +32,33 @@ pub struct Rolled {
 pub struct Sample {
     /// Angles.
     pub angle: Rolled,
-    /// Their rates.
+    /// Rates of the angles.
     pub rate: Rolled,
     /// Loads of the meshes, by group and side.
     pub mesh: [[MeshLoad; 2]; MAX_GROUPS],
 }
 
-/// A completed step that is to be rated.
+/// A completed step whose damage is to be counted.
 pub struct RatedStep<'a> {
-    /// Time at its begin [s].
+    /// Time at the beginning of the step [s].
     pub begin: f64,
-    /// Its size [s].
+    /// Size of the step [s].
     pub h: f64,
-    /// The part of it before which nothing is rated.
+    /// Part of the step before which nothing is counted, from 0 to 1.
     pub from: f64,
-    /// Planets of each group.
+    /// Number of planets in each group.
     pub members: &'a [f64],
-    /// Writes what it is after a part of the step.
+    /// Writes the sample at a part of the step, from 0 to 1.
     pub sample: &'a mut dyn FnMut(f64, &mut Sample),
 }
 
-/// Damage of a cycle to the root of the planet, to that of the side gear, and to the flanks.
+/// Damage of a cycle to the planet's root, the side gear's root and the flanks.
 type PerCycle = [f64; 3];
 const PLANET_ROOT: usize = 0;
 const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
-/// A sample, and what a cycle under its loads does, by group, side and flank. It is large: it is written where it stays.
+/// A sample and the damage of a cycle under its loads, by group, side and flank. It is large, so it is written in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rated {
     part: f64,
@@ -65,14 +66,14 @@ pub struct Rated {
     damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
 }
 
-/// What damage and loads are to be compared with: those of the worst tooth.
+/// Damage of a cycle and bending force of the worst tooth, as measures for differences.
 struct Scale {
     damage: PerCycle,
     bending: f64,
 }
 
 impl GearStrength {
-    /// Lets the gears roll through a step that is not rated.
+    /// Lets the gears roll through a step without counting its damage.
     pub fn roll(&self, fatigue: &mut Fatigue, from: &Rolled, to: &Rolled) {
         let Fatigue { planets, sides, .. } = fatigue;
         let pitch = self.rating.pitch;
@@ -84,8 +85,8 @@ impl GearStrength {
         }
     }
 
-    /// Counts a step that begins with `loads`, if these are known; leaves in their place what it ends with, with which the next
-    /// one may begin.
+    /// Counts the damage of a step. `loads` are those at its beginning if `are_known`; on return they are those at its end, for
+    /// the next step.
     pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, loads: &mut Rated, are_known: bool) {
         if !are_known {
             self.rate(step, step.from, loads);
@@ -106,7 +107,7 @@ impl GearStrength {
         self.count_part(fatigue, step, parts, &scale, HALVINGS);
     }
 
-    /// Writes what a cycle would do after a part of the step.
+    /// Writes the sample at `part` of the step, and the damage of a cycle under its loads.
     fn rate(&self, step: &mut RatedStep, part: f64, rated: &mut Rated) {
         rated.part = part;
         (step.sample)(part, &mut rated.sample);
@@ -123,7 +124,7 @@ impl GearStrength {
         });
     }
 
-    /// Counts an interval as a whole or by halves.
+    /// Counts the damage of an interval as a whole or by halves.
     fn count_part(
         &self,
         fatigue: &mut Fatigue,
@@ -143,7 +144,7 @@ impl GearStrength {
         }
     }
 
-    /// Whether parabolas describe what an interval does.
+    /// Whether parabolas describe the loads and the damage of an interval.
     fn is_smooth(&self, fatigue: &Fatigue, groups: usize, parts: [&Rated; 3], scale: &Scale) -> bool {
         let pitch = self.rating.pitch;
         // the part of the interval in which the teeth of a gear count, and the rates at which it turns
@@ -167,7 +168,7 @@ impl GearStrength {
         smooth
     }
 
-    /// Adds an interval.
+    /// Adds the damage of an interval, and the forces that bend standing teeth.
     fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         self.watch(fatigue, step, parts);
         let rating = &self.rating;
@@ -210,8 +211,8 @@ impl GearStrength {
         }
     }
 
-    /// Records the largest stresses by their strengths, and the first that exceed them. A planet has its idler strength while it
-    /// rolls.
+    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its idler
+    /// strength while it rolls.
     fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         let rating = &self.rating;
         let span = parts[2].part - parts[0].part;
@@ -249,12 +250,12 @@ impl GearStrength {
     }
 }
 
-/// Whether a parabola describes damage that is done at these rates, in the part `counting` of an interval, to within `least`.
+/// Whether a parabola describes the damage at these rates to within `least`, where the part `counting` of the interval counts.
 fn is_smooth(damage: Three, rates: Three, counting: f64, least: f64) -> bool {
     let rates = rates.map(f64::abs);
     let fastest = rates.into_iter().fold(0.0, f64::max);
     let done = [0, 1, 2].map(|k| damage[k] * rates[k]);
-    // of a load that changes only that counts under which the teeth roll on
+    // where a part of the interval counts, the load in that part is unknown: the damage must hardly change
     let spread = damage.into_iter().fold(0.0, f64::max) - damage.into_iter().fold(f64::INFINITY, f64::min);
     bend(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
 }

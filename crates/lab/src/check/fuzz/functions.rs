@@ -1,22 +1,22 @@
-//! Every C function of the FMU, by name. A test holds the list against what the library exports.
+//! The C functions of the FMU by name, with their weights in random calls. A test compares the list with the library's exports.
 
 macro_rules! functions {
     ($($function:ident $weight:literal)+) => {
-        /// A C function.
+        /// A C function of the FMU.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(non_camel_case_types, missing_docs)] // FMI's names
         pub enum Function { $($function),+ }
 
         impl Function {
-            /// All of them.
+            /// All functions.
             pub const ALL: &[Self] = &[$(Self::$function),+];
 
-            /// Its name.
+            /// Name of the C function.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$function => stringify!($function)),+ }
             }
 
-            /// How often it is called, relative to the others.
+            /// Relative frequency of calls to the function.
             pub fn weight(self) -> usize {
                 match self { $(Self::$function => $weight),+ }
             }
