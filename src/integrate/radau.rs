@@ -1,18 +1,18 @@
-//! Radau IIA: implicit, order 5, three stages, L-stable and stiffly accurate, its stages of order 3.
+//! Radau IIA: implicit, order 5, three stages of stage order 3, L-stable and stiffly accurate.
 //!
 //! E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.8: stages by
-//! simplified Newton iterations in transformed variables, where they separate into a real and a complex system. With
-//! Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, of the blocks γ and (α, −β; β, α), an iteration is
+//! simplified Newton iterations in transformed variables, which separate the stages into a real and a complex system. With
+//! Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, block diagonal with γ and (α, −β; β, α), an iteration is
 //!
 //!   (Λ/h − J) ΔW = T⁻¹ F(y₀ + T W) − Λ W/h.
 //!
-//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. It does not decrease with
-//! the stiffness of a motion that is damped at once; where it is too large it is evaluated again with f(y₀ + e) for f(y₀),
-//! which corrects this. The continuous extension is the collocation polynomial, of order 3.
+//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. For a stiff component the
+//! method damps the error within the step, but the estimate does not vanish. A step whose estimate is too large is therefore
+//! judged by a second estimate, with f(y₀ + e) for f(y₀). The continuous extension is the collocation polynomial, of order 3.
 //!
-//! Unlike the code RADAU5 of the same authors, no step passes anything to the next: the Jacobian is the one at the start,
-//! and stages start from the motion linearised there (by time too), which the first iteration from Z = 0 gives without an
-//! evaluation, since f(y₀) is known.
+//! Unlike in the code RADAU5 of the same authors, no step uses data of the previous step. The Jacobian is evaluated at the start
+//! of each step. The first iteration from Z = 0 gives the stages of the motion linearised there, also by time. It needs no
+//! evaluation, because f(y₀) is known.
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
@@ -25,13 +25,13 @@ pub struct Radau;
 
 /// √6.
 const ROOT: f64 = 2.449_489_742_783_178;
-/// Where the stages lie in the step.
+/// Nodes c_i of the stages, in parts of the step.
 const C: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.0];
 /// Real eigenvalue γ of A⁻¹.
 const GAMMA: f64 = 3.637_834_252_744_496;
 /// Complex eigenvalues α ± iβ of A⁻¹.
 const LAMBDA: Complex = Complex { re: 2.681_082_873_627_752_3, im: 3.050_430_199_247_410_5 };
-/// T, whose columns are the eigenvectors.
+/// T: the real eigenvector of A⁻¹, then real and imaginary part of the complex one, as columns.
 const T: [[f64; 3]; 3] = [
     [9.123_239_487_089_295e-2, -0.141_255_295_020_954_2, -3.002_919_410_514_742_4e-2],
     [0.241_717_932_707_107, 0.204_129_352_293_799_93, 0.382_942_112_757_261_9],
@@ -46,7 +46,7 @@ const INVERSE: [[f64; 3]; 3] = [
 /// e_i of the error estimate.
 const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * ROOT) / 3.0, (-13.0 + 7.0 * ROOT) / 3.0, -1.0 / 3.0];
 
-/// Largest number of iterations; where more are needed, a shorter step is cheaper.
+/// Largest number of iterations. A shorter step is cheaper than more iterations.
 const ITERATIONS: i32 = 10;
 /// Share of the tolerance allowed as iteration error, small compared with the error estimate.
 const LEFT_OVER: f64 = 0.01;
@@ -107,7 +107,7 @@ impl Method for Radau {
                 combine(&mut z[i], &T[i], 1.0, &w);
             }
 
-            // changes shrink by about the same factor each time: the remaining ones are a geometric series
+            // each change is smaller than the last by about the same factor: the remaining changes are a geometric series
             let size = norm.size(&change[0]).max(norm.size(&change[1])).max(norm.size(&change[2]));
             let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
             if !sum.is_finite() {
@@ -158,8 +158,8 @@ fn shifted<const N: usize>(from: &Point<N>, by: &Point<N>) -> Point<N> {
     to
 }
 
-/// Weights of the stages in the bends of the collocation polynomial. With w_i = (Z_i/c_i − Z_3)/(1 − c_i) of the inner
-/// stages, b₀ + c_i b₁ = w_i.
+/// Weights of the Z_i in the bends b₀ and b₁ of the collocation polynomial, from b₀ + c_i b₁ = (Z_i/c_i − Z_3)/(1 − c_i) for
+/// the first two stages.
 const BENDS: [[f64; 3]; 2] = bends();
 
 const fn bends() -> [[f64; 3]; 2] {

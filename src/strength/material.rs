@@ -10,34 +10,34 @@ use crate::numeric::pow;
 /// Strength as a function of cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SnCurve {
-    /// Strength at the knee S [Pa].
+    /// Strength S at the knee [Pa].
     pub strength: f64,
-    /// Slope k of the finite life.
+    /// Slope k for stresses above the knee.
     pub slope: f64,
-    /// Cycles at the knee N_ref.
+    /// Number of cycles N_ref at the knee.
     pub reference_cycles: f64,
-    /// Cycles below which the standard holds the strength constant.
+    /// Number of cycles N_static at the low-cycle end; at fewer cycles the strength of the standard is constant.
     pub static_cycles: f64,
-    /// Slope below the knee: the same is Miner's rule in its elementary form, `None` an endurance limit.
+    /// Slope for stresses below the knee. The slope k gives Miner's rule in its elementary form, `None` an endurance limit.
     pub endurance_slope: Option<f64>,
 }
 
 impl SnCurve {
-    /// Curve through `strength` [Pa] at `reference_cycles` and `life_factor` times it at `static_cycles`; below the knee
-    /// it continues with the same slope, which is conservative.
+    /// Curve through `strength` [Pa] at `reference_cycles` and through `life_factor` × `strength` at `static_cycles`. Below
+    /// the knee the slope continues, on the safe side.
     pub fn through(strength: f64, reference_cycles: f64, life_factor: f64, static_cycles: f64) -> Self {
         let slope = libm::log(reference_cycles / static_cycles) / libm::log(life_factor);
         Self { strength, slope, reference_cycles, static_cycles, endurance_slope: Some(slope) }
     }
 
-    /// The same with the strength multiplied by `factor` (idler factor, safety, reliability).
+    /// The curve with its strength multiplied by `factor` (idler factor, safety, reliability).
     pub fn weakened(self, factor: f64) -> Self {
         Self { strength: self.strength * factor, ..self }
     }
 
     /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
     ///
-    /// Above the static strength the standard states no life; the slope is continued, so that sums stay smooth.
+    /// Above the static strength the standard states no life. The slope continues there, so that damage sums stay smooth.
     pub fn damage_per_cycle(&self, stress: f64) -> f64 {
         let ratio = stress / self.strength;
         if ratio.is_nan() || ratio <= 0.0 {
@@ -58,7 +58,7 @@ pub struct Material {
     pub bending: SnCurve,
     /// Pitting of the flanks.
     pub pitting: SnCurve,
-    /// Idler factor Y_M: strength of roots that are bent both ways.
+    /// Idler factor Y_M: the part of the bending strength left to roots under reversed bending.
     pub idler_factor: f64,
 }
 
@@ -75,12 +75,12 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Bending of a gear whose teeth are loaded on alternate flanks.
+    /// Bending strength of teeth loaded on alternate flanks.
     pub fn idler_bending(&self) -> SnCurve {
         self.bending.weakened(self.idler_factor)
     }
 
-    /// Sensitivity to mean stress that agrees with the idler factor: Y_M = (1 + M)/2 for purely alternating load
+    /// Mean stress sensitivity M that agrees with the idler factor: Y_M = (1 + M)/2 for purely alternating load
     /// (ISO 6336-3, annex B, with the stress ratio −1).
     pub fn mean_stress_sensitivity(&self) -> f64 {
         (2.0 * self.idler_factor - 1.0).clamp(0.0, 1.0)

@@ -1,9 +1,9 @@
-//! Variables that were added later. Their value references come after all others, so that those of the others stay what they
-//! were: hosts store them.
+//! Variables added after the first version. Their value references come after those of all other variables. So no value reference
+//! ever changes, because hosts store value references.
 
 use super::Variable;
 
-/// Their names, in the order of their value references. New ones go to the end.
+/// Names of the added variables, in the order of their value references. A new name goes to the end.
 const ADDED: &[&str] = &[
     "geometry.planet_mass",
     "geometry.side_mass",
@@ -58,7 +58,7 @@ const ADDED: &[&str] = &[
     "right.wheel_speed",
 ];
 
-/// Puts the later additions behind all other rows, in their order. Returns where each row went.
+/// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.
 pub fn put_last(rows: &mut Vec<Variable>) -> Vec<usize> {
     let place = |i: usize| ADDED.iter().position(|&name| name == rows[i].name);
     let mut order: Vec<usize> = (0..rows.len()).filter(|&i| place(i).is_none()).collect();

@@ -1,16 +1,16 @@
-"""What facets make wrong: a record compared with that of teeth on the path of contact.
+"""Errors caused by facets: a record of faceted teeth compared with a record of exact teeth.
 
-On the path of contact, away from tip corners, involutes turn each other evenly: speed and force stand still, and what
-moves there is of the facets alone. Where a tip corner takes load over, the teeth themselves move, and facets
-change when and how. So differences are counted together and in both parts.
+On the path of contact, away from tip corners, exact involutes transmit motion evenly. Speed and force are constant, so all
+variation there comes from the facets. Where a tip corner takes over the load, exact teeth vary too, and facets change the
+instant and the course of the hand-over. So errors are counted over the whole record, on the path, and at the corners.
 
 Records are dicts of arrays, of shape (points,) or (points, 2): left and right side gear."""
 
 import numpy as np
 
-# speeds nearer than this to Willis' equation are those of a contact on the path alone [deg/s]
+# a smaller deviation of the speed from Willis' equation means contact on the path alone [deg/s]
 EVEN = 1e-3
-# quantities whose error is reported: unit, and the order in 1/facets that is expected
+# reported errors, by quantity: unit, and expected order in 1/facets
 QUANTITIES = {
     "speed_max": ("deg/s", 1), "speed_rms": ("deg/s", 1), "speed_path_rms": ("deg/s", 1), "speed_corner_rms": ("deg/s", 1),
     "force_mean": ("N", 2), "force_peak": ("N", 1), "force_max": ("N", 1), "force_rms": ("N", 1), "force_path_ripple": ("N", 1),
@@ -24,8 +24,9 @@ def rms(values):
 
 
 def on_path(exact, side, willis):
-    """Stretches (places of points) in which exact teeth run evenly at the speeds `willis`: the middle half of each, as what happens
-    at a corner reaches some way onto the path where contact is spread over a patch."""
+    """Indices of the points at which exact teeth run evenly at the speeds `willis`, one array for each stretch of the path.
+
+    Only the middle half of a stretch counts, because a patch carries the effect of a corner some way onto the path."""
     even = np.flatnonzero(np.abs(exact["speed"][:, side] - willis[side]) < EVEN)
     pairs = exact["pairs"][even, side]
     stretches = np.split(even, np.flatnonzero((np.diff(even) > 1) | (np.diff(pairs) != 0)) + 1)
@@ -37,7 +38,9 @@ def on_path(exact, side, willis):
 
 
 def errors(points, exact, close, willis):
-    """Errors of a record against that of exact teeth at the same times, by quantity; from `close` on it is a close one."""
+    """Errors of a record against that of exact teeth at the same times, by quantity.
+
+    Figures of the last mesh cycle are taken from the time `close` on [s]."""
     here, there = look(points, close), look(exact, close)
     apart = {name: (points[name] - exact[name])[points["communicates"]] for name in ("speed", "force", "error")}
     even = np.zeros(exact["speed"].shape, bool)
@@ -55,7 +58,7 @@ def errors(points, exact, close, willis):
 
 
 def look(points, close):
-    """What the close part of a record shows of the left side gear: forces [N] and mean deflection [m]."""
+    """Figures of the left side gear after the time `close` [s]: forces [N] and mean deflection [m]."""
     own = points["time"] > close
     force, tangential = points["force"][own, 0], points["tangential"][own, 0]
     return {"mean": float(np.mean(force)), "peak": float(force.max()), "ripple": float(np.ptp(force)),
@@ -63,8 +66,8 @@ def look(points, close):
 
 
 def path_ripple(points, exact, close, willis):
-    """What facets alone make of the left side gear's force: its greatest distance from the mean of the stretch on the path of
-    contact, where the force of exact teeth stands still [N]."""
+    """Ripple of the left side gear's force by facets alone [N]: the largest distance of the force from its mean over a stretch
+    on the path of contact. The force of exact teeth is constant there."""
     worst = 0.0
     for stretch in on_path(exact, 0, willis):
         forces = points["force"][stretch[exact["time"][stretch] > close], 0]

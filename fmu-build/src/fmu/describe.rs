@@ -46,7 +46,7 @@ impl DescribeCommand {
     }
 }
 
-/// What is out of date: the description in `file`, or the list of effects in a document.
+/// The first file that is out of date: the model description in `file`, or a document with a list of effects.
 pub fn stale_document(file: &Path) -> Result<Option<String>> {
     if fs::read_to_string(file).ok() != Some(model_description()?) {
         return Ok(Some(paths::shown(file).to_string()));
@@ -54,21 +54,21 @@ pub fn stale_document(file: &Path) -> Result<Option<String>> {
     Ok(effect_list::stale()?.map(str::to_owned))
 }
 
-/// How variables with named choices are described. FMI sets both by fmi2SetInteger.
+/// How the model description declares variables with named choices. Hosts set either kind by fmi2SetInteger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choices {
     /// As enumerations.
     Enumerations,
-    /// As integers whose descriptions name the choices, for hosts without enumerations.
+    /// As integers, for hosts without enumerations. The description of a variable names its choices.
     Integers,
 }
 
-/// The model description that hosts get unless they need [`Choices::Integers`].
+/// The model description with enumerations, that of the packaged FMU.
 pub fn model_description() -> Result<String> {
     described(Choices::Enumerations)
 }
 
-/// The model description as a text.
+/// The model description as XML, with named choices declared as `choices` says.
 pub fn described(choices: Choices) -> Result<String> {
     let table = table();
     let variables = table.rows.iter().enumerate();
@@ -119,7 +119,7 @@ pub fn write(file: &Path) -> Result<()> {
     fs::write(file, model_description()?).with_context(|| format!("{} cannot be written", file.display()))
 }
 
-/// What the FMU can do as one of both kinds, with its `own` attributes.
+/// Element for co-simulation or model exchange: the attributes that only this kind has, then those of both kinds.
 fn kind_of_fmu(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
     own(Element::new(name).with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false))
         .with("canBeInstantiatedOnlyOncePerProcess", false)
@@ -173,7 +173,7 @@ fn enumeration(kind: &EnumType) -> Element {
     Element::new("SimpleType").with("name", kind.name).child(Element::new("Enumeration").children(items))
 }
 
-/// FMI's word.
+/// Causality as FMI spells it.
 pub(super) fn causality(row: &Variable) -> &'static str {
     match row.causality {
         Causality::Parameter => "parameter",
@@ -184,7 +184,7 @@ pub(super) fn causality(row: &Variable) -> &'static str {
     }
 }
 
-/// FMI's word.
+/// Variability as FMI spells it.
 pub(super) fn variability(row: &Variable) -> &'static str {
     match row.variability {
         Variability::Fixed => "fixed",
@@ -209,7 +209,7 @@ fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Elemen
         .child(variable_type(row, is_velocity(reference), choices))
 }
 
-/// The description; of choices that are integers with what each number stands for.
+/// Description of a variable. Where its choices are integers, the description names the choice of each number.
 fn description(row: &Variable, choices: Choices) -> String {
     match enumeration_of(row) {
         Some(kind) if choices == Choices::Integers => {
@@ -220,7 +220,7 @@ fn description(row: &Variable, choices: Choices) -> String {
     }
 }
 
-/// Whether it is a state that commands of speeds may set at events.
+/// Whether the variable is a velocity state. Imposed speeds may set these states at events.
 fn is_velocity(reference: usize) -> bool {
     let states = &table().states;
     states[states.len() / 2..].contains(&reference)
@@ -252,7 +252,7 @@ fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
     }
 }
 
-/// Outputs and rates of states with what they depend on at an instant, and what has to be computed at the start.
+/// The model structure: outputs and state derivatives with their direct dependencies, and the initial unknowns.
 fn structure(table: &Table) -> Element {
     let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
     let outputs = table.outputs.iter().map(|&index| {
@@ -272,7 +272,7 @@ fn structure(table: &Table) -> Element {
         known.sort_unstable();
         Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
     });
-    // at the start everything may depend on everything, which is what no list means
+    // without a list of dependencies an initial unknown depends on all knowns (FMI 2.0.4, 2.2.8)
     let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
     let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
     let mut initial: Vec<usize> = calculated.chain(others).collect();
@@ -285,7 +285,7 @@ fn structure(table: &Table) -> Element {
         .child(Element::new("InitialUnknowns").children(initial))
 }
 
-/// A number such that reading it gives the same bits again.
+/// The shortest decimal number that reads back to the same bits.
 fn number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -149,11 +149,11 @@ class Scene(Runner):
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         Scene.__init__(self, **state)
 
-    def _record(self, outputs=None, values=None, stop=None):
-        """`run` without Python warnings."""
+    def _record(self, outputs=None, values=None, stop=None, step=None):
+        """`run` without Python warnings; by steps of `step` in place of the scene's, s."""
         self.check_settable(values or ())
         stop = self.stop if stop is None else span("stop", stop)
-        steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
+        steps = Steps.of(stop, step or self.step, self._signals.jumps, exact=True)
         return self._simulate(steps, self._signals, self._named(outputs), values)
 
     def _final(self, outputs=None, values=None):

@@ -1,43 +1,44 @@
-//! How pairs of teeth move each other while their gears turn.
+//! Couplings of tooth pairs by the elastic bodies of their gears, while the gears turn.
 //!
-//! Bodies are linear and the same at every tooth: a load at s and one at s′ move each other by a coupling t that follows from s, s′
-//! and the difference of their teeth's numbers. Teeth of one gear keep their distance, so that places go together: with the
-//! same flank of the same mesh s − s′ is a constant, and so it is with unlike flanks of a planet's two meshes; with unlike flanks of
-//! one mesh, and like flanks of both meshes, s + s′ is. So each coupling is a smooth function of one variable,
-//! u = (s ± s′)/2, and is kept as a polynomial.
+//! The bodies are linear elastic and the same at every tooth. A unit load on the pair at place s moves the pair at place s′ by the
+//! coupling t, and conversely. The coupling follows from s, s′ and the difference of the tooth numbers. Teeth of one gear keep
+//! their distance. So s − s′ is constant on the same flank of one mesh and on unlike flanks of a planet's two meshes, and s + s′ is
+//! constant on unlike flanks of one mesh and on like flanks of a planet's two meshes. Each coupling is therefore a smooth function
+//! of one variable, u = (s + s′)/2 or (s − s′)/2, and is kept as a polynomial.
 
 use super::mesh::{LoadedTooth, MeshOnBodies};
 use super::polynomial::Polynomial;
 use crate::contact::Flank;
 
-/// Pairs that may pull at another at once.
+/// Largest number of pairs that pull at one pair at once.
 const PULLING: f64 = 3.0;
-/// Largest pull: a pair gives way less to another load than to the one that acts there.
+/// Largest pull. It is below 1, because a pair yields less to a load on another pair than to its own.
 const MOST_PULL: f64 = 0.9;
-/// Base pitches past the ends of the path to which couplings are followed.
+/// Distance past the ends of the path beyond which couplings are constant [base pitches].
 const PAST: f64 = 0.25;
-/// Neighbours on one flank that are told apart: pairs touch beyond both ends of the path, where many small teeth stand on bodies
-/// that give way. A coupling left out among them would make the compliance of all indefinite, so that nothing balances loads.
+/// Number of next pairs on the same flank with a coupling of their own. Many small teeth on elastic bodies also touch past both
+/// ends of the path. Without the couplings among these pairs the common compliance would be indefinite, without an equilibrium.
 const NEIGHBOURS: i64 = 16;
-/// Largest sum of numbers of two pairs on unlike flanks of a mesh.
+/// Largest magnitude of the sum of the pair numbers on unlike flanks of a mesh.
 const FACING: i64 = 16;
-/// Places at which couplings are searched for their least.
+/// Places on each side of the middle at which the least value of a coupling is searched.
 const PLACES: i32 = 8;
 
-/// The bodies of a planet and of its side gears.
+/// Couplings by the elastic bodies of a planet and its side gears.
 #[derive(Clone, Debug)]
 pub struct SharedBodies {
-    /// On one flank of a mesh, by how many pairs further up the path.
+    /// On the same flank of a mesh, by the difference of the pair numbers less 1.
     within: Vec<Polynomial>,
-    /// On unlike flanks of a mesh, by the sum of their numbers.
+    /// On unlike flanks of a mesh, by the sum of the pair numbers plus `FACING`.
     facing: Vec<Polynomial>,
-    /// Between a planet's meshes, by flanks on the left and right and by the difference of the planet's teeth.
+    /// Between a planet's two meshes, by the flanks on the left and right and by the difference of the planet's tooth numbers.
     across: [Vec<Polynomial>; 4],
-    /// Bound of how far loads pull a pair together, over the approach of the flanks that carry them.
+    /// Bounds of the approach that loads on other pairs add to a pair.
     pub pull: Pull,
 }
 
-/// Bounds of −t over the least compliance of a pair alone, times the pairs that may pull at once.
+/// Bounds of the approach that loads on other pairs add to a pair, over the approach of the flanks that carry these loads. Each is
+/// −t over the least compliance of a single pair, times the number of pairs that pull at once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pull {
     /// By pairs on the same flank.
@@ -49,8 +50,8 @@ pub struct Pull {
 }
 
 impl Pull {
-    /// How far others may pull a pair of `flank` (0 drive, 1 coast) of the mesh `side` together, where flanks approach by
-    /// `depth`, by side and flank [rad].
+    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth` is the
+    /// approach of the flanks by side and flank [rad].
     #[inline(always)]
     pub fn margin(&self, depth: &[[f64; 2]; 2], side: usize, flank: usize) -> f64 {
         let [own, other] = [side, 1 - side].map(|side| depth[side].map(|depth| depth.clamp(0.0, 1.0)));
@@ -61,7 +62,7 @@ impl Pull {
     }
 }
 
-/// A loaded pair, as the bodies see it.
+/// A loaded pair: the data that its couplings depend on.
 #[derive(Clone, Copy, Debug)]
 pub struct Standing {
     /// Left (0) or right (1) side gear.
@@ -70,7 +71,7 @@ pub struct Standing {
     pub flank: Flank,
     /// Number of the pair along the path.
     pub number: i64,
-    /// Number of the planet's tooth, of the unrolled sequence.
+    /// Number of the planet's tooth, counted on over whole turns.
     pub tooth: i64,
     /// Place on the path [rad].
     pub s: f64,
@@ -81,14 +82,15 @@ pub struct Standing {
 pub struct Coupling {
     /// t [1/Pa].
     pub value: f64,
-    /// ∂t/∂s and ∂t/∂s′, of t as a function of u: their sum along the motion of the gears is what counts.
+    /// ∂t/∂s and ∂t/∂s′ of t as a function of u. They are right together, for the motion of the gears, not one by one.
     pub by: [f64; 2],
     /// ∂²t/∂s², ∂²t/∂s∂s′, ∂²t/∂s′².
     pub twice: [f64; 3],
 }
 
-/// t of u about `middle` [rad], where both places, those of u in `places`, are within `reach`; of the ends of it where they never
-/// are.
+/// The coupling `t` as a polynomial of u about `middle` [rad]. `places` gives both places at u, and `apart` is by how much the range
+/// of u is shorter than the range from `low` to `high`, so that both places lie there. Without such a range the polynomial is
+/// constant, with the places at `middle` limited to `low` and `high`.
 fn on(
     [low, high]: [f64; 2],
     (middle, apart): (f64, f64),
@@ -104,18 +106,18 @@ fn on(
 }
 
 impl SharedBodies {
-    /// The bodies of `mesh`, the path of whose pairs is `path` [rad], of which both teeth are beams within `beams`; `centred` is the place of a pair whose tooth stands in the
-    /// middle of its gap, `pitch` the base pitch [rad].
+    /// The couplings of `mesh`. `path` is the path of contact [rad], and `beams` the part of it on which both teeth are beams [rad].
+    /// `centred` is the place of a pair whose tooth stands in the middle of its gap, `pitch` the base pitch [rad].
     pub fn new(mesh: &MeshOnBodies, [path, beams]: [[f64; 2]; 2], (centred, pitch): (f64, f64)) -> Self {
         let reach = [path[0] - PAST * pitch, path[1] + PAST * pitch];
         let middle = 0.5 * (reach[0] + reach[1]);
-        // the angle of a load goes on past the beams as on them
+        // the angle of a load follows the same formula where a tooth is no longer a beam
         let tooth = |side, flank, s| LoadedTooth { side, flank, s };
-        // places go together
+        // s − s′ = apart, both places move in the same direction
         let with = |apart: f64, t: &dyn Fn([f64; 2]) -> f64| {
             on(reach, (middle, apart), |u| [u + 0.5 * apart, u - 0.5 * apart], t)
         };
-        // places go against each other
+        // s + s′ = sum, both places move in opposite directions
         let against = |sum: f64, t: &dyn Fn([f64; 2]) -> f64| {
             on(reach, (0.0, sum - 2.0 * middle), |u| [0.5 * sum + u, 0.5 * sum - u], t)
         };
@@ -152,10 +154,10 @@ impl SharedBodies {
         let mut bodies = Self { within, facing, across, pull: Pull::default() };
         let least = mesh.least_alone(beams);
         let pull = |all: &[Polynomial]| {
-            // of pairs that can both be on the path; others are as far apart only under loads that press many more
+            // only couplings of pairs that can both be on the path; pairs further apart touch only where many more pairs touch
             let most = all.iter().filter(|t| t.varies()).map(Polynomial::least).fold(0.0, f64::min);
             let pull = -PULLING * most / least;
-            // the loads may grow by the same pull
+            // the loads that pull may themselves grow by the pull
             if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
         };
         bodies.pull = Pull {
@@ -166,7 +168,7 @@ impl SharedBodies {
         bodies
     }
 
-    /// How `a` and `b` move each other; second derivatives where `TWICE`.
+    /// The coupling of `a` and `b`, with second derivatives if `TWICE`.
     #[inline(always)]
     pub fn coupling<const TWICE: bool>(&self, a: &Standing, b: &Standing) -> Coupling {
         let alike = a.flank == b.flank;
@@ -174,7 +176,7 @@ impl SharedBodies {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };
             let all =
                 &self.across[2 * usize::from(left.flank == Flank::Coast) + usize::from(right.flank == Flank::Coast)];
-            // a remainder of a few turns
+            // the difference without whole turns of the planet
             let mut difference = left.tooth.wrapping_sub(right.tooth);
             if difference as u64 >= all.len() as u64 {
                 difference = difference.rem_euclid(all.len() as i64);
@@ -186,7 +188,7 @@ impl SharedBodies {
             (self.facing.get(a.number.wrapping_add(b.number).wrapping_add(FACING) as usize), false)
         };
         let Some(polynomial) = polynomial else { return Coupling::default() };
-        // against each other, u is counted from the left mesh, or from the drive flank
+        // with u = (s − s′)/2, s is the place on the left mesh, or on the drive flank
         let turned = !with && if alike { a.side == 1 } else { a.flank == Flank::Coast };
         let [own, other] = if with {
             [0.5, 0.5]
@@ -201,13 +203,13 @@ impl SharedBodies {
     }
 }
 
-/// Flanks on the left and right of number 0 to 3.
+/// Flanks on the left and right, by their index in `across`.
 fn flanks_of(number: usize) -> [Flank; 2] {
     [number / 2, number % 2].map(|coast| if coast == 1 { Flank::Coast } else { Flank::Drive })
 }
 
 impl Polynomial {
-    /// The least of some values.
+    /// The least value at evenly spaced places.
     fn least(&self) -> f64 {
         (-PLACES..=PLACES).map(|j| self.at_share(f64::from(j) / f64::from(PLACES))).fold(f64::INFINITY, f64::min)
     }

@@ -6,12 +6,12 @@
 //!   cumulative pitch  F_pT  = (0.025 d_T + 0.3 m_mn + 19) (√2)^(B−4)
 //!   runout            F_rT  = 0.8 F_pT
 //!
-//! d_T is the diameter of the gear where the mean cone distance and the middle of the working depth meet.
+//! d_T is the diameter of the gear at the mean cone distance in the middle of the working depth.
 //!
-//! The teeth's positions are drawn independently of each other and scaled until the largest difference of neighbours,
-//! the single pitch deviation, is f_ptT: a gear of just that grade. Positions have zero mean, and their differences
-//! close over the revolution. Slow variation over the revolution belongs to `runout`.
-//! An error of position is a rotation of the flank about the gear's axis: the normal distance that it opens grows with R.
+//! The positions of the teeth are drawn independently. They are scaled until the largest difference of neighbours, the
+//! single pitch deviation, is f_ptT: the gear just meets its grade. Positions have zero mean, and pitch deviations add up
+//! to zero over the revolution. Slow variation over the revolution belongs to `runout`.
+//! An error of position is a rotation of the flank about the gear's axis, so the normal gap grows with R.
 
 use super::{GearTeeth, MeshId, PairId, Random};
 use crate::contact::Flank;
@@ -30,7 +30,7 @@ pub struct Tolerances {
     pub runout: f64,
 }
 
-/// Largest number of draws of a flank's positions until one also meets F_pT; few draws fail.
+/// Largest number of draws of a flank's positions. A draw beyond F_pT is repeated; few are.
 const DRAWS: usize = 32;
 
 impl Tolerances {
@@ -47,7 +47,7 @@ impl Tolerances {
         Self::iso_17485(grade, tolerance_diameter(pair, i), mean_module(pair))
     }
 
-    /// Whether gear `i` of `pair` lies in the ranges for which the standard gives its formulas.
+    /// Whether gear `i` of `pair` lies in the ranges of the standard's formulas.
     pub fn are_valid(pair: &Pair, i: usize) -> bool {
         (1e-3..=50e-3).contains(&mean_module(pair))
             && (5e-3..=2.5).contains(&tolerance_diameter(pair, i))
@@ -67,7 +67,7 @@ pub fn tolerance_diameter(pair: &Pair, i: usize) -> f64 {
     at_mean * (pair.outer_pitch_diameter(i) + (own.addendum - mate.addendum) * cos(own.pitch))
 }
 
-/// Positions of the teeth of one flank [m]: zero mean, and the largest difference of neighbours as tolerated.
+/// Random positions of the teeth of one flank [m]: zero mean, and the largest difference of neighbours equal to f_ptT.
 pub fn positions(teeth: usize, tolerances: &Tolerances, random: &mut Random) -> Box<[f64]> {
     let mut drawn = vec![0.0; teeth];
     let mut scale = 0.0;
@@ -103,23 +103,23 @@ pub fn range(positions: &[f64]) -> f64 {
 /// Deviations of all flanks of a differential.
 #[derive(Clone, Debug)]
 pub struct PitchDeviations {
-    /// Side gears, then planets; of each the flanks that face the direction in which teeth are counted, and the others.
-    /// Positions in that direction, along the line of action at R_m [m].
+    /// Positions along the line of action at R_m [m], positive in the direction of the tooth count. Side gears, then planets;
+    /// of each gear the flanks that face in the direction of the tooth count, then the others.
     gears: Box<[[Box<[f64]>; 2]]>,
-    /// What every flank misses [m]: by gear, by the way it faces, by tooth.
+    /// Missing material of every flank [m]: by gear, by facing direction, by tooth.
     missing: Box<[f64]>,
-    /// The most teeth of a gear.
+    /// Largest number of teeth of a gear: the length of a row of `missing`.
     most: usize,
 }
 
 impl PitchDeviations {
-    /// Gears of accuracy grade `grade`, if that is not 0, with deviations drawn from `seed`.
+    /// Deviations of gears of accuracy grade `grade`, drawn from `seed`; none for grade 0.
     pub fn new(grade: i32, seed: i32, pair: &Pair, planets: usize) -> Option<Self> {
         (grade != 0).then(|| {
             let gear = |number: usize| {
                 let i = usize::from(number < 2);
                 let tolerances = Tolerances::of_gear(grade, pair, i);
-                // a rotation moves the tolerance circle by d_T/2, the line of action by R_m sinδ_b
+                // per radian the tolerance circle moves by d_T/2, the line of action by R_m sinδ_b
                 let along_action = 2.0 * pair.mean_cone * pair.sin_base()[i] / tolerance_diameter(pair, i);
                 [1, 2].map(|stream| {
                     let mut random = Random::new(seed, number, stream);
@@ -145,12 +145,13 @@ impl PitchDeviations {
         Self { gears, missing: missing.into(), most }
     }
 
-    /// Positions of the flanks of gear `number`, in range, as in [`GearTeeth`].
+    /// Positions of the flanks of gear `number`, as in [`GearTeeth`]. `number` must be in range.
     pub fn of(&self, number: usize) -> [Vec<f64>; 2] {
         self.gears[number].clone().map(Vec::from)
     }
 
-    /// Takes the positions of `gears`, as many as there are, or says why they cannot be taken.
+    /// Replaces the positions by those of `gears`, one entry per gear. Refuses a wrong number of teeth and values that are not
+    /// finite.
     pub fn replace(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         for (own, given) in self.gears.iter_mut().zip(gears) {
             for (own, given) in own.iter_mut().zip(&given.positions) {
@@ -165,7 +166,7 @@ impl PitchDeviations {
         Ok(())
     }
 
-    /// Most excess material of a pair at R_m [m].
+    /// Upper bound of the excess material of a pair at R_m [m].
     pub fn most_excess(&self) -> f64 {
         let most = |gears: &[[Box<[f64]>; 2]]| {
             gears.iter().flatten().flatten().fold(0.0f64, |most, position| most.max(position.abs()))
@@ -174,11 +175,11 @@ impl PitchDeviations {
         most(sides) + most(planets)
     }
 
-    /// Gap [m] at R_m of a pair, its indices in range.
+    /// Gap of a pair at R_m [m]. The indices of mesh and pair must be in range.
     #[inline(always)]
     pub fn gap(&self, mesh: MeshId, pair: PairId) -> f64 {
-        // the drive flank of a planet faces along t: with the count of its teeth at the left mesh, against it at the
-        // right one; that of a side gear faces against t, and so against the count of its teeth
+        // a planet's drive flank faces along t: in the direction of the planet's tooth count at the left mesh, against it at
+        // the right one; a side gear's drive flank faces against t, and so against the side gear's tooth count
         let planet_forward = (pair.flank == Flank::Drive) == (mesh.side == 0);
         let side_forward = pair.flank == Flank::Coast;
         let missing = |gear: usize, forward: bool, tooth: usize| {
@@ -199,7 +200,7 @@ mod tests {
         assert!((t.single_pitch - 6.8e-6).abs() < 1e-18);
         assert!((t.cumulative_pitch - 23e-6).abs() < 1e-18);
         assert!((t.runout - 18.4e-6).abs() < 1e-18);
-        // two grades double them
+        // every two grades double the tolerances
         let t = Tolerances::iso_17485(8, 0.1, 5e-3);
         assert!((t.single_pitch - 27.2e-6).abs() < 1e-17);
     }
@@ -263,7 +264,7 @@ mod tests {
         (all.gears[3][0][3], all.gears[3][1][3]) = (1e-6, 1e-6);
         let all = PitchDeviations::of_gears(all.gears);
         let gap = |side, flank| all.gap(MeshId { planet: 1, side }, PairId { planet_tooth: 3, side_tooth: 0, flank });
-        // spin carries it along t at the left mesh: it is early at driving there, and late at the right mesh
+        // spin carries the tooth along t at the left mesh: the drive flank is early there, and late at the right mesh
         assert_eq!([gap(0, Flank::Drive), gap(0, Flank::Coast)], [-1e-6, 1e-6]);
         assert_eq!([gap(1, Flank::Drive), gap(1, Flank::Coast)], [1e-6, -1e-6]);
     }

@@ -1,15 +1,17 @@
-//! Runout: the teeth of a gear stand eccentric to the axis it turns about.
+//! Runout: the teeth of a gear are eccentric to its axis of rotation.
 //!
-//! Radial runout F_r, the peak-to-peak reading of a probe across the axis over one revolution, is twice the
-//! eccentricity ε (so ISO/TR 10064-2 on the runout of an eccentric gear). The teeth are displaced by ε along a direction
-//! ê ⟂ a that turns with the gear, and as with any displacement e = −T·ε ê for the planet, +T·ε ê for the side gear:
+//! The radial runout F_r is the peak-to-peak reading of a radial probe over one revolution. It is twice the eccentricity ε
+//! (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂ a, fixed to the
+//! gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
 //!
 //!   e = ∓ε (cosβ T·u + sinβ T·t)
 //!
-//! (v instead of u for the side gear) with β the azimuth of ê from the plane of the axes: one period per revolution of
-//! amplitude ε √(1 − (T·a)²) on both flanks, at phases as far apart as their normals. For tooth j in contact at s the gear's position is known: the
-//! tooth's centre stands at ±(s/sinδ_bp − γ_p) on the planet, at ±(s/sinδ_bs + γ_s) on the side gear (+ drive,
-//! − coast), and ê at a fixed angle from it. Two pairs in contact at once thus see nearly the same e, as they must.
+//! with v instead of u for the side gear, and the azimuth β of ê from the plane of the axes. The gap has one period per
+//! revolution and the amplitude ε √(1 − (T·a)²) on both flanks. The flanks differ in phase as their normals do.
+//!
+//! The place of contact s of a tooth gives the position of its gear. The centre of the tooth is at the azimuth
+//! ±(s/sinδ_bp − γ_p) on the planet and ±(s/sinδ_bs + γ_s) on the side gear (+ drive, − coast), and ê is at a fixed angle
+//! from the tooth. Two pairs in contact at once thus have nearly the same e, as a displacement of the whole gear demands.
 
 use super::normals::push;
 use super::{GearTeeth, MeshId, Normal, PairId, Random};
@@ -22,7 +24,7 @@ use crate::problem::Problem;
 pub struct Runout {
     /// Eccentricity of planets and side gears [m].
     eccentricity: [f64; 2],
-    /// Azimuths of ê on each planet and on both side gears, in the direction in which teeth are counted [rad].
+    /// Azimuths of ê from tooth 0 on planets and side gears, positive in the direction of the tooth count [rad].
     direction: [Box<[f64]>; 2],
     pitch: [f64; 2],
     half_tooth: [f64; 2],
@@ -30,7 +32,8 @@ pub struct Runout {
 }
 
 impl Runout {
-    /// Gears with runout `runout` of planets and side gears [m], peak to peak, if any; phases are drawn from `seed`.
+    /// Gears with the peak-to-peak runouts `runout` of planets and side gears [m], with phases drawn from `seed`. None if both
+    /// runouts are 0.
     pub fn new(runout: [f64; 2], seed: i32, pair: &Pair, planets: usize) -> Option<Self> {
         (runout != [0.0; 2]).then(|| {
             let phase = |gear: usize| TAU * Random::new(seed, gear, 0).unit();
@@ -44,23 +47,23 @@ impl Runout {
         })
     }
 
-    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, in range, and the azimuth of ê from tooth
-    /// 0 in the direction in which teeth are counted [rad].
+    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, and the azimuth of ê from tooth 0 in the
+    /// direction of the tooth count [rad]. `index` must be in range.
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         [self.eccentricity[gear], self.direction[gear][index]]
     }
 
-    /// Most excess material of a pair [m].
+    /// Upper bound of the excess material of a pair [m].
     pub fn most_excess(&self) -> f64 {
         self.eccentricity[0].abs() + self.eccentricity[1].abs()
     }
 
-    /// Azimuth of ê on gear `number`, in range: side gears left and right, then planets.
+    /// Azimuth of ê on gear `number`: side gears left and right, then planets. `number` must be in range.
     pub fn azimuth(&self, number: usize) -> f64 {
         if number < 2 { self.direction[1][number] } else { self.direction[0][number - 2] }
     }
 
-    /// Takes the azimuths of `gears`, as many as there are.
+    /// Replaces the azimuths by those of `gears`, one entry per gear. Refuses values that are not finite.
     pub fn turn(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         let [planets, sides] = &mut self.direction;
         for (azimuth, gear) in sides.iter_mut().chain(planets.iter_mut()).zip(gears) {
@@ -72,10 +75,10 @@ impl Runout {
         Ok(())
     }
 
-    /// Gap [m] of a pair, its indices in range, at `s` where the normal is `n`.
+    /// Gap of a pair [m] at the place `s` with the normal `n`. The indices of mesh and pair must be in range.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId, s: Jet, n: &Normal) -> Jet {
-        // planet teeth are counted with the spin, which runs along t at the left mesh and against it at the right one
+        // planet teeth are counted in the direction of spin: along t at the left mesh, against t at the right one
         let sense = if mesh.side == 0 { 1.0 } else { -1.0 };
         let from_tooth =
             |gear: usize, index: usize, tooth: usize| self.direction[gear][index] - self.pitch[gear] * tooth as f64;

@@ -1,4 +1,4 @@
-//! Where the formulas of beams hold: the part of the path, and of a tip corner's way, on which both teeth are beams.
+//! Range of the beam formulas: the part of the path, and of the way of a tip corner, on which both teeth act as beams.
 
 use super::SectionPair;
 use crate::numeric::FRAC_PI_2;
@@ -8,14 +8,14 @@ use crate::problem::Problem;
 const LEAST_DEPTH: f64 = 0.05;
 /// Largest angle of the load to the chord [rad].
 const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
-/// Largest distance below the root section at which the load crosses the tooth's middle [root chords].
+/// The load may cross the middle of the tooth at most this far below the root section [root chords].
 const BELOW_ROOT: f64 = 0.25;
 /// Steps of the searches.
 const SEARCH: usize = 128;
-/// Least length of a part that is used [base pitches].
+/// Least length of the part on which both teeth act as beams [base pitches].
 pub const LEAST_RANGE: f64 = 0.02;
 
-/// Dedenda and addenda as the interface names them.
+/// Parameters of the dedenda of planet and side gear.
 pub const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
 const ADDENDUM: [&str; 2] = ["geometry.planet_addendum", "geometry.side_addendum"];
 
@@ -41,17 +41,17 @@ pub fn fit(teeth: &SectionPair, rolls: [f64; 2]) -> bool {
     unfit(teeth, rolls).is_none()
 }
 
-/// Step `j` of the search on `range`.
+/// Place of step `j` of a search on `range`.
 fn between(range: [f64; 2], j: usize) -> f64 {
     range[0] + (range[1] - range[0]) * j as f64 / SEARCH as f64
 }
 
-/// Even places on `range`, both ends included.
+/// Evenly spaced places on `range`, both ends included.
 pub fn places(range: [f64; 2]) -> impl Iterator<Item = f64> {
     (0..=SEARCH).map(move |j| between(range, j))
 }
 
-/// The last place found to fit between one that does and one that does not.
+/// Boundary of `fits` between `inside` (true) and `outside` (false), by bisection. `fits` holds at the result.
 pub fn edge(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..50 {
         let half = 0.5 * (inside + outside);
@@ -60,7 +60,8 @@ pub fn edge(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f6
     inside
 }
 
-/// The longest part of `path` [rad] on which both teeth are beams.
+/// The longest part of `path` [rad] on which both teeth act as beams. Fails with the parameter to change if that part is
+/// shorter than `LEAST_RANGE`.
 pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
     let fits = |s: f64| fit(teeth, teeth.rolls(s * outer_cone));
     let mut best = [0.0, 0.0];

@@ -1,17 +1,17 @@
-//! A tip corner past the end of the path: where it loads its own tooth and its mate's.
+//! A tip corner past the end of the path: the points of load on its own tooth and on the mating tooth.
 //!
-//! Its own tooth carries at the tip. The mate carries where the corner stands, at a polar angle φ about the mate's axis,
-//! and with it at the arc ψ of the flank there, cosφ = cosδ_b cosψ. On the path a roll length on the section is that at
-//! the pitch point and R_e times the arc from there; the corner's are read the same way, so that both agree at the end.
+//! The own tooth carries at its tip. The mating tooth carries at the corner, whose polar angle φ about the mate's axis gives
+//! the arc ψ of the flank, cosφ = cosδ_b cosψ. On the path, the roll length on the section is the roll length at the pitch
+//! point plus R_e times the arc from there. A corner uses the same rule, so that both agree at the end of the path.
 
 use super::SectionPair;
 use super::beams::{LEAST_RANGE, edge, fit};
 use crate::geometry::{ClosedForm, Gear, Pair};
 
-/// Steps per base pitch, and their number, in the search for the end of the corner's way.
+/// Steps per base pitch and number of steps, in the search for the end of the corner's travel.
 const SEARCH: (f64, i32) = (64.0, 256);
 
-/// The corner of gear `own` on the flank of its mate.
+/// The tip corner of gear `own` on the flank of its mate.
 #[derive(Clone, Copy, Debug)]
 pub struct TipCorner {
     own: usize,
@@ -57,8 +57,8 @@ impl TipCorner {
         if self.own == 0 { [self.tip_roll, mate] } else { [mate, self.tip_roll] }
     }
 
-    /// How far past the path's end [rad] the corner stays on its mate's flank and both teeth are beams; 0 if that is next
-    /// to nothing.
+    /// Distance past the end of the path up to which the corner is on its mate's flank and both teeth are beams [rad]; 0 if
+    /// less than `LEAST_RANGE`.
     pub fn length(&self, teeth: &SectionPair, base_pitch: f64) -> f64 {
         let fits = |delta: f64| {
             let rolls = self.rolls(delta);

@@ -1,5 +1,5 @@
-//! Tests: no panic leaves a call. No host can provoke one, so these tests enter calls as the exports do, and check in the
-//! source of the exports that all of them are entered this way.
+//! Tests: no panic leaves a call. No host can provoke a panic. So these tests enter the calls by the same function as the
+//! exports, and check in the source text that all exports use this function.
 
 use std::ffi::CString;
 
@@ -55,7 +55,7 @@ fn a_panic_without_a_text_is_an_error_too() {
     unsafe { fmi2FreeInstance(c) };
 }
 
-/// Entries that catch panics. Two functions return a constant and cannot panic.
+/// How an export begins: three entries that catch panics, and two constants that cannot panic.
 const ENTRIES: [&str; 5] = ["call!(c, ", "panic_guard::catch(", "component::free(c)", "c\"default\"", "c\"2.0\""];
 
 #[test]

@@ -1,4 +1,4 @@
-//! Solid teeth of a scene: their law, and where their gears stand.
+//! Solid teeth of a scene: sections across the face, tooth errors, and displacements of the gears.
 
 use crate::contact::errors::ToothErrorSpec;
 use crate::contact::solid::Displacement;
@@ -11,7 +11,8 @@ use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::numeric::{cos, sin};
 
-/// Mesh of `pair`, made from `spec`, with given facets and errors and the elastic law and damping of a pair.
+/// Mesh of `pair` with the gears `spec`, the facets of `teeth`, the tooth errors `errors`, and the elastic law and damping of
+/// a tooth pair.
 pub fn mesh(
     pair: &Pair,
     (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),
@@ -30,7 +31,7 @@ pub fn mesh(
         (vec![slice((pair.mean_cone, width))], Vec::new())
     } else {
         let sections = gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(|s| slice((s.cone, s.width)));
-        // the load is also looked at where it can be the largest: at both ends, and where crowning leaves the most
+        // the load is also read at its possible maxima: both ends of the face and the crest of the crowning
         let edges = [pair.inner_cone, pair.mean_cone, pair.outer_cone].map(|cone| slice((cone, 0.0)));
         (sections.collect(), edges.to_vec())
     };
@@ -48,21 +49,21 @@ pub fn mesh(
     SolidMesh::new(pair, &solids, elastic, damping, slack).with_edges(&edges)
 }
 
-/// Whether planets stand differently before their side gears.
+/// Whether the displacements of the planets differ, so that each planet is simulated.
 pub fn is_individual(p: &Parameters) -> bool {
     let displaced = displaced(&errors(p), p.geometry.planet_count);
     displaced.iter().any(|d| *d != displaced[0])
 }
 
-/// Errors of solid teeth in the scene `p`.
+/// Tooth errors of the scene `p`; none where their effect is off.
 pub fn errors(p: &Parameters) -> ToothErrorSpec {
     if p.effects.tooth_errors { p.specs.tooth_errors } else { ToothErrorSpec::default() }
 }
 
-/// Displacements of each planet before the left and the right side gear.
+/// Displacements in the left and the right mesh of each planet.
 fn displaced(errors: &ToothErrorSpec, planets: i32) -> Vec<[Displacement; 2]> {
     let of_planet = |i: i32| {
-        // pins move along t of planet 0, which is sinφ r̂ + cosφ t of the planet at φ
+        // the pins move along t of planet 0; at the planet with the azimuth φ that direction is sinφ r̂ + cosφ t
         let at = azimuth(usize::try_from(i).unwrap_or(0), planets);
         let outward = errors.planet_axial_offset + errors.axis_offset * sin(at);
         [1.0, -1.0].map(|side| Displacement {

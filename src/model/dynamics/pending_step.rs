@@ -1,4 +1,4 @@
-//! The integrator's step that goes beyond the present: the motion at the present is told by its continuous extension.
+//! The integrator's step beyond the present. Its continuous extension gives the motion at the present.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,9 +13,9 @@ type Motion = [[f64; MAX_DOF]; 2];
 /// A step that is not completed at the present time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PendingStep {
-    /// Inputs that act in it.
+    /// Inputs during the step.
     pub inputs: Inputs,
-    /// Its begin, the present, and the end of the equations.
+    /// Beginning of the step, present time, and end of the equations.
     pub clock: Clock,
     attempt: Attempt,
     start: Motion,
@@ -26,7 +26,7 @@ pub struct PendingStep {
 }
 
 impl PendingStep {
-    /// Becomes the step `pending`.
+    /// Stores the step `pending`.
     pub fn set<const N: usize>(&mut self, pending: &Pending<N, LedgerRates>, clock: Clock, inputs: &Inputs) {
         let Extension { start, end, bends } = &pending.extension;
         (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
@@ -38,7 +38,7 @@ impl PendingStep {
         }
     }
 
-    /// The course of the integration, as far as this step tells it.
+    /// Restores the point and the pending step of `course`; its times are left as they are.
     pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
         let extension = Extension { start, end, bends: [0, 1, 2].map(|k| restored(&self.bends[k])) };
@@ -47,7 +47,7 @@ impl PendingStep {
         course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
     }
 
-    /// Lets degree of freedom `i` move as `first` does.
+    /// Gives degree of freedom `i` the motion of `first`.
     pub fn let_follow(&mut self, i: usize, first: usize) {
         let Self { start, end, bends: [one, two, three], .. } = self;
         for motion in [start, end, one, two, three] {
@@ -55,7 +55,7 @@ impl PendingStep {
         }
     }
 
-    /// Time of its clock at which it ends [s].
+    /// End of the step on the integrator's clock [s].
     #[inline]
     pub fn end(&self) -> f64 {
         self.clock.time + self.attempt.h
@@ -77,7 +77,7 @@ impl PendingStep {
         }
     }
 
-    /// Whether a simulation can continue from all numbers.
+    /// Whether a simulation can continue from this step: all numbers are finite, and the step size is positive.
     pub fn is_valid(&self) -> bool {
         let Attempt { h, error, .. } = self.attempt;
         let motions = [&self.start, &self.end, &self.bends[0], &self.bends[1], &self.bends[2]];

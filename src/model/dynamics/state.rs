@@ -1,4 +1,5 @@
-//! What changes while a simulation runs, but the damage of teeth: small and `Copy`, so that a snapshot is an assignment.
+//! All that changes while a simulation runs, except the damage of teeth and values over mesh cycles (`Watched`). The state is small
+//! and `Copy`, so that a snapshot is an assignment.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,18 +13,18 @@ use crate::model::scene::{
 };
 use crate::model::setup::HEATS;
 
-/// Turns beyond which doubles no longer resolve single ones.
+/// Number of periods above which a double no longer resolves a single period.
 const MOST_TURNS: u64 = 1 << 53;
 
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     time: f64,
-    /// Positions; angles of gears are wrapped by tooth pitches, the carrier's by turns [rad; seats m].
+    /// Positions [rad; seats m]. Angles of gears are wrapped into a tooth pitch, the carrier's angle into a turn.
     pub q: [f64; MAX_DOF],
-    /// Velocities [rad/s].
+    /// Velocities [rad/s; seats m/s].
     pub v: [f64; MAX_DOF],
-    /// Whole tooth pitches (carrier: turns) taken out of the positions.
+    /// Number of whole periods taken out of each position: tooth pitches, for the carrier turns.
     pub turns: [i64; MAX_DOF],
     /// Step-size control.
     pub control: Control,
@@ -35,28 +36,28 @@ pub struct State {
     pub heat: [f64; HEATS],
     /// State of the dry friction: side gears, groups of planets, wheels.
     pub friction: [FrictionState; FRICTION_BODIES],
-    /// Shaft torques over whole mesh cycles.
+    /// Means of the shaft torques over whole mesh cycles, for the torque bias.
     pub bias: Bias,
     /// Whether the tooth of the tooth fault is broken.
     pub fault: bool,
-    /// Command of the lock that acts since the last step.
+    /// Command of the lock as it acted in the last step, from 0 to 1.
     pub lock: f64,
-    /// Command of the carrier's speed that acts since the last step [rad/s].
+    /// Command of the carrier's speed as it acted in the last step [rad/s].
     pub carrier_command: f64,
     /// Derivatives of the inputs, where the host set them.
     pub input_derivatives: Option<InputDerivatives>,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// When the integration last began anew, as inputs had changed [s].
+    /// Time at which the integration last began anew after a change, such as one of inputs [s].
     pub begun: Option<f64>,
-    /// How long inputs had held before [s].
+    /// Time between that change and the one before [s].
     pub held: f64,
-    /// The integrator's step that goes beyond the present. Work, heat and friction are those at its begin, and so is damage.
+    /// The integrator's step that contains the present time. Work, heat, friction and damage are those at the beginning of it.
     pub pending_step: Option<PendingStep>,
 }
 
 impl State {
-    /// A state at `time` with everything at rest and zero.
+    /// A state at rest at `time` [s] with all quantities zero; `first_step` is the first step size [s].
     pub fn at_rest(time: f64, first_step: f64) -> Self {
         Self {
             time,
@@ -86,22 +87,22 @@ impl State {
         self.time
     }
 
-    /// Moves the time to `time` [s], to which the integrator's clock has moved the motion.
+    /// Sets the time to `time` [s], that of the integrator's clock; the motion is already there.
     pub fn move_with_clock(&mut self, time: f64) {
         self.time = time;
     }
 
-    /// Moves the time to `time` [s], where a host that integrates the motion itself is.
+    /// Sets the time to `time` [s], as given by a host that integrates the motion itself.
     pub fn follow_host(&mut self, time: f64) {
         self.time = time;
     }
 
-    /// The same at another time [s] with another motion.
+    /// A copy with another time [s], other positions and other velocities.
     pub fn elsewhere(&self, time: f64, q: [f64; MAX_DOF], v: [f64; MAX_DOF]) -> Self {
         Self { time, q, v, ..*self }
     }
 
-    /// Moves to `until` [s] if the step ahead contains it, for `n` degrees of freedom. Returns whether it does.
+    /// Moves the first `n` degrees of freedom to `until` [s] if the pending step contains this time. Returns whether it does.
     #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
         let Some(pending_step) = &mut self.pending_step else { return false };
@@ -115,18 +116,18 @@ impl State {
         true
     }
 
-    /// The first `N` degrees of freedom, or all.
+    /// The first `N` degrees of freedom; all, if there are fewer.
     pub fn point<const N: usize>(&self) -> Point<N> {
         Point::of([&self.q, &self.v])
     }
 
-    /// Takes over the first `N` degrees of freedom, or all.
+    /// Sets the first `N` degrees of freedom; all, if there are fewer.
     pub fn set_point<const N: usize>(&mut self, point: &Point<N>) {
         point.write([&mut self.q, &mut self.v]);
     }
 
-    /// Whether all planets of `layout` move as the one of `teeth`, which has them together, and nothing acts on it beside
-    /// plain teeth.
+    /// Whether all planets of `layout` move alike and only plain teeth act on them. Then `teeth`, with all planets in one group,
+    /// gives the same motion.
     pub fn is_together(&self, teeth: &Teeth, layout: &Layout) -> bool {
         let alike = |i: usize| {
             self.q[i] == self.q[PLANET] && self.v[i] == self.v[PLANET] && self.turns[i] == self.turns[PLANET]
@@ -134,7 +135,7 @@ impl State {
         !teeth.effect_terms.body_effects.act_in(self) && (PLANET + 1..PLANET + layout.groups).all(alike)
     }
 
-    /// Lets the other planets of `layout` move as the first does.
+    /// Copies the motion of the first planet to the other planets of `layout`.
     pub fn let_others_follow(&mut self, layout: &Layout) {
         for i in PLANET + 1..PLANET + layout.groups {
             (self.q[i], self.v[i]) = (self.q[PLANET], self.v[PLANET]);
@@ -182,20 +183,20 @@ impl State {
         if turns == 0 { self.q[i] } else { self.q[i] + turns as f64 * periods[i] }
     }
 
-    /// Whether positions, speeds and work are finite numbers.
+    /// Whether the motion of ideal gears is finite: side gears, carrier, first planet and work.
     pub fn is_motion_finite(&self) -> bool {
         // a sum is not finite if a term is not
         let sum = |x: &[f64]| x.iter().sum::<f64>();
         (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.work).is_finite()
     }
 
-    /// Whether a simulation can continue from all numbers.
+    /// Whether a simulation can continue from this state: all numbers finite and within their ranges, pending step included.
     pub fn is_valid(&self) -> bool {
         self.is_sound() && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
     }
 
-    /// The same where a step has just been taken: what is ahead has passed its error test, which nothing does that is not
-    /// finite.
+    /// The same without the pending step, for the end of an integration. There the pending step is finite, because it has passed
+    /// the error test.
     pub fn is_sound(&self) -> bool {
         let numbers = [
             self.time,
@@ -224,8 +225,8 @@ impl State {
 }
 
 impl BodyEffects {
-    /// Whether effects act in `state`: those of the scene, a broken tooth, a lock that is commanded or still holds,
-    /// or inputs that change.
+    /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
+    /// holds, derivatives of inputs.
     pub fn act_in(&self, state: &State) -> bool {
         self.always
             || state.fault

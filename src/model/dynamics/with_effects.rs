@@ -1,4 +1,4 @@
-//! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
+//! Forces of a scene with effects: meshes (in detail if an effect needs slices of the face), effects on bodies, dry friction.
 
 use super::ledger_rates::LedgerRates;
 use super::{Acted, Equations, Jacobian};
@@ -10,7 +10,7 @@ use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::Dual;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Forces of everything but commanded torques; derivatives where they are asked for.
+    /// Adds all forces except commanded torques, and their derivatives if `slopes` is given.
     #[inline]
     pub(in crate::model) fn act(
         &self,
@@ -50,7 +50,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    /// Forces of meshes, and the dry friction that these cause; the torques of the meshes on the side gears alone.
+    /// Adds the forces of the meshes and the dry friction that depends on these. Returns the torques of the meshes on the side gears.
     #[inline]
     pub(in crate::model) fn act_of_teeth(
         &self,
@@ -70,7 +70,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         gears
     }
 
-    /// Effects on bodies.
+    /// Adds the forces of the effects on bodies.
     pub(in crate::model) fn act_on_bodies(
         &self,
         at: &Point<N>,
@@ -90,7 +90,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    /// Torque that the half-shaft of side `s` delivers to the wheel, where it twists [N·m].
+    /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]; the load torque if the shaft is no degree of freedom.
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
         if !self.ends() || !self.teeth.plan.shafts[s] {
             return self.acting.inputs.load_torque[s];
@@ -99,7 +99,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
-    /// Sums of the forces of meshes, pins and seats at rest, and their derivatives, for the static equilibrium.
+    /// Forces of meshes, pins and seats at rest and their derivatives by positions, for the static equilibrium.
     pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         let j = Jacobian::new([&mut by_position, &mut by_velocity]);
@@ -131,7 +131,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         (sum, by_position)
     }
 
-    /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
+    /// Elastic energy of meshes, pins and seats [J]; with `all` also of half-shafts and stuck friction.
     pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
         let teeth = if self.in_detail() {
             self.sum(|g| self.members(g) * self.planet_energy(at, g))
@@ -141,7 +141,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         teeth + self.stored_in_bodies(at, all)
     }
 
-    /// Elastic energy of pins, and with `all` of half-shafts and stuck friction too [J].
+    /// Elastic energy of pins and seats [J]; with `all` also of half-shafts and stuck friction.
     pub(in crate::model) fn stored_in_bodies(&self, at: &Point<N>, all: bool) -> f64 {
         let forces = &self.teeth.effect_terms.body_effects.forces;
         let motion = self.body_motion(at);

@@ -1,5 +1,5 @@
-//! Excitation by the final drive: the carrier's torque or imposed speed varies with the mesh order of the ring gear,
-//! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ) — the first harmonic of a gear pair's mesh excitation.
+//! Excitation by the final drive. The carrier's torque or imposed speed varies at the mesh order z of the ring gear,
+//! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ): the first harmonic of a gear pair's mesh excitation.
 
 use crate::declaration::{Parameter, Row, row, units};
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Setting, Slopes};
@@ -11,7 +11,7 @@ spec! {
     pub struct FinalDriveSpec {
         /// Teeth of the ring gear.
         pub ring_teeth: i32 = 37,
-        /// Amplitude relative to the carrier's command, of torque or of speed.
+        /// Amplitude relative to the commanded torque or speed of the carrier.
         pub amplitude: f64 = 0.02,
     }
 }

@@ -67,7 +67,7 @@ impl Effect for HalfShaftSpec {
     }
 
     fn requests(&self, setting: &Setting) -> Requests {
-        // an end without inertia passes its load on at once: its shaft twists, but it is no degree of freedom
+        // an end without inertia passes its load on at once: the shaft has a static twist, and the end is no degree of freedom
         let end = [setting.inertia.left_end, setting.inertia.right_end];
         Requests { shafts: end.map(|inertia| setting.on && inertia > 0.0), ..Requests::default() }
     }
@@ -82,7 +82,7 @@ impl Effect for HalfShaftSpec {
             if at.plan.shafts[s] {
                 out[s] = at.motion.q[at.motion.layout.end(s)];
             } else if at.on && self.stiffness[s] > 0.0 {
-                // the static twist, as the end is no degree of freedom
+                // the end is no degree of freedom: the twist is static
                 out[s] = at.shaft_torque[s] / self.stiffness[s];
             }
         }
@@ -99,7 +99,7 @@ const fn twist(name: &'static str) -> Reading {
     }
 }
 
-/// The half-shafts whose ends move.
+/// Stiffness and damping of the half-shafts whose ends are degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfShafts {
     stiffness: [f64; 2],
@@ -107,25 +107,25 @@ pub struct HalfShafts {
 }
 
 impl HalfShafts {
-    /// Half-shafts of `plan`. A rigid side has neither twist nor torque.
+    /// Half-shafts of `plan`. Stiffness and damping are 0 on a side whose end is no degree of freedom.
     pub fn new(spec: &HalfShaftSpec, plan: &Plan) -> Self {
         let of = |values: [f64; 2]| [0, 1].map(|s| if plan.shafts[s] { values[s] } else { 0.0 });
         Self { stiffness: of(spec.stiffness), damping: of(spec.damping) }
     }
 
-    /// Torque that the shaft of side `s` delivers to the wheel at `twist` [rad] changing at `rate` [rad/s] [N·m].
+    /// Torque that the shaft of side `s` delivers to the wheel [N·m], at `twist` [rad] and its `rate` [rad/s].
     #[inline]
     pub fn torque(&self, s: usize, twist: f64, rate: f64) -> f64 {
         self.stiffness[s] * twist + self.damping[s] * rate
     }
 
-    /// Twist at which the shaft of side `s` delivers `torque` [N·m] at rest [rad].
+    /// Static twist of the shaft of side `s` [rad] under `torque` [N·m].
     pub fn static_twist(&self, s: usize, torque: f64) -> f64 {
         torque / self.stiffness[s]
     }
 }
 
-/// Half-shafts as they act on side gears and ends.
+/// Torques of the half-shafts on side gears and ends.
 #[derive(Clone, Copy, Debug)]
 struct Twist {
     shafts: HalfShafts,

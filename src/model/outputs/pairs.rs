@@ -1,13 +1,13 @@
-//! Loaded tooth pairs of a mesh at an instant: where on the planet's flank they touch, and how hard.
+//! Loaded tooth pairs of a mesh at an instant: their place on the planet's flank, force and pressure.
 //!
 //! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ = cosδ_b
-//! cos(ψ_p0 + s); the planet's tip corner has its tip angle, and the side gear's lies where it stands on the flank. The height
-//! along the profile is h = R_m (φ − δ).
+//! cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar angle of the
+//! corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
 //!
-//! The pressure is Hertz's for two cylinders, of the line load w(R) and the relative radius R τ(s). Where loads do not differ
-//! over the face, w is even with one resultant at R_m, as of IMPACT, and w = 2FR/(R_e² − R_i²) under a line law. Where they do,
-//! w is that of the law at the depth of the flanks there. Of solid teeth w is a straight line between the sections that carry,
-//! prolonged to toe and heel as far as it is not negative.
+//! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair has an
+//! even w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or displacements
+//! that differ over the face, w follows from the law at the depth of each place. For solid teeth w is interpolated linearly
+//! between the loaded sections, and extrapolated to toe and heel down to zero.
 
 use crate::contact::shared::MOST;
 use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad};
@@ -16,13 +16,13 @@ use crate::integrate::Point;
 use crate::model::dynamics::{LARGEST, Largest};
 use crate::strength::LineContact;
 
-/// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.
+/// Number of pairs that are read. With a contact ratio below 3 no mesh has more pairs on its path.
 const PAIRS: usize = 3;
-/// Sections of a pair of solid teeth.
+/// Largest number of sections of a pair of solid teeth.
 const SECTIONS: usize = 8;
-/// Share of the face from which on a load stands for all of it.
+/// A load with more than this share of the face stands for the whole face.
 const WHOLE: f64 = 1.0 - 1e-9;
-/// Number of a tooth where there is no pair.
+/// Tooth number that means no pair.
 const NONE: f64 = -1.0;
 
 /// A loaded tooth pair.
@@ -47,20 +47,20 @@ impl Default for PairLine {
 /// Loaded pairs of a mesh, from the planet's root to its tip.
 pub type PairLines = [PairLine; PAIRS];
 
-/// A pair as its sections come in.
+/// Sums over the sections of a pair.
 #[derive(Clone, Copy)]
 struct Gathered {
     flank: Flank,
     teeth: [usize; 2],
     force: f64,
-    /// Sum of force and height [N·m], of force and place [N·rad].
+    /// Sums of force × height [N·m] and of force × place on the path [N·rad].
     by_height: f64,
     by_place: f64,
     /// Cone distance [m] and line load [N/m] of the sections.
     sections: [[f64; 2]; SECTIONS],
     count: usize,
     is_whole: bool,
-    /// Line load at toe, mean cone distance and heel where the law has it [N/m].
+    /// Line load at toe, mean cone distance and heel [N/m], if the law gives it.
     known: Option<[f64; 3]>,
 }
 
@@ -89,7 +89,7 @@ impl Gathered {
         }
     }
 
-    /// Line load at cone distance `cone` [N/m].
+    /// Line load at cone distance `cone` [N/m]. `grows`: the load of a whole face grows with the cone distance.
     fn line_load(&self, contact: &LineContact, cone: f64, grows: bool) -> f64 {
         if self.is_whole {
             let [inner, outer] = contact.cone_range;
@@ -117,7 +117,7 @@ fn cones(contact: &LineContact) -> [f64; 3] {
     [inner, contact.mean_cone, outer]
 }
 
-/// Value at `x` of straight lines through `points` in the order of x, the outermost prolonged; not negative.
+/// Linear interpolation at `x` between `points` in the order of x, extrapolated beyond both ends; not negative.
 fn along(points: &[[f64; 2]], x: f64) -> f64 {
     let [first, .., last] = points else { return points.first().map_or(0.0, |point| point[1]) };
     if first[0] == last[0] {
@@ -141,7 +141,8 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
     pair.mean_cone * (polar - planet.pitch)
 }
 
-/// Pairs of the mesh of group `g` with side `s` under the contact of `contact`; none where one spring stands for all teeth.
+/// Loaded pairs of the mesh of planet group `g` with side gear `s`; `contact` calculates their pressure. No pairs where one
+/// spring replaces all teeth.
 pub fn pair_lines(
     (pair, contact): (&Pair, &LineContact),
     equations: &Largest,
@@ -165,7 +166,7 @@ pub fn pair_lines(
             place.get_or_insert_with(|| Gathered::new(load, known())).add(load, height(pair, mesh, load));
         }
     });
-    // the most loaded ones, then by height
+    // the most loaded pairs are kept, and sorted by height below
     gathered.sort_unstable_by(|a, b| {
         let force = |own: &Option<Gathered>| own.as_ref().map_or(0.0, |own| own.force);
         force(b).total_cmp(&force(a))

@@ -1,4 +1,4 @@
-//! The ledger of completed steps: work, heat, mesh cycles, fatigue.
+//! Records completed steps in the ledger: work, heat, mesh cycles, fatigue.
 
 use super::completed_step::{CompletedStep, Passed};
 use super::failure::ExcessiveDeflection;
@@ -15,23 +15,24 @@ use crate::model::setup::{CONTACT_HEAT, HEATS};
 
 /// Sums that completed steps add to.
 pub struct Records<'a> {
-    /// Time from which the times of steps count [s].
+    /// Time at which the clock of the steps is zero [s].
     pub begin: f64,
     /// Work of all inputs [J].
     pub work: &'a mut f64,
     /// Heat by cause [J].
     pub heat: &'a mut [f64; HEATS],
-    /// Shaft torques by mesh cycles.
+    /// Means of the shaft torques over mesh cycles.
     pub bias: &'a mut Bias,
-    /// What steps are watched for.
+    /// Damage of the teeth and values over mesh cycles.
     pub watched: &'a mut Watched,
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
-    /// Returns the tooth that is bent too far, if one is.
+    /// Fails if the deflection of a tooth exceeds the limit; the error names mesh and deflection.
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
-    /// Records a completed step, with what it was while pending; steps of fixed size and of a host's solver never were.
+    /// Records a completed step. It comes with the pending step that it was before; fixed steps and steps of a host's solver are
+    /// never pending.
     fn record(&self, model: &Model, step: CompletedStep<N>, records: &mut Records);
 }
 
@@ -74,7 +75,7 @@ impl Recorded<MOST> for IdealEquations<'_> {
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
+    /// Elastic energy gained or lost in a step by deflected pairs that enter or leave contact abruptly, without corner contact [J].
     #[inline(never)]
     fn energy_of_jumps(&self, step: &Step<N, LedgerRates>) -> f64 {
         let between = |t: f64| Point {
@@ -86,7 +87,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             for s in 0..2 {
                 let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [end[0] - start[0], end[1] - start[1]];
-                // steps may be so short there that a part of one is lost in rounding
+                // in a very short step AT_ONCE of the step would be lost in rounding
                 let at_once = AT_ONCE.max(RESOLVED / change[1].abs());
                 self.teeth.mesh.engagement.jumps(start, change, |t| {
                     let [before, after] = [t - at_once, t + at_once].map(between);
@@ -98,7 +99,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 }
 
-/// Part of a step within which a pair that comes or goes has come or gone.
+/// Part of a step before and after the instant at which a pair enters or leaves. The energy is compared between both.
 const AT_ONCE: f64 = 1e-9;
-/// Arc along the line of action that rounding leaves intact [rad].
+/// Least arc along the line of action that rounding resolves [rad].
 const RESOLVED: f64 = 1e-13;

@@ -1,4 +1,4 @@
-//! Questions of accuracy, and figures of series.
+//! Questions about accuracy: the cheapest sufficient model of a scene, statistics of given series, names of statistics.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ use crate::problem::{Problem, Problems, wrong};
 use crate::scene::{script, ssv};
 use crate::watch::Watch;
 
-/// Which model is accurate enough.
+/// Asks for the cheapest model of a scene that gives the wanted quantities within an accuracy.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyQuestion {
@@ -29,13 +29,13 @@ pub struct AccuracyQuestion {
     want: Vec<String>,
     /// Wanted accuracy, such as "1%" or "0.01".
     within: String,
-    /// Outputs count from here on.
+    /// Time from which outputs count, in seconds or with a unit; the start of the run by default.
     #[serde(default)]
     from: Option<String>,
-    /// Whether times are measured.
+    /// Whether the runs are timed.
     #[serde(default = "timed")]
     timed: bool,
-    /// Where a scene file with the chosen setting is to be, so that paths in it are right.
+    /// Path at which the caller saves the scene file with the chosen setting. Relative paths in that file start from there.
     #[serde(default)]
     file: Option<PathBuf>,
 }
@@ -44,11 +44,11 @@ fn timed() -> bool {
     true
 }
 
-/// Figures of series over time, whose numbers come beside the question: the times, then series after series.
+/// Asks for statistics of series over time. The numbers come beside the question: all times, then one series after another.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticsQuestion {
-    /// Numbers of a series.
+    /// Number of samples in the times and in each series.
     points: usize,
     figures: Vec<FigureQuestion>,
 }
@@ -57,14 +57,14 @@ pub struct StatisticsQuestion {
 #[serde(deny_unknown_fields)]
 struct FigureQuestion {
     statistic: String,
-    /// Number of the series, from 0 on.
+    /// Index of the series, from 0.
     series: usize,
-    /// Number of the series that an order is counted by [rad].
+    /// Index of the series with the angle [rad] by which an order is counted.
     #[serde(default)]
     phase: Option<usize>,
 }
 
-/// What a word for a statistic means.
+/// Asks for the canonical name of a statistic and for the angle by which an order is counted.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WordQuestion {
@@ -128,7 +128,7 @@ impl AccuracyQuestion {
     }
 }
 
-/// What an effect does, for programs.
+/// Role of an effect in the answer, as JSON for programs.
 fn effect(answer: &Answer, switch: &Switch, role: &Role) -> Value {
     let (word, by, why) = match role {
         Role::Acts { by, chosen: true } if *by > answer.within => ("needed", Some(*by), None),

@@ -1,11 +1,11 @@
-//! The dimensions for a reader: aligned tables, the planar approximation, and the warnings.
+//! Dimensions of a design as text for a reader: aligned tables, Tredgold's planar approximation, and the warnings.
 
 use super::design::Design;
 use super::dimensions::{Dimension, DimensionGroup, of_gears, of_pair};
 use super::tredgold::comparisons;
 use crate::text::table::{Table, wrapped};
 
-/// All of it.
+/// Dimensions, planar approximation and warnings of `design`.
 pub fn text(design: &Design) -> String {
     let mut out = String::from("Straight bevel gears of a differential, spherical-involute flanks\n");
     out.push_str(&wrapped(&set(design)));
@@ -28,7 +28,7 @@ pub fn text(design: &Design) -> String {
     out
 }
 
-/// What was set, or that nothing was.
+/// Sentence that names the parameters set by the user.
 fn set(design: &Design) -> String {
     if design.settings.is_empty() {
         return "All parameters have the FMU's start values: the gears of the study.".into();

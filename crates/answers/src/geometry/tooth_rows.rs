@@ -1,4 +1,4 @@
-//! Dimensions of each gear's teeth: heights, thickness, flank, limits.
+//! Rows of each gear's teeth in the table of dimensions: heights, thickness, flank, limits, virtual gear.
 
 use bevel_differential::numeric::{cos, sin, tan};
 
@@ -6,27 +6,27 @@ use super::design::Design;
 use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
 use super::gear_rows::{mean, toe};
 
-/// Addendum and dedendum at the heel.
+/// Whole depth at the heel.
 fn depth(d: &Design, i: usize) -> f64 {
     d.pair.gears[i].addendum + d.pair.gears[i].dedendum
 }
 
-/// What the mate's tip leaves to this gear's root at the heel.
+/// Clearance at the heel between the mate's tip and this gear's root.
 fn clearance(d: &Design, i: usize) -> f64 {
     d.pair.gears[i].dedendum - d.pair.gears[1 - i].addendum
 }
 
-/// Arc of a tooth on the outer pitch circle, backlash taken off.
+/// Arc of a tooth on the outer pitch circle, less half of the backlash.
 fn thickness(d: &Design, i: usize) -> f64 {
     d.pair.gears[i].half_pitch * d.pair.outer_pitch_diameter(i)
 }
 
-/// Diameter of the virtual gear in the middle of the face: d_mn for β = 0.
+/// Pitch diameter of the virtual gear in the middle of the face: d_mn with the spiral angle β = 0.
 fn virtual_mean_diameter(d: &Design, i: usize) -> f64 {
     d.planar.diameter[i] * mean(d)
 }
 
-/// Half angle that a tooth takes on the virtual gear.
+/// Half angle of a tooth on the virtual gear.
 fn virtual_half_angle(d: &Design, i: usize) -> f64 {
     thickness(d, i) / d.planar.diameter[i]
 }
@@ -37,12 +37,13 @@ pub fn land(d: &Design, i: usize) -> f64 {
     2.0 * gear.half_angle(gear.tip) * sin(gear.tip) * d.pair.outer_cone
 }
 
-/// Coefficient of the split of addenda, positive for the gear with the taller one.
+/// Profile shift coefficient x_hm, positive for the gear with the longer addendum.
 fn shift(d: &Design, i: usize) -> f64 {
     if i == 0 { d.pair.profile_shift } else { -d.pair.profile_shift }
 }
 
-/// Arc from the tangent point to where the mate's tip touches first; negative where it would pass the base circle.
+/// Arc along the line of action from this gear's tangent point to the start of the active profile, where the mate's tip
+/// touches. The arc is negative where the mate's tip passes below the base circle.
 fn start_arc(d: &Design, i: usize) -> f64 {
     d.pair.line_of_action() - d.pair.tip_arc[1 - i]
 }
@@ -53,7 +54,7 @@ fn sin2_alpha(d: &Design) -> f64 {
     s * s
 }
 
-/// The rows.
+/// All groups of rows, in the order of the table.
 pub fn groups() -> Vec<DimensionGroup> {
     vec![heights(), thicknesses(), flank(), limits(), virtual_gear()]
 }
@@ -170,7 +171,7 @@ mod tests {
             let [left, right] =
                 [1.0, -1.0].map(|side| gear.flank_point(gear.pitch, side) * design.pair.outer_cone * 1e3);
             assert!((of("outer_chordal_tooth_thickness_s_ec", i) - (left - right).norm()).abs() < 1e-12);
-            // the back cone's line through the middle of the tooth: from the pitch point by h_ae to the tip
+            // the tip lies at the distance h_ae from the pitch circle, along the back cone through the middle of the tooth
             let (s, c) = (sin(gear.pitch), cos(gear.pitch));
             let (x, z) = (design.pair.outer_cone * s * 1e3, design.pair.outer_cone * c * 1e3);
             let tip = [x + of("outer_addendum_h_ae", i) * c, z - of("outer_addendum_h_ae", i) * s];

@@ -1,12 +1,13 @@
 //! One engagement of a pair of teeth, section by section and instant by instant.
 //!
-//! The first pair of planet 1's left mesh that comes into touch after the start is followed until it parts. Its sections
-//! lie where the solids touch: at polar angle φ on each gear, so that on the unit sphere the flanks' radii are tan ψ(φ) and
+//! The followed pair is the first one of planet 1's left mesh to come into contact after the start. It is followed until it
+//! parts. A section lies where the solids touch, at the polar angle φ about the axis of each gear. On the unit sphere a flank
+//! has the radius of curvature tan ψ(φ) there. The relative radius at the cone distance R is
 //!
 //!   ρ = R / (cot ψ_p + cot ψ_s)
 //!
-//! A tip corner is no cylinder; it counts with the radii that the flanks have at the end of the path, which is less than the
-//! pressure at the edge. Aligned teeth have one section for all, which is spread evenly over the face here.
+//! A tip corner is no cylinder. Its pressure is calculated with the radii of the flanks at the end of the path, and so is less
+//! than the real pressure at the edge. Aligned teeth have one section for the whole face; here it is divided evenly.
 
 use std::collections::HashMap;
 
@@ -21,26 +22,26 @@ use crate::scene::run::SceneRun;
 use crate::text::csv_file::CsvFile;
 use crate::watch::Watch;
 
-/// Sections drawn where one stands for all.
+/// Sections into which a section of the whole face is divided.
 const SECTIONS: usize = 8;
 
-/// Flank and teeth of planet and side gear: one engagement.
+/// A tooth pair: whether the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
 pub type PairName = (bool, [usize; 2]);
 
-/// A loaded section.
+/// A loaded section of a tooth pair at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadedSection {
-    /// When [s].
+    /// Time [s].
     pub time: f64,
-    /// Which pair.
+    /// Tooth pair.
     pub name: PairName,
-    /// Whether a tip corner carries.
+    /// Whether the section touches at a tip corner.
     pub corner: bool,
-    /// Place by the planet's rotation [rad].
+    /// Place on the path of contact, as it follows from the planet's rotation [rad].
     pub s: f64,
     /// Cone distance [m].
     pub cone: f64,
-    /// Width that it stands for [m].
+    /// Width of the face that the section stands for [m].
     pub width: f64,
     /// Polar angles on planet and side gear [rad].
     pub polar: [f64; 2],
@@ -61,19 +62,19 @@ impl LoadedSection {
     }
 }
 
-/// All contacts of the mesh until one pair has gone through.
+/// Loaded sections of the mesh until the engagement of one pair is complete.
 #[derive(Clone, Debug)]
 pub struct Engagement {
     /// The gears.
     pub pair: Pair,
-    /// Loaded sections of all pairs, by time, then as shown by the simulation.
+    /// Loaded sections of all pairs by time; those of an instant in the order of the simulation.
     pub contacts: Vec<LoadedSection>,
-    /// The pair that went through.
+    /// The pair with the complete engagement.
     pub followed: PairName,
 }
 
 impl Engagement {
-    /// Runs `scene` until a pair has gone through.
+    /// Runs `scene` until a pair that came into contact after the start has parted.
     pub fn new(scene: &Scene, watch: &mut Watch) -> Result<Self> {
         ensure!(
             scene.parameters.scene.gear_contact == GearContact::Solid,
@@ -85,7 +86,7 @@ impl Engagement {
         let m = &scene.parameters.material;
         let line = LineContact::new(&pair, m.young_modulus, m.poisson_ratio);
         let mut contacts = Vec::new();
-        // when a pair was seen first, and whether others than those of the start
+        // pairs in contact, and whether each of them came into contact after the start
         let mut seen: HashMap<PairName, bool> = HashMap::new();
         let mut first = true;
         while !run.is_over() {
@@ -108,18 +109,18 @@ impl Engagement {
         bail!("scene {}: no pair of planet 1's left mesh came into touch and parted again before its end", scene.name)
     }
 
-    /// Contacts of the pair that went through.
+    /// Sections of the followed pair.
     pub fn engagement(&self) -> impl Iterator<Item = &LoadedSection> {
         self.contacts.iter().filter(|c| c.name == self.followed)
     }
 
-    /// Contacts of that pair at the instant at which it is nearest to the pitch point.
+    /// Sections of the followed pair at the instant of least distance from the pitch point.
     pub fn at_pitch_point(&self) -> Vec<LoadedSection> {
         let nearest = self.engagement().min_by(|a, b| a.s.abs().total_cmp(&b.s.abs()));
         nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
     }
 
-    /// The file of loaded sections, without rows.
+    /// A CSV file for loaded sections, without rows.
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
@@ -132,7 +133,7 @@ impl Engagement {
         CsvFile::new(columns, &comments)
     }
 
-    /// Adds its sections to the file.
+    /// Adds all sections to the file `out`, with `case` in the first column.
     pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
         for c in &self.contacts {
             let [planet, side] = [0, 1].map(|i| 1e3 * c.cone * (c.polar[i] - self.pair.gears[i].pitch));
@@ -151,7 +152,7 @@ impl Engagement {
     }
 }
 
-/// Loaded sections of planet 1's left mesh as it stands.
+/// Loaded sections of planet 1's left mesh at the present time of the simulation.
 pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<LoadedSection> {
     let (mut all, time) = (Vec::new(), simulation.time());
     simulation.tooth_loads(|load| {
@@ -162,7 +163,7 @@ pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<
     all
 }
 
-/// Cone distances and widths that a load stands for.
+/// Cone distances and widths of the sections of a load: several for a load of the whole face, one otherwise.
 fn sections(pair: &Pair, load: &ToothLoad) -> impl Iterator<Item = (f64, f64)> {
     let (face, alone) = (pair.outer_cone - pair.inner_cone, load.normal / load.line_load);
     let whole = alone > (1.0 - 1e-9) * face;
@@ -180,7 +181,7 @@ fn contact(
     cone: f64,
     width: f64,
 ) -> LoadedSection {
-    // on the flank of each gear no nearer to its base circle than the path comes
+    // a tip corner lies past the end of the path: arcs from the base circles are not taken below those at its ends
     let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
     let cot = |i: usize| 1.0 / pair.gears[i].action_arc(t.polar[i]).max(least[i]).tan();
     let radius = cone / (cot(0) + cot(1));

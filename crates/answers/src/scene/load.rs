@@ -1,4 +1,4 @@
-//! A scene from its TOML file. All errors are reported at once, by key, value, unit and range.
+//! Reads a scene from its TOML file. All errors are reported at once, each with key, value, unit and range.
 //!
 //! ```toml
 //! description = "what it shows"
@@ -10,17 +10,17 @@
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
 //! scene.start = "rolling"                # literal of an enumeration
 //!
-//! [[at]]                                 # inputs and tunable parameters, later
+//! [[at]]                                 # change of inputs and tunable parameters at a time
 //! time = 0.1
 //! left.load_torque = 0.0
 //!
-//! [[table]]                              # an input that goes straight from point to point
+//! [[table]]                              # an input, interpolated linearly between points
 //! input = "carrier.speed_command"
 //! time = [0.0, 0.05]
 //! value = ["0 deg/s", "100 deg/s"]
-//! period = 0.1                           # repeats; without it the last value stays
+//! period = 0.1                           # the table repeats; without a period the last value stays
 //!
-//! [[inputs]]                             # the same for all inputs in a CSV file
+//! [[inputs]]                             # tables of all inputs in a CSV file
 //! file = "cycle.csv"                     # relative to this file
 //! ```
 
@@ -39,7 +39,7 @@ use super::{Event, InputTable, Scene, input_file};
 use crate::problem::Problems;
 use crate::text::shown;
 
-/// The contents of a file.
+/// Contents of a scene file.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct File {
@@ -81,12 +81,12 @@ pub fn load(file: &Path) -> Result<Scene> {
     parse(name, file, &text).with_context(|| shown)
 }
 
-/// The scene that `text` describes.
+/// Reads the scene `name` from the TOML `text` of `file`.
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
     given(name, file, &toml::from_str(text)?)
 }
 
-/// The scene that the contents of a file describe; paths in it are relative to that of `file`.
+/// Makes the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
 pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let mut problems = Problems::default();
     let (stop_time, step) = times(entry, &mut problems);
@@ -123,7 +123,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     })
 }
 
-/// Simulated time and communication step [s]; NaN where they are wrong.
+/// Stop time and communication step [s]; NaN for one that is not valid.
 fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     let mut checked = |key: &str, value: &Value| span(key, value).map_err(|problem| problems.push(problem));
     let (stop_time, step) = (checked("stop_time", &entry.stop_time), checked("step", &entry.step));
@@ -133,7 +133,7 @@ fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
 }
 
-/// Values of a table whose keys may be dotted or nested.
+/// Settings of a table with dotted or nested keys. Messages begin with `place`.
 fn settings(place: &str, table: &Table, problems: &mut Problems) -> Vec<Setting> {
     let mut found = Vec::new();
     let mut flat = Vec::new();
@@ -175,7 +175,7 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
     Some(Event { time, settings })
 }
 
-/// Values at a time for inputs that follow a table have no effect.
+/// Reports changes of inputs that also follow a table: the table would override them.
 fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Problems) {
     for event in events {
         for name in event.settings.iter().map(|setting| setting.row.name) {
@@ -215,7 +215,7 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     (complete && rising).then_some(InputTable { row, times, values, period })
 }
 
-/// Adds the inputs of a CSV file, whose path is relative to that of the scene, `scene`.
+/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`.
 fn add_input_file(entry: &InputFileEntry, scene: &Path, tables: &mut Vec<InputTable>, problems: &mut Problems) {
     let place = format!("[[inputs]] file = \"{}\":", entry.file.display());
     let period = match entry.period.as_ref().map(|period| span("period", period)).transpose() {

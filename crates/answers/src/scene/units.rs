@@ -8,7 +8,7 @@ use crate::text::numbers;
 /// Units of time, and how many of each make a second.
 const TIMES: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0), ("h", 1.0 / 3600.0)];
 
-/// SI value of `text`, a number with a unit of `row`.
+/// SI value of `text`: a number with one of the units of `row`, or a bare number where the quantity has no unit.
 pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
     let Some(unit) = row.unit else { return Err("takes a number without a unit".into()) };
     let (number, name) = split(text)?;
@@ -27,7 +27,7 @@ pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
     }
 }
 
-/// Seconds of `text`, a number of seconds or with a unit of time.
+/// Time [s] of `text`: a bare number of seconds, or a number with a unit of time.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let (number, name) = split(text)?;
     let unit = if name.is_empty() { "s" } else { name.as_str() };
@@ -37,7 +37,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Whether values of `row` may be given in the unit `name`.
+/// Checks that values of `row` may be given in the unit `name`.
 pub fn check(row: &Variable, name: &str) -> Result<(), String> {
     parse(row, &format!("1 {name}")).map(drop).map_err(|_| match row.unit {
         Some(unit) if unit.name != "1" => {
@@ -47,20 +47,20 @@ pub fn check(row: &Variable, name: &str) -> Result<(), String> {
     })
 }
 
-/// Units of time.
+/// Names of the units of time.
 pub fn times() -> [&'static str; TIMES.len()] {
     TIMES.map(|(name, _)| name)
 }
 
-/// Names of a unit, the one of the interface first.
+/// Names of the FMU's unit and of its display units, in this order.
 fn names(unit: &Unit) -> Vec<&'static str> {
     std::iter::once(unit.name).chain(unit.display.iter().map(|shown| shown.name)).collect()
 }
 
-/// Number and name of the unit, written as the interface does.
+/// Splits `text` into its number and the name of its unit, in the spelling of the FMU.
 fn split(text: &str) -> Result<(f64, String), String> {
     let text = text.trim();
-    // the longest beginning that is a number: "5e3" as well as "5 m"
+    // the number is the longest beginning that parses as one: "5e3" in "5e3 m", "5" in "5 m"
     let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
     let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
@@ -70,7 +70,7 @@ fn split(text: &str) -> Result<(f64, String), String> {
     Ok((number, name))
 }
 
-/// Name of the unit that `row` is shown in; empty for numbers without one.
+/// Name of the display unit of `row`; empty for numbers without a unit.
 pub fn name(row: &Variable) -> &'static str {
     match (row.display, row.unit) {
         (Some(shown), _) => shown.name,
@@ -79,17 +79,17 @@ pub fn name(row: &Variable) -> &'static str {
     }
 }
 
-/// `value` in the unit that `row` is shown in.
+/// SI `value` in the display unit of `row`.
 pub fn shown(row: &Variable, value: f64) -> f64 {
     row.display.map_or(value, |display| value * display.factor)
 }
 
-/// `value` with the unit that `row` is shown in.
+/// Text of the SI `value` in the display unit of `row`, with the name of the unit.
 pub fn text(row: &Variable, value: f64) -> String {
     format!("{} {}", digits(shown(row, value)), name(row)).trim_end().to_owned()
 }
 
-/// A number with six significant digits.
+/// Text of a number with six significant digits.
 pub fn digits(value: f64) -> String {
     numbers::short(value, 6)
 }

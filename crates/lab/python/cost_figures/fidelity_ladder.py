@@ -9,7 +9,7 @@ from bevel_differential.readable import percent, ratio, with_unit, wrapped
 from bevel_differential.records import read
 
 SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
-# communication steps of the turn
+# communication steps of 1 ms in the turn
 TURN_STEPS = 360
 COLORS = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
 LIMITS = BoundaryNorm([0.0, 1e-3, 1e-2, 0.1, 0.5, 1e9], COLORS.N)
@@ -43,7 +43,7 @@ def errors(axes, rows, rungs, title):
               for quantity in quantities] for rung in rungs[:-1]]
     last = [cell[rungs[-1], quantity] for quantity in quantities]
     texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1] for row in last])
-    # what failed has no number: the colour of the largest errors
+    # a failed run has no error: its cells take the colour of the largest errors
     draw_cells(axes, np.where(np.isfinite(found), found, 1e8), texts, COLORS, LIMITS, lambda error: error < 1e-3 or error >= 0.5)
     axes.set_title(title, fontsize=TITLE, loc="left")
     axes.set_xticklabels([wrapped(quantity, 11) for quantity in quantities], fontsize=LABEL)

@@ -1,4 +1,4 @@
-"""This program's default method and solvers that others wrote, on the same equations: error against time."""
+"""Figure of error against time: this program's default method and solvers of others, on the same equations."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -8,14 +8,14 @@ from cost_figures.work_precision import FLOOR
 from bevel_differential.records import read
 
 OURS = "this program"
-# cases of the comparison and the title of their panel
+# titles of the panels, by case of the comparison
 CASES = {"turn_equilibrium": "Turn, 0.5 s, law impact", "turn, force along a line": "Turn, 0.5 s, law line",
          "clunk": "Clunk: lash crossed, 20 ms, law impact"}
 ERRORS = {"speed_error": "error in speed of the side gears", "force_error": "error in normal force of the meshes"}
 
 
 def other_solvers(folder):
-    """Nothing if `compare-solvers` has not measured."""
+    """Draws other_solvers.png from foreign.csv, the measurements of `compare-solvers`. Draws nothing without that file."""
     path = folder / "foreign.csv"
     if not path.is_file():
         return
@@ -49,7 +49,9 @@ def other_solvers(folder):
 
 
 def by_case(rows):
-    """Rows by case and by solver without its variant, with their cost over that of this program's default."""
+    """Rows by case and solver, each with its time over that of this program's default at 1e-6.
+
+    A solver is named by the part before the comma. Of several variants of a solver the first one stays."""
     found = {}
     for row in rows:
         if row["status"] in (0.0, "ok"):
@@ -59,7 +61,7 @@ def by_case(rows):
         for own in solvers.values():
             for row in own:
                 row["cost"] = row["cpu_s"] / default["cpu_s"] if default else np.nan
-    # this program's other methods are in the pictures of its methods
+    # work_precision.py draws this program's other methods
     kept = lambda name: name == OURS or not name.startswith(OURS)  # noqa: E731
     return {case: {name.split(",")[0]: own for name, own in reversed(solvers.items()) if kept(name)}
             for case, solvers in found.items()}

@@ -1,4 +1,4 @@
-"""Error against time, and against counts that do not depend on the machine: every method, motion and fidelity."""
+"""Figures of error against time and against counts that hold on any machine, by method, motion and level of gear contact."""
 
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -18,7 +18,7 @@ MOTIONS = {"turn": "Turn: one tooth, 0.18 s", "blow": "Turn from mid-gap: teeth\
            "clunk": "Clunk: lash crossed,\nshafts wind up, 20 ms"}
 FIDELITIES = {"ideal": "ideal: no teeth", "lumped": "lumped: spring per mesh",
               "impact": "tooth pairs, law impact", "line": "tooth pairs, law line"}
-# errors below this are rounding and are drawn here
+# smaller errors are rounding and are drawn at this value
 FLOOR = 1.5e-13
 HEIGHT = 10.6
 
@@ -85,7 +85,9 @@ def counts(folder):
 
 
 def panels():
-    """Panels by motion and fidelity; ideal gears have one only, as nothing is integrated in the others: the legend is there."""
+    """Axes by motion (rows) and level of gear contact (columns).
+
+    Ideal gears have axes for the clunk alone, because nothing is integrated in their turns. The legend stands in place of those axes."""
     figure = style.figure(HEIGHT)
     spec = figure.add_gridspec(3, 4)
     grid, first = [[None] * 4 for _ in range(3)], None

@@ -1,5 +1,5 @@
-"""Rows of designs as a table, and results in a Parquet file. While they arrive they are kept in parts next to it, so that
-little is lost by an interrupt, a crash or a full disk."""
+"""Results of designs as a table, and their storage in a Parquet file. Rows are written to parts beside that file while they
+arrive, so that an interrupt, a crash or a full disk loses little."""
 
 import hashlib
 import json
@@ -18,16 +18,17 @@ from ..values import DifferentialError, FileName
 from .space import Space
 from .task import Row, Task
 
-# time between two parts, s
+# least time between two parts, s
 INTERVAL = 1.0
 PLAN = "plan.json"
 TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Boolean": pa.bool_(), "Enumeration": pa.string()}
-# of the schema's metadata
+# key of this package's entry in the metadata of a schema
 KEY = b"bevel_differential"
 
 
 class Columns:
-    """Columns of a table: run, what varies, what is wanted, feasible, message, seconds. Each names its SI unit."""
+    """Columns of a table: run, varied variables, wanted figures, feasible, message, seconds. Variables, figures and seconds
+    name their SI unit."""
 
     def __init__(self, task: Task, space: Space):
         fmu = task.scene.fmu
@@ -59,22 +60,22 @@ def with_metadata(table: pa.Table, metadata: dict[str, Any]) -> pa.Table:
 
 
 def metadata_of(schema: pa.Schema) -> dict[str, Any] | None:
-    """The metadata of a table of this package; None for others."""
+    """The metadata of a table of this package; None for other tables."""
     text = (schema.metadata or {}).get(KEY)
     return None if text is None else json.loads(text)
 
 
 def digest(table: pa.Table) -> str:
-    """A hash of all rows without what they took: the same for the same results."""
+    """A hash of all rows without their times: equal for equal results."""
     rows = table.drop_columns(["seconds"]).sort_by("run").to_pylist()
     return hashlib.sha256(json.dumps(rows).encode()).hexdigest()
 
 
 class Store:
-    """Results on their way to `file`, with what they are results of as `metadata`; `metadata["hash"]` names it.
+    """Results on their way to `file`. `metadata` describes the task and the plan; `metadata["hash"]` identifies them.
 
-    A context: what has been added is kept, whatever ends it. `resume` goes on with the parts
-    that are there, `force` starts over."""
+    If an exception ends the context, the rows added so far are kept, unless the disk could not be written to.
+    `resume` continues with the parts of an earlier command, `force` starts over."""
 
     def __init__(self, file: FileName, columns: Columns, metadata: dict[str, Any], resume: bool = False, force: bool = False):
         self.file, self.columns, self.metadata = Path(file), columns, metadata
@@ -98,17 +99,17 @@ class Store:
         self._count = len(self.kept)
 
     def runs(self) -> set[int]:
-        """Runs that are kept."""
+        """Numbers of the runs that an earlier command has kept."""
         return set(self.kept["run"].to_pylist())
 
     def add(self, row: Row) -> None:
-        """Keeps a row."""
+        """Adds a row. A part is written when the last one is older than `INTERVAL`."""
         self._rows.append(row)
         if time.monotonic() - self._flushed > INTERVAL:
             self.flush()
 
     def flush(self) -> None:
-        """Writes what has been added into a part."""
+        """Writes the rows added since the last part into a new part."""
         if self._rows:
             number = len(list(self.folder.glob("part-*.parquet")))
             self._write(self.columns.table(self._rows), self.folder / f"part-{number:06d}-{os.getpid()}.parquet")
@@ -125,7 +126,7 @@ class Store:
         return table
 
     def progress(self) -> str:
-        """What is kept, and how to go on."""
+        """Sentence that says how many runs are kept, where, and how to go on."""
         return (f"{self._count} of {self.metadata['runs']} runs are kept in {self.folder}; "
                 "the same command with --resume (resume=True) goes on")
 
@@ -172,7 +173,7 @@ class Store:
             raise StoreError(f"{self.folder}: {error.strerror or error}") from None
 
     def _read_parts(self):
-        """All parts as one table, in order of run. A run that is there twice counts once."""
+        """All parts as one table, in order of run. Of a run that is there twice the last row counts."""
         tables = [pq.read_table(part, schema=self.columns.schema) for part in sorted(self.folder.glob("part-*.parquet"))]
         table = pa.concat_tables(tables) if tables else self.columns.schema.empty_table()
         places = {run: place for place, run in enumerate(table["run"].to_pylist())}
@@ -190,14 +191,14 @@ class StoreError(DifferentialError):
 
 
 def _replace(file, write):
-    """Writes under another name, and renames only what has reached the disk."""
+    """Writes a temporary file, and renames it to `file` once its contents have reached the disk."""
     temporary = file.with_name(f".{file.name}.{os.getpid()}")
     try:
         write(temporary)
         with open(temporary, "rb+") as written:
             os.fsync(written.fileno())
         os.replace(temporary, file)
-        # Windows has no handles of folders
+        # Windows cannot open a folder to sync it
         if os.name == "posix":
             folder = os.open(file.parent, os.O_RDONLY)
             try:

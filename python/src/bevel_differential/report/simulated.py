@@ -13,6 +13,12 @@ from ..values import DifferentialError, Number
 ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history")
 # the fastest of several runs counts: most runs, and the time after which no further run begins, s
 TIMED, SHORT = 3, 0.5
+# main speeds and torques, drawn in every report
+SPEEDS = ("carrier.speed", "left.speed", "right.speed", "planet[1].spin_speed")
+TORQUES = ("carrier.torque", "left.shaft_torque", "right.shaft_torque")
+# a curve is straight between its points if no more than MISSED of the points between leave it by more than LEFT of its range;
+# steps are halved until then, to MOST_POINTS points at most
+LEFT, MISSED, MOST_POINTS = 0.01, 0.02, 6000
 
 
 @dataclass(frozen=True)
@@ -22,7 +28,8 @@ class Simulated:
     `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: time of a run of the scene
     as it is written. `says`: the FMU's own description of the simulated model. `added`: effects that only add outputs, switched
     on for the record. `refused`: by such an effect, the FMU's reason to refuse it. `difference`: largest difference between the
-    scene's own outputs with and without the added effects, relative to their largest values."""
+    scene's own outputs with and without the added effects, relative to their largest values. `drawn`: the scene's outputs, speeds and
+    torques at times so close that lines between them show how shafts ring."""
 
     scene: Scene
     record: np.ndarray
@@ -32,6 +39,7 @@ class Simulated:
     added: tuple[str, ...]
     refused: dict[str, str]
     difference: float
+    drawn: np.ndarray
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
@@ -54,7 +62,7 @@ class Simulated:
                  if variable.causality in ("input", "output", "calculatedParameter")]
         record = scene.run(names, added)
         return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused,
-                   _difference(as_written, record))
+                   _difference(as_written, record), _drawn(scene))
 
     def value(self, name: str) -> Number:
         """A parameter or the start of an input, SI."""
@@ -101,6 +109,28 @@ def reason_of(error: DifferentialError) -> str:
     """The FMU's own reason in a refusal, in one line."""
     lines = str(error).splitlines()
     return "; ".join(lines[1:] if len(lines) > 1 and lines[0].endswith(":") else lines)
+
+
+def _drawn(scene):
+    names = list(dict.fromkeys([*scene.outputs, *SPEEDS, *TORQUES]))
+    step, record = scene.step, scene._record(names)
+    while True:
+        step /= 2.0
+        if scene.stop / step > MOST_POINTS:
+            return record
+        closer = scene._record(names, step=step)
+        if _is_straight(record, closer, names):
+            return record
+        record = closer
+
+
+def _is_straight(record, closer, names):
+    for name in names:
+        values = closer[name].astype(float)
+        off = np.abs(np.interp(closer["time"], record["time"], record[name].astype(float)) - values)
+        if np.mean(off > LEFT * np.ptp(values)) > MISSED:
+            return False
+    return True
 
 
 def _difference(as_written, record):

@@ -62,11 +62,13 @@ def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
 
 def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_height: float, held: bool = False) -> np.ndarray:
     """Draws outputs over time, a panel for each unit; as steps if values are `held` between communication points."""
-    panels = by_unit(run.scene.fmu, run.record, names)
+    names = list(names)
+    record = run.record if held or not set(names) <= set(run.drawn.dtype.names or ()) else run.drawn
+    panels = by_unit(run.scene.fmu, record, names)
     picture.set_figheight(panel_height * len(panels) + 0.6)
     axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-        draw_panel(panel, run.time, unit, "held" if held else kind, curves)
+        draw_panel(panel, record["time"], unit, "held" if held else kind, curves)
     axes[-1].set_xlabel("time, s")
     return axes
 

@@ -5,12 +5,10 @@ import numpy as np
 from ..want import figures as figures_of
 from . import style, words
 from .blocks import Picture, Section, Table
-from .simulated import Simulated
+from .simulated import SPEEDS, TORQUES, Simulated
 
 # inches
 PANEL = 1.55
-SPEEDS = ("carrier.speed", "left.speed", "right.speed", "planet[1].spin_speed")
-TORQUES = ("carrier.torque", "left.shaft_torque", "right.shaft_torque")
 ROUNDING = 1e-12
 STATISTICS = ("mean", "min", "max", "rms", "peak_to_peak", "final")
 # besides the scene's own outputs; those of meshes where there are some

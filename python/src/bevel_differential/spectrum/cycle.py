@@ -1,6 +1,6 @@
 """A duty cycle from a CSV file: a line for each event.
 
-What is known of a vehicle on its road gives the inputs of the differential:
+Speed, torque and turn of the vehicle give the inputs of the differential. With a speed-driven carrier and torque-driven sides:
 
 ```text
 carrier.speed_command = v/r                      v speed, r radius of the wheels
@@ -9,11 +9,11 @@ planet.spin_command   = (ω_left − ω_right)/2 · z_side/z_planet
 load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
 ```
 
-So where the scene drives the carrier by speed and the sides by torque. A carrier that is driven by torque takes T as its command, and
-v/r as its first speed. Sides that are driven by speed take v/r ± (ω_left − ω_right)/2, and the spin stays free.
+A torque-driven carrier has T as its command and starts at v/r. Speed-driven sides have v/r ± (ω_left − ω_right)/2, and the planets'
+spin is free.
 
-The left wheel is the inner one of a turn to the left, at R − w/2; nothing slips (Ackermann). Torque is positive when the engine
-drives forward, speed when the vehicle goes forward."""
+In a turn to the left the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive when
+the engine drives forward, the speed when the vehicle goes forward."""
 
 from collections.abc import Mapping
 from math import nan, pi
@@ -36,17 +36,17 @@ QUANTITIES = {quantity.name: quantity for quantity in [
     Quantity("track", LENGTH),
 ]}
 SPIN = "scene.planet_spin"
-# how the FMU drives each shaft; the sense in which half the difference of speeds adds to each side
+# parameters for the drive of each shaft; sign of half the speed difference on each side
 DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
 SIDES = {"left": 1.0, "right": -1.0}
 _COLUMNS: list[Quantity | Text] = [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
 OWN = {column.name: column for column in _COLUMNS}
-# they hold for the whole cycle: gears do not change from event to event
+# beginnings of parameters that cannot be columns, because the gears are the same in all events
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
-# quantities of which one says how the vehicle turns
+# quantities for the turn of the vehicle; an event has at most one of them
 TURNS = {"turn_radius", "speed_difference"}
-# steps of a time history: the longest, and the shortest [s]
+# longest and shortest communication step [s]
 LONGEST, SHORTEST = 0.01, 1e-4
 
 
@@ -63,7 +63,7 @@ def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tu
 
 
 def _drives(row, drives, fmu):
-    """Literals of the drives in an event."""
+    """Literals of `DRIVES` in an event, {name: literal}."""
     return {name: fmu.variable(name).written(int(row.get(name, drives[name]))) for name in DRIVES}
 
 
@@ -76,7 +76,7 @@ def _event(table, line, row, fmu, vehicle, gears):
     history = _history(table, line, row, fmu) if "history" in row else {}
     known = {**vehicle, **{name: value for name, value in row.items() if name in QUANTITIES}, **history}
     if TURNS & table.columns.keys() and not TURNS & known.keys() and "planet.spin_command" not in row:
-        # empty: straight ahead, whatever the scene has
+        # empty cells mean straight ahead, even if the scene imposes a spin
         known["speed_difference"] = 0.0
     try:
         driven = _driven(known, {**row, **history}, gears)
@@ -95,7 +95,7 @@ def _event(table, line, row, fmu, vehicle, gears):
 
 
 def _step(history):
-    """Communication step [s]: that of the points of a history, within limits."""
+    """Communication step [s]: the shortest interval between points of the history, within limits; the longest without a history."""
     gaps = np.diff(history.get("time", ()))
     return float(np.clip(np.min(gaps[gaps > 0.0], initial=LONGEST), SHORTEST, LONGEST))
 
@@ -176,9 +176,9 @@ def _variable(name, fmu, causalities):
 
 def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
               drives: Mapping[str, str]) -> dict[str, float | str | np.ndarray]:
-    """Inputs and parameters of the FMU, SI, that follow from the quantities of `vehicle` ({name: number or array of shape
-    (points,)}, SI) with the numbers of `teeth` (planet, side gear) and the literals of `DRIVES` by name. Raises
-    `DifferentialError` for what is missing."""
+    """Inputs and parameters of the FMU in SI. `vehicle`: quantities in SI, {name: number or array of shape (points,)}; `teeth`:
+    numbers of teeth of planet and side gear; `drives`: literals of `DRIVES` by name. Raises `DifferentialError` if a quantity is
+    missing."""
     found: dict[str, float | str | np.ndarray] = {}
     by_speed = [side for side in SIDES if drives[f"scene.{side}_drive"] == "speed"]
     if "torque" in vehicle:
@@ -186,7 +186,7 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
         if drives["scene.carrier_drive"] == "torque":
             found["carrier.torque_command"] = vehicle["torque"]
     speed = vehicle["speed"] / wheel_radius(vehicle, "speed") if "speed" in vehicle else None
-    # both sides together give the carrier its speed
+    # with two speed-driven sides the carrier's speed follows from both
     if speed is not None and len(by_speed) < len(SIDES):
         found["carrier.speed_command"] = speed
     difference = _difference(vehicle)
@@ -212,7 +212,7 @@ def wheel_radius(vehicle: Mapping[str, float | np.ndarray], needed_by: str) -> f
 
 
 def _difference(vehicle):
-    """Speed of the left side gear minus that of the right one [rad/s], or None if nothing says."""
+    """Speed of the left side gear minus that of the right one [rad/s], or None if not given."""
     if "turn_radius" in vehicle and "speed_difference" in vehicle:
         raise DifferentialError("turn_radius: speed_difference says the same; leave one of them empty")
     if "speed_difference" in vehicle:

@@ -22,15 +22,17 @@ OUTPUTS = [
     "mesh.frequency", "power.in", "power.out", "power.loss", "heat.contact",
     "solver.steps", "solver.rhs_calls", "solver.step_size", "solver.energy_residual",
 ]
-# a line of a spectrum counts where it stands above this share of the strongest line and of the mean force
+# a spectral line counts above LINE_SHARE times the strongest line and above LINE_FLOOR times the mean force
 LINE_SHARE = 0.02
 LINE_FLOOR = 1e-6
-# share of the progress bar that belongs to the figures
+# share of the progress bar for drawing the figures
 FIGURES_SHARE = 0.15
 
 
 def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
-    """Simulates both cases, writes their records and pictures into `folder`, and returns what came out, by case."""
+    """Simulates both cases, writes their records and pictures into `folder`, and returns the evaluated figures by case.
+
+    `order`: cases and times as the library of answers gives them."""
     runs = {}
     for index, case in enumerate(["straight", "turning"]):
         progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
@@ -66,7 +68,8 @@ def cut(record, end):
 
 
 def settled_part(record, order, case):
-    """The study's own record without its start: its second half, in a turn its last whole mesh periods."""
+    """The settled part of the record over the study's duration: straight ahead the second half, in the turn the last whole mesh
+    periods."""
     own = cut(record, order["duration"])
     frequency = order[case]["mesh_frequency"]
     begin = order["duration"] / 2.0
@@ -77,7 +80,7 @@ def settled_part(record, order, case):
 
 
 def evaluate(run, order, case):
-    """Means over the settled part, and the start from its fine record."""
+    """Means over the settled part, and figures of the start from its finely sampled record."""
     record, start = run["record"], run["start"]
     own, part = cut(record, order["duration"]), settled_part(record, order, case)
     speeds = [np.degrees(part[f"{side}.speed"]) for side in ["left", "right"]]
@@ -99,7 +102,7 @@ def evaluate(run, order, case):
 
 
 def settling_time(start, expected, band):
-    """Last time at which a speed was farther from theory than `band`, as a fraction."""
+    """Last time at which a speed was off its theoretical value by more than the fraction `band`."""
     speeds = zip(["left", "right"], expected)
     far = [np.abs(np.degrees(start[f"{side}.speed"]) / speed - 1.0) > band for side, speed in speeds]
     outside = np.any(far, axis=0)
@@ -107,7 +110,8 @@ def settling_time(start, expected, band):
 
 
 def force_spectra(record, order):
-    """Amplitudes over whole mesh periods of the turn at the record's end; so a rectangular window leaks nothing."""
+    """Amplitudes of the forces over the end of the record. The window has whole mesh periods of the turn, so a rectangular window
+    leaks nothing."""
     count = round(order["spectrum_window"] / order["interval"])
     part = record[-count - 1:-1]
     spectra = {"frequency": np.fft.rfftfreq(count, order["interval"])}
@@ -120,7 +124,7 @@ def force_spectra(record, order):
 
 
 def first_line(spectra, mean_force):
-    """Lowest frequency at which the force has a line; None where nothing stands out."""
+    """Lowest frequency of a line in the spectrum of the left normal force; None where no line stands out."""
     amplitude = spectra["left.normal_force"][1:]
     threshold = max(LINE_SHARE * np.max(amplitude), LINE_FLOOR * mean_force)
     lines = np.flatnonzero(amplitude >= threshold)
@@ -128,7 +132,7 @@ def first_line(spectra, mean_force):
 
 
 def write_csv(path, record, variables):
-    """A record with units in the header, values in the units people think in."""
+    """Writes a record in display units, with the units in the header."""
     columns = [("time [s]", record["time"])]
     for name in record.dtype.names[1:]:
         unit, values = variables[name].shown(record[name])

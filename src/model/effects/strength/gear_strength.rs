@@ -1,4 +1,4 @@
-//! Constants of the strength of the gears, and the readings of stress, damage and safety.
+//! Rating constants of the gears, and the readings of stress, damage and safety factors.
 
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
 use crate::contact::pair_load::PairLoad;
@@ -7,14 +7,14 @@ use crate::problem::Problem;
 use crate::strength::Rating;
 use crate::strength::face_load::root_factor;
 
-/// Readings of damage, which stand before those of safety.
+/// Number of readings of damage; the readings of safety follow them.
 const DAMAGES: usize = 4;
 
-/// Constants of the strength of planet and side gear.
+/// Rating constants of planet and side gear.
 #[derive(Clone, Copy, Debug)]
 pub struct GearStrength {
     pub(super) rating: Rating,
-    /// Application factor K_A, by which the load on the teeth exceeds the simulated one.
+    /// Application factor K_A: rated load over simulated load.
     application: f64,
     mean_cone: f64,
 }
@@ -46,7 +46,7 @@ impl GearStrength {
         flank.bending += moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
     }
 
-    /// Adds the pressure of a pair to that of its mesh, which no rating asks for.
+    /// Raises the pressure of a mesh to that of one of its pairs. The pressure is a reading that no rating uses.
     pub fn add_pressure(&self, mesh: &mut MeshLoad, load: &PairLoad) {
         let flank = mesh.flank(load.flank);
         let line_load = self.application * load.steepest * self.mean_cone;
@@ -54,7 +54,7 @@ impl GearStrength {
         flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
     }
 
-    /// Sets the readings of stress from the loads of all meshes at an instant.
+    /// Raises the readings of stress to the largest stresses of all meshes at an instant.
     pub fn read_stresses(&self, meshes: impl Iterator<Item = MeshLoad>, readings: &mut [f64]) {
         for mesh in meshes {
             let stresses = [
@@ -70,7 +70,7 @@ impl GearStrength {
         }
     }
 
-    /// Sets the readings of damage and safety.
+    /// Sets the readings of damage and of the safety factors.
     pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
         let (damage, safety) = readings.split_at_mut(DAMAGES);
         damage.copy_from_slice(&fatigue.sums(&self.rating));
