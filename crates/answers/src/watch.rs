@@ -31,7 +31,8 @@ impl fmt::Display for Stopped {
 impl std::error::Error for Stopped {}
 
 impl<'a> Watch<'a> {
-    /// `tell` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go on.
+    /// `tell` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go
+    /// on.
     pub fn new(tell: impl FnMut(f64, &str) -> bool + 'a) -> Self {
         Self { tell: Box::new(tell), done: 0.0, what: String::new(), asked: None, stopped: false }
     }

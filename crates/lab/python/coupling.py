@@ -19,14 +19,15 @@ HEAD = ["coupling", "fidelity", "h_s", "status", "message", "runs", "cpu_s", "cp
 # runs: the coupling as an argument of coupling.c, the level of gear contact, the name in the CSV file
 COUPLINGS = [("0", "impact", "plain"), ("1", "impact", "rollback_once"), ("2", "impact", "rollback_twice"),
              ("constant", "impact", "constant_inputs"), ("0", "ideal", "plain"), ("2", "ideal", "rollback_twice")]
-# as in coupling.c: inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], slip stiffness of a tyre [N], its radius [m],
-# force of a tyre at the start [N]
+# as in coupling.c: inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], slip stiffness [N] and radius [m] of a
+# tyre, force of a tyre at the start [N]
 WHEEL, SPEED, STIFFNESS, RADIUS, FORCE = 1.0, 70.0, 6e4, 0.3, 0.5 * 50.0 / 0.3
 # communication step [s]; cost is relative to stepping without rollback at this step, with teeth
 UNIT = 1e-3
 # tolerance of the differential, small enough for the errors of coupling to show; tolerance of the reference with constant inputs
 TOLERANCE, FINEST = 1e-9, 1e-11
-# step of the reference that integrates host and differential as one system [s]: explicit, so it has to resolve the damping of teeth
+# step of the reference, which integrates host and differential as one system [s]: an explicit method has to resolve the teeth's
+# damping
 IN_ONE_PIECE = {"ideal": 1e-4, "impact": 1e-6}
 FULL = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1)
 QUICK = (1e-4, 1e-3, 1e-2, 1e-1)
@@ -64,7 +65,7 @@ class Host:
 
 
 def longest_stable_step():
-    """Communication step beyond which a tyre that grips is unstable without rollback [s]: 2 J v/(C r²), v the speed of the car."""
+    """Longest communication step at which a tyre that grips is stable without rollback [s]: 2 J v/(C r²), v speed of the car."""
     return 2.0 * WHEEL * RADIUS * SPEED / (1.0 + FORCE / STIFFNESS) / (STIFFNESS * RADIUS**2)
 
 

@@ -12,6 +12,9 @@ use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
+/// What the commands look at and a fresh clone does not have, made by the program that builds. Tool chains come first.
+const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
+
 /// The commands with their options for a run of all, checks that need no idle machine last.
 const COMMANDS: [&[&str]; 20] = [
     &["prices", "--quick"],
@@ -58,9 +61,14 @@ impl AllCommand {
             COMMANDS.iter().filter(|words| self.only.is_empty() || self.only.iter().any(|name| name == words[0]));
         let mut table = Table::new(["command", "seconds", "outcome", "last line"]).left([0, 2, 3]);
         let mut failed = Vec::new();
-        for words in chosen {
+        let own = std::env::current_exe()?;
+        let made = MADE
+            .iter()
+            .filter(|_| self.only.is_empty())
+            .map(|&name| ("cargo".into(), vec!["run", "--release", "--", name]));
+        for (program, words) in made.chain(chosen.map(|words| (own.clone(), words.to_vec()))) {
             progress.stage(&format!("running {}", words.join(" ")));
-            let (row, held) = outcome(words, &folder)?;
+            let (row, held) = outcome(&program, &words, &folder)?;
             failed.extend((!held).then(|| words.join(" ")));
             table.push(row);
         }
@@ -72,18 +80,20 @@ impl AllCommand {
     }
 }
 
-/// Runs a command, whose print goes to a file: its row of the table, and whether it held.
-fn outcome(words: &[&str], folder: &Path) -> Result<([String; 4], bool)> {
-    let file: PathBuf = folder.join(format!("{}.txt", words[0]));
+/// Runs `program` with `words`; its print goes to a file. Returns its row of the table, and whether it held.
+fn outcome(program: &Path, words: &[&str], folder: &Path) -> Result<([String; 4], bool)> {
+    let name = words.iter().find(|word| **word != "run" && !word.starts_with('-')).copied().unwrap_or("command");
+    let file: PathBuf = folder.join(format!("{name}.txt"));
     let printed = File::create(&file).with_context(|| format!("{} cannot be written", paths::shown(&file)))?;
     let begin = Instant::now();
-    let status = Command::new(std::env::current_exe()?)
+    let status = Command::new(program)
         .args(words)
+        .current_dir(paths::workspace())
         .stdin(Stdio::null())
         .stdout(printed.try_clone()?)
         .stderr(printed)
         .status()
-        .with_context(|| format!("{} cannot be run", words[0]))?;
+        .with_context(|| format!("{name} cannot be run"))?;
     let seconds = format!("{:.0}", begin.elapsed().as_secs_f64());
     let text = String::from_utf8_lossy(&fs::read(&file)?).into_owned();
     let said = text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim();

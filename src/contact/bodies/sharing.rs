@@ -1,10 +1,10 @@
 //! Couplings of tooth pairs by the elastic bodies of their gears, while the gears turn.
 //!
-//! The bodies are linear elastic and the same at every tooth. A unit load on the pair at place s moves the pair at place s′ by the
-//! coupling t, and conversely. The coupling follows from s, s′ and the difference of the tooth numbers. Teeth of one gear keep
-//! their distance. So s − s′ is constant on the same flank of one mesh and on unlike flanks of a planet's two meshes, and s + s′ is
-//! constant on unlike flanks of one mesh and on like flanks of a planet's two meshes. Each coupling is therefore a smooth function
-//! of one variable, u = (s + s′)/2 or (s − s′)/2, and is kept as a polynomial.
+//! The bodies are linear elastic and the same at every tooth. A unit load on the pair at place s moves the pair at place s′ by
+//! the coupling t, and conversely. The coupling follows from s, s′ and the difference of the tooth numbers. Teeth of one gear
+//! keep their distance. So s − s′ is constant on the same flank of one mesh and on unlike flanks of a planet's two meshes. And
+//! s + s′ is constant on unlike flanks of one mesh and on like flanks of a planet's two meshes. Each coupling is therefore a
+//! smooth function of one variable, u = (s + s′)/2 or (s − s′)/2, and is kept as a polynomial.
 
 use super::mesh::{LoadedTooth, MeshOnBodies};
 use super::polynomial::Polynomial;
@@ -37,8 +37,8 @@ pub struct SharedBodies {
     pub pull: Pull,
 }
 
-/// Bounds of the approach that loads on other pairs add to a pair, over the approach of the flanks that carry these loads. Each is
-/// −t over the least compliance of a single pair, times the number of pairs that pull at once.
+/// Bounds of the approach that loads on other pairs add to a pair, over the approach of the flanks that carry these loads. Each
+/// is −t over the least compliance of a single pair, times the number of pairs that pull at once.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pull {
     /// By pairs on the same flank.
@@ -88,9 +88,9 @@ pub struct Coupling {
     pub twice: [f64; 3],
 }
 
-/// The coupling `t` as a polynomial of u about `middle` [rad]. `places` gives both places at u, and `apart` is by how much the range
-/// of u is shorter than the range from `low` to `high`, so that both places lie there. Without such a range the polynomial is
-/// constant, with the places at `middle` limited to `low` and `high`.
+/// The coupling `t` as a polynomial of u about `middle` [rad]. `places` gives both places at u. Both lie between `low` and `high`
+/// on a range of u that is shorter by `apart`. If there is no such range, the polynomial is constant: `t` with the places at
+/// `middle` limited to `low` and `high`.
 fn on(
     [low, high]: [f64; 2],
     (middle, apart): (f64, f64),
@@ -106,7 +106,7 @@ fn on(
 }
 
 impl SharedBodies {
-    /// The couplings of `mesh`. `path` is the path of contact [rad], and `beams` the part of it on which both teeth are beams [rad].
+    /// The couplings of `mesh`. `path` is the path of contact [rad], and `beams` the part of it on which both teeth are beams.
     /// `centred` is the place of a pair whose tooth stands in the middle of its gap, `pitch` the base pitch [rad].
     pub fn new(mesh: &MeshOnBodies, [path, beams]: [[f64; 2]; 2], (centred, pitch): (f64, f64)) -> Self {
         let reach = [path[0] - PAST * pitch, path[1] + PAST * pitch];

@@ -1,5 +1,5 @@
-//! All that changes while a simulation runs, except the damage of teeth and values over mesh cycles (`Watched`). The state is small
-//! and `Copy`, so that a snapshot is an assignment.
+//! All that changes while a simulation runs, except the damage of teeth and values over mesh cycles (`Watched`). The state is
+//! small and `Copy`, so that a snapshot is an assignment.
 
 use serde::{Deserialize, Serialize};
 

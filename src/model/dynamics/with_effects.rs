@@ -50,7 +50,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    /// Adds the forces of the meshes and the dry friction that depends on these. Returns the torques of the meshes on the side gears.
+    /// Adds the forces of the meshes and the dry friction that depends on them. Returns the torques of the meshes on the side
+    /// gears.
     #[inline]
     pub(in crate::model) fn act_of_teeth(
         &self,

@@ -75,7 +75,8 @@ impl Recorded<MOST> for IdealEquations<'_> {
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Elastic energy gained or lost in a step by deflected pairs that enter or leave contact abruptly, without corner contact [J].
+    /// Elastic energy that deflected pairs gain or lose in a step where they enter or leave contact abruptly, without corner
+    /// contact [J].
     #[inline(never)]
     fn energy_of_jumps(&self, step: &Step<N, LedgerRates>) -> f64 {
         let between = |t: f64| Point {

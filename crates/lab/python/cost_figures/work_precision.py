@@ -87,7 +87,7 @@ def counts(folder):
 def panels():
     """Axes by motion (rows) and level of gear contact (columns).
 
-    Ideal gears have axes for the clunk alone, because nothing is integrated in their turns. The legend stands in place of those axes."""
+    Ideal gears have axes for the clunk alone, because nothing is integrated in their turns. The legend fills the free place."""
     figure = style.figure(HEIGHT)
     spec = figure.add_gridspec(3, 4)
     grid, first = [[None] * 4 for _ in range(3)], None

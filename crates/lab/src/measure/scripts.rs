@@ -9,8 +9,8 @@ use fmu_build::tools::progress::Progress;
 
 use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number, path};
 
-/// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by quantity,
-/// contact laws, and levels of gear contact.
+/// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by
+/// quantity, contact laws, and levels of gear contact.
 pub const COST: Script = Script {
     name: "cost",
     about: "Measures what accuracy costs: methods, fidelities, settings and communication steps",

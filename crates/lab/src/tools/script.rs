@@ -1,5 +1,5 @@
-//! Commands that run a Python script. Its tables go to the terminal. With the option `write` they and the figures also go into the
-//! documents.
+//! Commands that run a Python script. The tables go to the terminal. With the option `write` tables and figures also go into
+//! the documents.
 
 use std::ffi::OsString;
 use std::fs;
@@ -93,9 +93,9 @@ pub enum Given {
     Made(fn(&ArgMatches, &Progress) -> Result<Vec<OsString>>),
 }
 
-/// A section of a document: path of the document in the workspace, name in the marks of the section, file of results. If the file is
-/// empty, the section is the printed output. If the name is empty, the document becomes a copy of the file. A section whose file the
-/// script did not write stays as it is.
+/// A section of a document: path of the document in the workspace, name in the marks of the section, file of results. If the
+/// file is empty, the section is the printed output. If the name is empty, the document becomes a copy of the file. Without the
+/// file in the folder of results, the section stays as it is.
 pub type Section = (&'static str, &'static str, &'static str);
 
 /// An option without a value.

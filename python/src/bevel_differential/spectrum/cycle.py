@@ -9,11 +9,11 @@ planet.spin_command   = (ω_left − ω_right)/2 · z_side/z_planet
 load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
 ```
 
-A torque-driven carrier has T as its command and starts at v/r. Speed-driven sides have v/r ± (ω_left − ω_right)/2, and the planets'
-spin is free.
+A torque-driven carrier has T as its command and starts at v/r. Speed-driven sides have v/r ± (ω_left − ω_right)/2, and the
+planets' spin is free.
 
-In a turn to the left the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive when
-the engine drives forward, the speed when the vehicle goes forward."""
+In a turn to the left the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive
+when the engine drives forward, the speed when the vehicle goes forward."""
 
 from collections.abc import Mapping
 from math import nan, pi
@@ -95,7 +95,7 @@ def _event(table, line, row, fmu, vehicle, gears):
 
 
 def _step(history):
-    """Communication step [s]: the shortest interval between points of the history, within limits; the longest without a history."""
+    """Communication step [s]: the shortest interval of the history, within limits; the longest step without a history."""
     gaps = np.diff(history.get("time", ()))
     return float(np.clip(np.min(gaps[gaps > 0.0], initial=LONGEST), SHORTEST, LONGEST))
 
