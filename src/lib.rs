@@ -1,7 +1,7 @@
 //! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and its FMI 2.0 face.
 //!
 //! The rooms, ground floor first; each uses only those before it:
-//! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `fmi2`.
+//! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
 //!
 //! Programs in Rust begin with [`Differential`], which sets, runs and reads a differential by the names of the FMU's variables.
 //!
@@ -31,5 +31,8 @@ pub mod variables;
 
 pub use differential::{Differential, DifferentialError};
 
-#[allow(unsafe_code)] // the C ABI is the one place that must handle foreign pointers
+// the C ABI is the one place that must handle foreign pointers
+#[allow(unsafe_code)]
 pub mod fmi2;
+#[allow(unsafe_code)]
+pub mod instance;

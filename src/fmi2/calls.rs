@@ -1,98 +1,29 @@
 //! Which call is legal in which state: the tables of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
-//!
-//! Both kinds share the states before the start and after the end; in between, each has its own states, so one table
-//! serves both. Calls of one kind that are legal in a shared state also check the kind.
 
-use serde::{Deserialize, Serialize};
+use crate::instance::{Face, Phase, calls};
 
-use super::{CallError, CallResult};
+/// FMI 2.0.
+pub static FACE: Face = Face {
+    version: 2,
+    set_state: "fmi2SetFMUstate",
+    reset: "fmi2Reset",
+    exit_initialization: "fmi2ExitInitializationMode",
+};
 
-/// State of an instance in FMI's state machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(u8)]
-pub enum Phase {
-    /// After fmi2Instantiate or fmi2Reset.
-    Instantiated = 0,
-    /// Between fmi2EnterInitializationMode and fmi2ExitInitializationMode.
-    Initialization = 1,
-    /// Ready for fmi2DoStep.
-    StepComplete = 2,
-    /// fmi2DoStep was discarded; values are those of the last successful time.
-    StepFailed = 3,
-    /// After fmi2Terminate.
-    Terminated = 4,
-    /// Initialisation failed, or an internal error.
-    Error = 5,
-    /// Model exchange, at an event.
-    Event = 6,
-    /// Model exchange, between events.
-    ContinuousTime = 7,
-}
-
-impl Phase {
-    pub(super) const ALL: [Self; 8] = {
-        use Phase::*;
-        [Instantiated, Initialization, StepComplete, StepFailed, Event, ContinuousTime, Terminated, Error]
-    };
-
-    /// Whether a simulation runs.
-    pub fn is_running(self) -> bool {
-        matches!(self, Self::StepComplete | Self::Event | Self::ContinuousTime)
-    }
-
-    /// Name in messages.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Instantiated => "instantiated",
-            Self::Initialization => "initialization mode",
-            Self::StepComplete => "step complete",
-            Self::StepFailed => "step failed",
-            Self::Terminated => "terminated",
-            Self::Error => "error",
-            Self::Event => "event mode",
-            Self::ContinuousTime => "continuous-time mode",
-        }
-    }
-}
-
-const INST: u8 = 1 << Phase::Instantiated as u8;
-const INIT: u8 = 1 << Phase::Initialization as u8;
-const COMPLETE: u8 = 1 << Phase::StepComplete as u8;
-const FAILED: u8 = 1 << Phase::StepFailed as u8;
-const TERMINATED: u8 = 1 << Phase::Terminated as u8;
-const ERROR: u8 = 1 << Phase::Error as u8;
+const INST: u16 = Phase::Instantiated.bit();
+const INIT: u16 = Phase::Initialization.bit();
+const COMPLETE: u16 = Phase::StepComplete.bit();
+const FAILED: u16 = Phase::StepFailed.bit();
+const TERMINATED: u16 = Phase::Terminated.bit();
+const ERROR: u16 = Phase::Error.bit();
 /// For fmi2CancelStep: steps are synchronous, so no instance is ever in the state "step in progress".
-const NEVER: u8 = 0;
-const EVENT: u8 = 1 << Phase::Event as u8;
-const CONTINUOUS: u8 = 1 << Phase::ContinuousTime as u8;
-const ALWAYS: u8 = INST | INIT | COMPLETE | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
-
-macro_rules! calls {
-    ($($call:ident $name:literal $phases:expr;)+) => {
-        /// A function of FMI that is legal in certain states only.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(missing_docs)]
-        pub enum Call { $($call),+ }
-
-        impl Call {
-            /// All calls.
-            #[cfg(test)]
-            pub const ALL: &[Self] = &[$(Self::$call),+];
-
-            /// Name of the C function.
-            pub fn name(self) -> &'static str {
-                match self { $(Self::$call => $name),+ }
-            }
-
-            /// States in which the call is legal, a bit each.
-            fn phases(self) -> u8 {
-                match self { $(Self::$call => $phases),+ }
-            }
-        }
-    };
-}
+const NEVER: u16 = 0;
+const EVENT: u16 = Phase::Event.bit();
+const CONTINUOUS: u16 = Phase::ContinuousTime.bit();
+const ALWAYS: u16 = INST | INIT | COMPLETE | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
 
 calls! {
+    &FACE;
     SetDebugLogging          "fmi2SetDebugLogging"          ALWAYS;
     SetupExperiment          "fmi2SetupExperiment"          INST;
     EnterInitializationMode  "fmi2EnterInitializationMode"  INST;
@@ -133,22 +64,4 @@ calls! {
     GetEventIndicators       "fmi2GetEventIndicators"       INIT | EVENT | CONTINUOUS | TERMINATED | ERROR;
     GetContinuousStates      "fmi2GetContinuousStates"      INIT | EVENT | CONTINUOUS | TERMINATED | ERROR;
     GetNominals              "fmi2GetNominalsOfContinuousStates" ALWAYS;
-}
-
-impl Call {
-    /// Whether the call is legal in `phase`.
-    pub fn legal(self, phase: Phase) -> bool {
-        self.phases() & (1 << phase as u8) != 0
-    }
-
-    /// Refuses a call that is not legal in `phase`.
-    pub fn check(self, phase: Phase) -> CallResult {
-        if self.legal(phase) {
-            return Ok(());
-        }
-        let legal: Vec<_> = Phase::ALL.into_iter().filter(|&p| self.legal(p)).map(Phase::name).collect();
-        let states =
-            if legal.is_empty() { "no state of this FMU".into() } else { format!("\"{}\"", legal.join("\", \"")) };
-        Err(CallError::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name())))
-    }
 }

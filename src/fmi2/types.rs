@@ -1,48 +1,10 @@
 //! Types of the FMI 2.0 headers, platform "default".
 
-use crate::fmi2::c_types::{c_char, c_int, c_uint, c_void};
-
-use serde::{Deserialize, Serialize};
+use crate::instance::c_types::{c_int, c_void};
+pub use crate::instance::{ComponentPointer, FmuState, Kind, Status, Text, ValueReference};
 
 /// fmi2Boolean: 0 is false.
 pub type Boolean = c_int;
-/// fmi2Component: pointer to an instance.
-pub type ComponentPointer = *mut c_void;
-/// fmi2FMUstate: pointer to a snapshot.
-pub type FmuState = *mut c_void;
-/// fmi2String.
-pub type Text = *const c_char;
-/// fmi2ValueReference.
-pub type ValueReference = c_uint;
-
-/// fmi2Status.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Status {
-    /// Success.
-    Ok = 0,
-    /// Not quite right, but the simulation continues.
-    Warning = 1,
-    /// Refused or carried out in part; the instance is valid.
-    Discard = 2,
-    /// Refused, or failed; see the log.
-    Error = 3,
-    /// The instance is unusable; never returned by this FMU.
-    Fatal = 4,
-    /// The step still runs; never returned by this FMU.
-    Pending = 5,
-}
-
-/// fmi2Type.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(i32)]
-pub enum Kind {
-    /// The host has the solver.
-    ModelExchange = 0,
-    /// The instance has the solver.
-    CoSimulation = 1,
-}
-
 /// fmi2ModelExchange of fmi2Type.
 pub const MODEL_EXCHANGE: c_int = Kind::ModelExchange as c_int;
 /// fmi2CoSimulation of fmi2Type.

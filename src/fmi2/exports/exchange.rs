@@ -34,7 +34,13 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(c: ComponentPointer, info: *mut E
     call!(c, NewDiscreteStates, |instance, host| {
         // SAFETY: the host's promise, see the module
         let info = unsafe { host.output_value("fmi2EventInfo", info) }?;
-        info.write(instance.new_discrete_states()?);
+        let update = instance.new_discrete_states()?;
+        info.write(EventInfo {
+            states_changed: Boolean::from(update.states_changed),
+            next_event_defined: Boolean::from(update.next.is_some()),
+            next_event: update.next.unwrap_or(0.0),
+            ..EventInfo::default()
+        });
         Ok(())
     })
 }

@@ -3,10 +3,9 @@
 use std::ffi::{CStr, CString};
 use std::ptr;
 
-use super::super::component::{self, Component};
-use super::super::panic_guard;
+use super::super::logger::HostLogger;
 use super::*;
-use crate::fmi2::{Experiment, Log};
+use crate::instance::{Component, Experiment, Log, catch, free};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.
@@ -36,7 +35,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     if !callbacks.is_aligned() {
         return ptr::null_mut();
     }
-    let instance = panic_guard::catch(|| {
+    let instance = catch(|| {
         HostMemory::during_call(|host| {
             // SAFETY: the host's promise, see the module
             let (name, guid) = unsafe { (host.string(name), host.string(guid)) };
@@ -58,7 +57,7 @@ fn instantiate(
 ) -> Option<Instance> {
     let named = name.filter(|n| !n.is_empty());
     let label = named.map_or_else(|| CString::new(MODEL_NAME).unwrap_or_default(), CStr::to_owned);
-    let log = Log::new(callbacks, label, logging_on);
+    let log = Log::new(HostLogger::of(callbacks, label), logging_on);
     let made_for = match kind {
         CO_SIMULATION => Some(Kind::CoSimulation),
         MODEL_EXCHANGE => Some(Kind::ModelExchange),
@@ -70,7 +69,7 @@ fn instantiate(
         let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
         format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
     } else if let Some(kind) = made_for {
-        return Some(Instance::new(kind, log));
+        return Some(Instance::new(&FACE, kind, log));
     } else {
         format!("type {kind} is neither model exchange ({MODEL_EXCHANGE}) nor co-simulation ({CO_SIMULATION})")
     };
@@ -82,7 +81,7 @@ fn instantiate(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: ComponentPointer) {
     // SAFETY: the host's promise, see the module
-    unsafe { component::free(c) }
+    unsafe { free(c) }
 }
 
 /// fmi2SetDebugLogging. No categories mean all.

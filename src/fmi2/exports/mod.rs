@@ -7,11 +7,10 @@
 #![allow(clippy::missing_safety_doc)] // the section above holds for all
 #![allow(non_snake_case)] // FMI's names
 
-use super::c_types::{c_char, c_int};
-
-use super::component::run;
 use super::types::*;
-use super::{Call, CallError, CallResult, HostMemory, Instance};
+use super::{Call, FACE};
+use crate::instance::c_types::{c_char, c_int};
+use crate::instance::{CallError, CallResult, HostMemory, Instance, run};
 
 /// Carries out a call: `body` checks its pointers and passes them on.
 macro_rules! call {

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ptr;
 
 use super::*;
-use crate::fmi2::Snapshot;
+use crate::instance::Snapshot;
 
 /// The snapshot behind `state`, for as long as the call lasts.
 unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {
@@ -45,14 +45,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -
     call!(c, SetFmuState, |instance, host| {
         // SAFETY: the host's promise, see the module
         let snapshot = unsafe { snapshot(host, state) }?;
-        if snapshot.kind != instance.now.kind {
-            return Err(CallError::error(format!(
-                "the state belongs to an instance for {:?}, this instance is for {:?}",
-                snapshot.kind, instance.now.kind
-            )));
-        }
-        instance.now = snapshot.clone();
-        Ok(())
+        instance.restore(snapshot)
     })
 }
 

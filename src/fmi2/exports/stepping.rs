@@ -1,7 +1,7 @@
 //! Steps and their status.
 
-use super::super::instance::no_such_status;
 use super::*;
+use crate::instance::Phase;
 
 /// fmi2DoStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
 #[unsafe(no_mangle)]
@@ -20,7 +20,11 @@ pub unsafe extern "C" fn fmi2CancelStep(c: ComponentPointer) -> Status {
 pub unsafe extern "C" fn fmi2GetStatus(c: ComponentPointer, kind: c_int, value: *mut Status) -> Status {
     call!(c, GetStatus, |instance, host| {
         // SAFETY: the host's promise, see the module
-        unsafe { host.output_value("value", value) }?.write(instance.status(kind)?);
+        let value = unsafe { host.output_value("value", value) }?;
+        if kind != DO_STEP_STATUS {
+            return Err(no_such_status(kind));
+        }
+        value.write(if instance.now.phase == Phase::StepFailed { Status::Discard } else { Status::Ok });
         Ok(())
     })
 }
@@ -30,7 +34,11 @@ pub unsafe extern "C" fn fmi2GetStatus(c: ComponentPointer, kind: c_int, value: 
 pub unsafe extern "C" fn fmi2GetRealStatus(c: ComponentPointer, kind: c_int, value: *mut f64) -> Status {
     call!(c, GetRealStatus, |instance, host| {
         // SAFETY: the host's promise, see the module
-        unsafe { host.output_value("value", value) }?.write(instance.real_status(kind)?);
+        let value = unsafe { host.output_value("value", value) }?;
+        match (kind, &instance.now.simulation) {
+            (LAST_SUCCESSFUL_TIME, Some(simulation)) => value.write(simulation.time()),
+            _ => return Err(no_such_status(kind)),
+        }
         Ok(())
     })
 }
@@ -41,12 +49,16 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(c: ComponentPointer, kind: c_int, 
     call!(c, GetIntegerStatus, |_, _| Err(no_such_status(kind)))
 }
 
-/// fmi2GetBooleanStatus.
+/// fmi2GetBooleanStatus. The FMU never requests the end of the simulation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(c: ComponentPointer, kind: c_int, value: *mut Boolean) -> Status {
-    call!(c, GetBooleanStatus, |instance, host| {
+    call!(c, GetBooleanStatus, |_, host| {
         // SAFETY: the host's promise, see the module
-        unsafe { host.output_value("value", value) }?.write(Boolean::from(instance.boolean_status(kind)?));
+        let value = unsafe { host.output_value("value", value) }?;
+        if kind != TERMINATED {
+            return Err(no_such_status(kind));
+        }
+        value.write(Boolean::from(false));
         Ok(())
     })
 }
@@ -63,4 +75,9 @@ pub unsafe extern "C" fn fmi2GetStringStatus(c: ComponentPointer, kind: c_int, v
         value.write(c"no step is pending".as_ptr());
         Ok(())
     })
+}
+
+/// The error for an unavailable status; FMI requires fmi2Discard.
+fn no_such_status(kind: i32) -> CallError {
+    CallError::discard(format!("the status of kind {kind} is not available"))
 }

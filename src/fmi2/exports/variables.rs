@@ -1,7 +1,7 @@
 //! Getting and setting variables.
 
-use super::super::values::string_error;
 use super::*;
+use crate::instance::values::string_error;
 
 macro_rules! accesses {
     ($($function:ident $call:ident $method:ident *$way:tt $type:ty, $pass:ident;)+) => {$(

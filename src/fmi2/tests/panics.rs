@@ -3,10 +3,11 @@
 
 use std::ffi::CString;
 
-use super::component::{Component, run};
 use super::exports::{fmi2FreeInstance, fmi2GetReal, fmi2Reset};
+use super::logger::HostLogger;
 use super::types::{ComponentPointer, Kind, Status};
-use super::{Call, Instance, Log, Phase};
+use super::{Call, FACE, Phase};
+use crate::instance::{Component, Instance, LegalCall, Log, run};
 
 #[path = "../../../tests/common/recorder.rs"]
 mod recorder;
@@ -15,7 +16,8 @@ use recorder::Recorder;
 
 /// A component in `phase` that logs into `recorder`.
 fn component(kind: Kind, phase: Phase, recorder: &Recorder) -> ComponentPointer {
-    let mut instance = Instance::new(kind, Log::new(Some(recorder.callbacks()), CString::default(), false));
+    let mut instance =
+        Instance::new(&FACE, kind, Log::new(HostLogger::of(Some(recorder.callbacks()), CString::default()), false));
     instance.now.phase = phase;
     Component::into_pointer(instance)
 }

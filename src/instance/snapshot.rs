@@ -5,20 +5,21 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Phase;
-use super::types::Kind;
+use super::{Face, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 11;
+const VERSION: u32 = 12;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
+    /// First number of the version of FMI whose functions made the instance.
+    pub version: u32,
     /// Model exchange or co-simulation.
     pub kind: Kind,
     /// State as FMI counts states.
@@ -44,8 +45,9 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// A new instance.
-    pub fn new(kind: Kind) -> Self {
+    pub fn new(face: &Face, kind: Kind) -> Self {
         Self {
+            version: face.version,
             kind,
             phase: Phase::Instantiated,
             parameters: Parameters::default(),

@@ -1,8 +1,7 @@
 //! Model exchange: the host's solver integrates the states, the instance computes derivatives and events.
 
-use super::types::{EventInfo, Kind};
-use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase};
-use crate::model::{INDICATORS, STATES, Simulation, StepFailure};
+use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase};
+use crate::model::{INDICATORS, STATES, Simulation, StepFailure, Update};
 use crate::variables::table;
 
 impl Instance {
@@ -20,31 +19,25 @@ impl Instance {
         self.simulation()
     }
 
-    /// fmi2EnterEventMode. In event mode it changes nothing.
+    /// Enters event mode. In event mode it changes nothing.
     pub fn enter_event_mode(&mut self) -> CallResult {
         self.now.phase = Phase::Event;
         Ok(())
     }
 
-    /// fmi2EnterContinuousTimeMode.
+    /// Enters continuous-time mode.
     pub fn enter_continuous_time_mode(&mut self) -> CallResult {
         self.now.phase = Phase::ContinuousTime;
         Ok(())
     }
 
-    /// fmi2NewDiscreteStates: one iteration is always enough.
-    pub fn new_discrete_states(&mut self) -> CallResult<EventInfo> {
+    /// Event iteration: one is always enough.
+    pub fn new_discrete_states(&mut self) -> CallResult<Update> {
         let update = self.exchange_simulation()?.update();
-        let update = self.valid_after(update)?;
-        Ok(EventInfo {
-            states_changed: i32::from(update.states_changed),
-            next_event_defined: i32::from(update.next.is_some()),
-            next_event: update.next.unwrap_or(0.0),
-            ..EventInfo::default()
-        })
+        self.valid_after(update)
     }
 
-    /// fmi2CompletedIntegratorStep. Returns whether an event is due.
+    /// Completes a step of the host's solver. Returns whether an event is due.
     pub fn completed_integrator_step(&mut self) -> CallResult<bool> {
         let outcome = self.exchange_simulation()?.complete_step();
         let due = self.valid_after(outcome)?;
@@ -61,10 +54,11 @@ impl Instance {
             Err(failure) => failure.to_string(),
         };
         self.now.phase = Phase::Error;
-        Err(CallError::error(format!("{failure}; continue with fmi2SetFMUstate or fmi2Reset")))
+        let face = self.face;
+        Err(CallError::error(format!("{failure}; continue with {} or {}", face.set_state, face.reset)))
     }
 
-    /// fmi2SetTime.
+    /// Sets the time [s].
     pub fn set_time(&mut self, time: f64) -> CallResult {
         if !time.is_finite() {
             return Err(CallError::error(format!("time {time} s is not a finite number")));
@@ -73,7 +67,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2SetContinuousStates.
+    /// Sets all states.
     pub fn set_continuous_states(&mut self, values: InputArray<f64>) -> CallResult {
         let states: [f64; STATES] = values.copied().ok_or_else(|| wrong_count("states", STATES, values.len()))?;
         if let Some(k) = states.iter().position(|x| !x.is_finite()) {
@@ -84,13 +78,13 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2GetContinuousStates.
+    /// All states.
     pub fn get_continuous_states(&mut self, values: OutputArray<f64>) -> CallResult {
         let states = self.exchange_simulation()?.states();
         fill("states", &states, values, |k| format!("{} is not a finite number", table().rows[table().states[k]].name))
     }
 
-    /// fmi2GetDerivatives.
+    /// Their derivatives.
     pub fn get_derivatives(&mut self, values: OutputArray<f64>) -> CallResult {
         let rates = self.exchange_simulation()?.state_rates();
         fill("derivatives", &rates, values, |k| {
@@ -99,7 +93,7 @@ impl Instance {
         })
     }
 
-    /// fmi2GetEventIndicators.
+    /// All event indicators.
     pub fn get_event_indicators(&mut self, values: OutputArray<f64>) -> CallResult {
         let indicators = self.exchange_simulation()?.indicators();
         fill("event indicators", &indicators, values, |k| {
@@ -109,7 +103,7 @@ impl Instance {
         })
     }
 
-    /// fmi2GetNominalsOfContinuousStates.
+    /// Nominal values of the states.
     pub fn get_nominals(&mut self, values: OutputArray<f64>) -> CallResult {
         self.check_model_exchange()?;
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));

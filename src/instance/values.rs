@@ -60,7 +60,7 @@ fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
 }
 
 impl Instance {
-    /// fmi2GetReal. Computes only what the requested variables need, and what they share only once.
+    /// Reads real variables. Computes only what the requested variables need, and what they share only once.
     pub fn get_real(&mut self, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
         let mut motion: Option<Motion> = None;
         let mut ledger: Option<LedgerReadings> = None;
@@ -97,7 +97,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2GetInteger; enumerations too.
+    /// Reads integers; enumerations too.
     pub fn get_integer(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
@@ -110,7 +110,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2GetBoolean.
+    /// Reads booleans.
     pub fn get_boolean(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
@@ -120,7 +120,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2SetReal.
+    /// Sets real variables.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
             self.check_real(row(reference)?, value)?;
@@ -147,7 +147,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2SetInteger; enumerations too.
+    /// Sets integers; enumerations too.
     pub fn set_integer(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
@@ -170,7 +170,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2SetBoolean; any value but 0 is true.
+    /// Sets booleans; any value but 0 is true.
     pub fn set_boolean(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
         for reference in references.iter() {
             let row = row(reference)?;
@@ -214,8 +214,8 @@ impl Instance {
                 row.name
             ))),
             (_, Variability::Fixed) if self.now.phase.is_running() => Err(CallError::error(format!(
-                "{} is a fixed parameter: it can be set only before fmi2ExitInitializationMode",
-                row.name
+                "{} is a fixed parameter: it can be set only before {}",
+                row.name, self.face.exit_initialization
             ))),
             _ => Ok(()),
         }

@@ -1,8 +1,7 @@
 //! Derivatives: of inputs, as the host sets them; of outputs with respect to time; directional derivatives.
 
-use super::types::Kind;
 use super::values::{finite, row, wrong_type};
-use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase, Snapshot};
+use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase, Snapshot};
 use crate::model::{
     Along, Direction, Forces, GearCache, InputDerivatives, Inputs, ORDERS, PairLines, STATES, STENCIL, Simulation,
 };
@@ -25,7 +24,7 @@ fn input_bit(reference: u32) -> u32 {
 }
 
 impl Instance {
-    /// fmi2SetRealInputDerivatives. They hold from the next step until the host sets the input or its derivatives again.
+    /// Derivatives of inputs. They hold from the next step until the host sets the input or its derivatives again.
     pub fn set_input_derivatives(
         &mut self,
         references: InputArray<u32>,
@@ -106,7 +105,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2GetRealOutputDerivatives.
+    /// Derivatives of outputs by time.
     pub fn get_output_derivatives(
         &mut self,
         references: InputArray<u32>,
@@ -143,7 +142,7 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2GetDirectionalDerivative.
+    /// Derivatives of unknowns along a direction of knowns.
     pub fn get_directional_derivative(
         &mut self,
         unknown: InputArray<u32>,

@@ -1,7 +1,6 @@
 //! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
 
-use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
-use super::{CallError, CallResult, Category, Log, Phase, Snapshot};
+use super::{CallError, CallResult, Category, Face, Kind, Log, Phase, Snapshot};
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};
@@ -22,6 +21,8 @@ fn time_tolerance(time: f64, h: f64) -> f64 {
 
 /// An instance: a snapshot, and what no snapshot contains.
 pub struct Instance {
+    /// The version of FMI whose functions made it.
+    pub face: &'static Face,
     /// Parameters, inputs, phase, simulation.
     pub now: Snapshot,
     /// Messages to the host.
@@ -34,7 +35,7 @@ pub struct Instance {
     unfelt: Vec<&'static str>,
 }
 
-/// Tolerance and time interval of fmi2SetupExperiment.
+/// Tolerance and time interval that the host announces.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// Relative tolerance, if given.
@@ -47,11 +48,18 @@ pub struct Experiment {
 
 impl Instance {
     /// A new instance with start values.
-    pub fn new(kind: Kind, log: Log) -> Self {
-        Self { now: Snapshot::new(kind), log, cache: Share::new(), reported: Reported::default(), unfelt: Vec::new() }
+    pub fn new(face: &'static Face, kind: Kind, log: Log) -> Self {
+        Self {
+            face,
+            now: Snapshot::new(face, kind),
+            log,
+            cache: Share::new(),
+            reported: Reported::default(),
+            unfelt: Vec::new(),
+        }
     }
 
-    /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
+    /// Takes over what the host announces. A tolerance that the host set as a parameter takes precedence over this one.
     pub fn setup_experiment(&mut self, experiment: &Experiment) -> CallResult {
         let Experiment { tolerance, start, stop } = *experiment;
         if !start.is_finite() {
@@ -75,13 +83,13 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2EnterInitializationMode.
+    /// Enters initialization mode.
     pub fn enter_initialization(&mut self) -> CallResult {
         self.now.phase = Phase::Initialization;
         Ok(())
     }
 
-    /// fmi2ExitInitializationMode: starts the simulation, or returns every problem.
+    /// Leaves initialization mode: starts the simulation, or returns every problem.
     pub fn exit_initialization(&mut self) -> CallResult {
         if let Err(error) = self.simulation().map(drop) {
             self.now.phase = Phase::Error;
@@ -128,7 +136,7 @@ impl Instance {
     /// Logs that values change nothing, once for each variable.
     fn warn_of_unfelt(&mut self, found: impl IntoIterator<Item = Problem>) {
         for problem in found {
-            // a tolerance of fmi2SetupExperiment is none that the user set
+            // a tolerance that the host announced is none that the user set
             let is_hosts =
                 tolerance_row().is_some_and(|(row, _)| row.name == problem.variable) && !self.now.tolerance_chosen;
             if !is_hosts && !self.unfelt.contains(&problem.variable) {
@@ -138,7 +146,7 @@ impl Instance {
         }
     }
 
-    /// fmi2Terminate.
+    /// Ends the simulation.
     pub fn terminate(&mut self) -> CallResult {
         self.warn_at_end();
         self.now.phase = Phase::Terminated;
@@ -148,9 +156,9 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2Reset: as after fmi2Instantiate, except for the settings of the log.
+    /// As a new instance, except for the settings of the log.
     pub fn reset(&mut self) -> CallResult {
-        self.now = Snapshot::new(self.now.kind);
+        self.now = Snapshot::new(self.face, self.now.kind);
         self.reported = Reported::default();
         self.unfelt.clear();
         Ok(())
@@ -181,7 +189,7 @@ impl Instance {
         now.simulation.as_mut().ok_or_else(|| CallError::error("there is no simulation"))
     }
 
-    /// fmi2DoStep: from the current time to `point` + `h` [s].
+    /// A step from the current time to `point` + `h` [s].
     pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
         let stop = self.now.stop_time;
         let time = self.simulation()?.time();
@@ -217,7 +225,8 @@ impl Instance {
         self.now.phase = Phase::StepFailed;
         Err(CallError::discard(format!(
             "{failure}; values are those of the last successful time {last} s; \
-             continue with fmi2SetFMUstate or fmi2Reset"
+             continue with {} or {}",
+            self.face.set_state, self.face.reset
         )))
     }
 
@@ -239,26 +248,23 @@ impl Instance {
         }
     }
 
-    /// fmi2GetStatus.
-    pub fn status(&self, kind: i32) -> CallResult<Status> {
-        match kind {
-            DO_STEP_STATUS if self.now.phase == Phase::StepFailed => Ok(Status::Discard),
-            DO_STEP_STATUS => Ok(Status::Ok),
-            _ => Err(no_such_status(kind)),
+    /// Replaces everything by a snapshot of an instance of the same kind, made by the same version of FMI.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> CallResult {
+        let now = &self.now;
+        if snapshot.version != now.version {
+            return Err(CallError::error(format!(
+                "the state belongs to an instance made by FMI {}.0, this instance was made by FMI {}.0",
+                snapshot.version, now.version
+            )));
         }
-    }
-
-    /// fmi2GetRealStatus.
-    pub fn real_status(&self, kind: i32) -> CallResult<f64> {
-        match (kind, &self.now.simulation) {
-            (LAST_SUCCESSFUL_TIME, Some(simulation)) => Ok(simulation.time()),
-            _ => Err(no_such_status(kind)),
+        if snapshot.kind != now.kind {
+            return Err(CallError::error(format!(
+                "the state belongs to an instance for {:?}, this instance is for {:?}",
+                snapshot.kind, now.kind
+            )));
         }
-    }
-
-    /// fmi2GetBooleanStatus: the FMU never requests the end of the simulation.
-    pub fn boolean_status(&self, kind: i32) -> CallResult<bool> {
-        if kind == TERMINATED { Ok(false) } else { Err(no_such_status(kind)) }
+        self.now = snapshot.clone();
+        Ok(())
     }
 }
 
@@ -281,11 +287,6 @@ fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> CallResult {
     }
 }
 
-/// The error of fmi2Get…Status for an unavailable status; FMI requires fmi2Discard.
-pub fn no_such_status(kind: i32) -> CallError {
-    CallError::discard(format!("the status of kind {kind} is not available"))
-}
-
 fn initial_problems(problems: &[problem::Problem]) -> CallError {
     CallError::error(format!("initialisation failed:\n{}", problem::list(problems)))
 }
@@ -298,7 +299,7 @@ fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     })
 }
 
-/// Whether `row` is the solver's tolerance, which fmi2SetupExperiment also sets.
+/// Whether `row` is the solver's tolerance, which the host may also announce.
 pub fn is_tolerance(row: &Variable) -> bool {
     row.name == "solver.relative_tolerance"
 }

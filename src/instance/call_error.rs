@@ -1,6 +1,6 @@
 //! Why a call was refused or failed: the status to return and the message to log.
 
-use super::types::Status;
+use super::Status;
 
 /// A call that was refused, failed, or was carried out only in part.
 #[derive(Clone, Debug, PartialEq)]

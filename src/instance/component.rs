@@ -1,12 +1,12 @@
-//! What fmi2Component points to, and the frame around every call: one call at a time, in a legal state, without panics.
+//! What a host's pointer to an instance points to, and the frame around every call: one call at a time, in a legal state, without panics.
 
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::types::{ComponentPointer, Status};
-use super::{Call, CallError, CallResult, HostMemory, Instance, panic_guard};
+use super::phase::Call;
+use super::{CallError, CallResult, ComponentPointer, HostMemory, Instance, Status, panic_guard};
 
-/// What fmi2Component points to.
+/// What a host's pointer points to.
 pub struct Component {
     /// Set during a call. A second call, from the logger or from another thread, is then refused.
     busy: AtomicBool,
@@ -35,10 +35,10 @@ impl Component {
 /// Carries out `call` on the instance behind `component` if its state allows it; logs an error and returns the status.
 ///
 /// # Safety
-/// `component` is NULL or comes from fmi2Instantiate and was not freed.
-pub unsafe fn run(
+/// `component` is NULL or comes from [`Component::into_pointer`] and was not freed.
+pub unsafe fn run<C: Call>(
     component: ComponentPointer,
-    call: Call,
+    call: C,
     body: impl FnOnce(&mut Instance, &HostMemory) -> CallResult,
 ) -> Status {
     if component.is_null() || !component.cast::<Component>().is_aligned() {
@@ -50,6 +50,9 @@ pub unsafe fn run(
     // SAFETY: `busy` was clear and is set until `_release` is dropped, so no other reference to the instance exists
     let instance = unsafe { &mut *component.instance.get() };
     let outcome = panic_guard::catch(|| {
+        if instance.face.version != C::FACE.version {
+            return Err(other_face(instance.face.version));
+        }
         call.check(instance.now.phase)?;
         HostMemory::during_call(|host| body(instance, host))
     });
@@ -61,19 +64,26 @@ pub unsafe fn run(
 
 /// Logs why a call failed and returns its status.
 #[cold]
-fn report(instance: &mut Instance, call: Call, outcome: Result<CallResult, String>) -> Status {
+fn report(instance: &mut Instance, call: impl Call, outcome: Result<CallResult, String>) -> Status {
     let error = match outcome {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(error)) => error,
         Err(panic) => {
             instance.fail();
+            let face = instance.face;
             CallError::error(format!(
-                "internal error, please report: {panic}; only fmi2Reset or fmi2SetFMUstate help now"
+                "internal error, please report: {panic}; only {} or {} help now",
+                face.reset, face.set_state
             ))
         }
     };
     instance.log.status(error.status, &format!("{}: {}", call.name(), error.message));
     error.status
+}
+
+#[cold]
+fn other_face(version: u32) -> CallError {
+    CallError::error(format!("the instance was made by a function of FMI {version}.0, and has no others"))
 }
 
 /// Frees the instance behind `component`.

@@ -1,23 +1,21 @@
 //! Messages to the host's logger by category. The library writes nowhere else.
 //!
-//! FMI 2.0.4, sections 2.1.3 and 2.1.5: a call that does not return fmi2OK has called the logger; other messages are debug
-//! logging, which the host switches on and filters by category. Errors are logged always.
+//! FMI 2.0.4, sections 2.1.3 and 2.1.5, and FMI 3.0.2, section 2.2.4: a call that does not return OK has called the logger; other
+//! messages are debug logging, which the host switches on and filters by category. Errors are logged always.
 
-use std::ffi::{CStr, CString};
-use std::ptr;
+use std::ffi::CStr;
 
-use super::c_types::c_void;
-use super::types::{CallbackFunctions, Logger, Status};
+use super::Status;
 
 /// Log category, as listed in the model description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Category {
-    /// A call returned fmi2Error. Logged always.
+    /// A call returned an error. Logged always.
     Error = 0,
-    /// A remark on a simulation that continues, or a call that returned fmi2Warning.
+    /// A remark on a simulation that continues, or a call that returned a warning.
     Warning = 1,
-    /// A call returned fmi2Discard.
+    /// A call was discarded.
     Discard = 2,
     /// What is simulated.
     Events = 3,
@@ -53,34 +51,28 @@ impl Category {
 
 const ALL_CATEGORIES: u8 = 0b1111;
 
+/// The host's logger.
+pub trait Sink: Send {
+    /// Passes on a message.
+    fn send(&self, status: Status, category: Category, message: &str);
+}
+
 /// The host's logger, and which messages it receives.
 pub struct Log {
-    logger: Option<Logger>,
-    environment: *mut c_void,
-    instance: CString,
+    sink: Option<Box<dyn Sink>>,
     /// Whether debug logging is on.
     logging_on: bool,
     /// Categories that the host chose, a bit each.
     categories: u8,
 }
 
-// SAFETY: the log holds the host's logger and its environment, which the host must keep valid on every thread from which it
-// calls the instance; the log itself is used by one call at a time
-unsafe impl Send for Log {}
-
 impl Log {
-    /// A log through `callbacks` under the name `instance`.
-    pub fn new(callbacks: Option<CallbackFunctions>, instance: CString, logging_on: bool) -> Self {
-        Self {
-            logger: callbacks.and_then(|c| c.logger),
-            environment: callbacks.map_or(ptr::null_mut(), |c| c.component_environment),
-            instance,
-            logging_on,
-            categories: ALL_CATEGORIES,
-        }
+    /// A log into `sink`, if the host has a logger.
+    pub fn new(sink: Option<Box<dyn Sink>>, logging_on: bool) -> Self {
+        Self { sink, logging_on, categories: ALL_CATEGORIES }
     }
 
-    /// fmi2SetDebugLogging; returns the names of unknown categories. No names mean all categories.
+    /// Sets what is logged; returns the names of unknown categories. No names mean all categories.
     pub fn configure<'a>(&mut self, logging_on: bool, names: impl ExactSizeIterator<Item = &'a CStr>) -> Vec<&'a CStr> {
         self.logging_on = logging_on;
         self.categories = if names.len() == 0 || !logging_on { ALL_CATEGORIES } else { 0 };
@@ -94,7 +86,7 @@ impl Log {
         unknown
     }
 
-    /// Whether messages of a call that returns fmi2OK are logged in `category`.
+    /// Whether messages of a call that returns OK are logged in `category`.
     pub fn is_on(&self, category: Category) -> bool {
         self.logging_on && self.is_chosen(category)
     }
@@ -103,21 +95,21 @@ impl Log {
         self.categories & (1 << category as u8) != 0
     }
 
-    /// An event during a call that returns fmi2OK.
+    /// An event during a call that returns OK.
     pub fn event(&self, message: &str) {
         if self.is_on(Category::Events) {
             self.send(Status::Ok, Category::Events, message);
         }
     }
 
-    /// A warning during a call that returns fmi2OK.
+    /// A warning during a call that returns OK.
     pub fn warning(&self, message: &str) {
         if self.is_on(Category::Warning) {
             self.send(Status::Warning, Category::Warning, message);
         }
     }
 
-    /// The reason why a call returns `status`, which is not fmi2OK.
+    /// The reason why a call returns `status`, which is not OK.
     pub fn status(&self, status: Status, message: &str) {
         let category = Category::of(status);
         if category == Category::Error || self.is_chosen(category) {
@@ -126,18 +118,8 @@ impl Log {
     }
 
     fn send(&self, status: Status, category: Category, message: &str) {
-        let Some(logger) = self.logger else { return };
-        let text = printable(message);
-        // SAFETY: the logger is valid by the host's promise; the strings outlive the call; the message, which the logger
-        // uses as a printf format, contains no conversion and so requires no further argument
-        unsafe {
-            logger(self.environment, self.instance.as_ptr(), status, category.name().as_ptr(), text.as_ptr());
+        if let Some(sink) = &self.sink {
+            sink.send(status, category, message);
         }
     }
-}
-
-/// `message` as a valid printf format without conversions.
-fn printable(message: &str) -> CString {
-    let text = message.replace('%', " percent").replace('\0', " ");
-    CString::new(text).unwrap_or_default()
 }

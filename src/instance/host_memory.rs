@@ -9,8 +9,7 @@ use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::slice;
 
-use super::types::Text;
-use super::{CallError, CallResult};
+use super::{CallError, CallResult, Text};
 
 /// The host's memory during one call: everything borrowed from it ends with the call.
 pub struct HostMemory(());

@@ -1,0 +1,55 @@
+//! Types that both versions of FMI share.
+
+use serde::{Deserialize, Serialize};
+
+use super::c_types::{c_char, c_uint, c_void};
+
+/// What a host holds of an instance: fmi2Component, fmi3Instance.
+pub type ComponentPointer = *mut c_void;
+/// What a host holds of a state: a pointer to a snapshot.
+pub type FmuState = *mut c_void;
+/// A string.
+pub type Text = *const c_char;
+/// Value reference.
+pub type ValueReference = c_uint;
+
+/// Status that a call returns.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    /// Success.
+    Ok = 0,
+    /// Not quite right, but the simulation continues.
+    Warning = 1,
+    /// Refused or carried out in part; the instance is valid.
+    Discard = 2,
+    /// Refused, or failed; see the log.
+    Error = 3,
+    /// The instance is unusable; never returned by this FMU.
+    Fatal = 4,
+    /// The step still runs; of FMI 2.0 alone, and never returned by this FMU.
+    Pending = 5,
+}
+
+/// Who has the solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum Kind {
+    /// The host has the solver.
+    ModelExchange = 0,
+    /// The instance has the solver.
+    CoSimulation = 1,
+}
+
+/// A version of FMI: what its functions are called in messages.
+#[derive(Debug)]
+pub struct Face {
+    /// Its first number.
+    pub version: u32,
+    /// The function that restores a state.
+    pub set_state: &'static str,
+    /// The function that resets an instance.
+    pub reset: &'static str,
+    /// The function that ends initialisation.
+    pub exit_initialization: &'static str,
+}

@@ -1,0 +1,36 @@
+//! An instance as both versions of FMI see it: its states, values, steps, events and derivatives, on top of
+//! `model::Simulation`; and the checked access to what a host passes by pointers. `fmi2` and `fmi3` are thin faces over it.
+//!
+//! Decisions that the standards leave open:
+//! - A refused call changes nothing, so the instance keeps its state: an error for a wrong value reference does not end a
+//!   simulation. Only a failed initialisation and an internal error lead to the state `error`.
+//! - The state `fatal` is never entered: instances share no mutable data, so a reset always restores an instance.
+//! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
+
+mod basic;
+pub mod c_types;
+mod call_error;
+mod component;
+mod derivatives;
+mod exchange;
+mod host_memory;
+#[allow(clippy::module_inception)]
+mod instance;
+mod log;
+mod panic_guard;
+mod phase;
+mod snapshot;
+pub(crate) mod values;
+
+pub use basic::*;
+pub use call_error::{CallError, CallResult};
+pub use component::{Component, free, run};
+pub use derivatives::OUTPUT_ORDER;
+pub use exchange::EVENT_INDICATORS;
+pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
+pub use instance::{Experiment, Instance};
+pub use log::{Category, Log, Sink};
+pub use panic_guard::catch;
+pub(crate) use phase::calls;
+pub use phase::{Call as LegalCall, Phase};
+pub use snapshot::Snapshot;
