@@ -1,6 +1,6 @@
 //! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
 
-use super::{CallError, CallResult, Category, Face, Kind, Log, Phase, Snapshot};
+use super::{Allowed, CallError, CallResult, Category, Face, Kind, Log, Phase, Snapshot};
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};
@@ -23,6 +23,8 @@ fn time_tolerance(time: f64, h: f64) -> f64 {
 pub struct Instance {
     /// The version of FMI whose functions made it.
     pub face: &'static Face,
+    /// What the host of a co-simulation allows.
+    pub allowed: Allowed,
     /// Parameters, inputs, phase, simulation.
     pub now: Snapshot,
     /// Messages to the host.
@@ -51,6 +53,7 @@ impl Instance {
     pub fn new(face: &'static Face, kind: Kind, log: Log) -> Self {
         Self {
             face,
+            allowed: Allowed::default(),
             now: Snapshot::new(face, kind),
             log,
             cache: Share::new(),
@@ -209,7 +212,6 @@ impl Instance {
         }
         let simulation = self.simulation()?;
         let outcome = simulation.advance(until);
-        let last = simulation.time();
         if is_driven {
             let (inputs, input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
             (self.now.inputs, self.now.input_derivatives) = (inputs, input_derivatives);
@@ -222,12 +224,7 @@ impl Instance {
             }
             return Ok(());
         };
-        self.now.phase = Phase::StepFailed;
-        Err(CallError::discard(format!(
-            "{failure}; values are those of the last successful time {last} s; \
-             continue with {} or {}",
-            self.face.set_state, self.face.reset
-        )))
+        Err(self.step_failed(&failure))
     }
 
     /// Logs warnings about the time up to now, each once in a run.
@@ -240,7 +237,7 @@ impl Instance {
     }
 
     /// Logs what is known of a run at its end, once.
-    fn warn_at_end(&mut self) {
+    pub fn warn_at_end(&mut self) {
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning))
             && let Some(warning) = simulation.unreported_at_end(&mut self.reported)
         {
@@ -268,7 +265,8 @@ impl Instance {
     }
 }
 
-fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> CallResult {
+/// Refuses a step that does not begin at the present `time` [s], or ends after the stop time.
+pub fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> CallResult {
     if !(h.is_finite() && h > 0.0) {
         return Err(CallError::error(format!("communication step size {h} s is not finite and positive")));
     }

@@ -20,6 +20,7 @@ mod log;
 mod panic_guard;
 mod phase;
 mod snapshot;
+mod steps;
 pub(crate) mod values;
 
 pub use basic::*;
@@ -34,3 +35,4 @@ pub use panic_guard::catch;
 pub(crate) use phase::calls;
 pub use phase::{Call as LegalCall, Phase};
 pub use snapshot::Snapshot;
+pub use steps::{Allowed, Discrete, Ended};

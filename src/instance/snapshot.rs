@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Face, Kind, Phase};
+use super::{Discrete, Face, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
@@ -36,6 +36,8 @@ pub struct Snapshot {
     pub start_time: f64,
     /// Stop time [s], if the host gave one.
     pub stop_time: Option<f64>,
+    /// Outputs that change at events alone, as the host that handles events has them.
+    pub discrete: Discrete,
     /// Whether the host set the solver's tolerance itself.
     pub tolerance_chosen: bool,
     /// The simulation; none before initialisation, or when something was set since it was built.
@@ -56,6 +58,7 @@ impl Snapshot {
             derivatives_set: 0,
             start_time: 0.0,
             stop_time: None,
+            discrete: Discrete::default(),
             tolerance_chosen: false,
             simulation: None,
         }
@@ -121,7 +124,8 @@ impl Snapshot {
 
     /// Checks that the values are valid; the checksum cannot show that.
     fn check(&self, (state, accepted): &Running) -> Result<(), String> {
-        let needs_state = !matches!(self.phase, Phase::Instantiated | Phase::Initialization | Phase::Error);
+        let needs_state =
+            !matches!(self.phase, Phase::Instantiated | Phase::Configuration | Phase::Initialization | Phase::Error);
         if needs_state && state.is_none() {
             return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
@@ -135,8 +139,9 @@ impl Snapshot {
         if accepted.is_some() && self.kind != Kind::ModelExchange {
             return Err("a step completed by the host's solver does not belong to an instance for co-simulation".into());
         }
-        let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime);
-        let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed);
+        let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed | Phase::IntermediateUpdate);
+        let events_of_steps = self.phase == Phase::Event && self.kind == Kind::CoSimulation && self.version > 2;
+        let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime) && !events_of_steps;
         if exchanges && (self.kind != Kind::ModelExchange || accepted.is_none())
             || steps && self.kind != Kind::CoSimulation
         {

@@ -1,7 +1,7 @@
 //! Getting and setting variables by value reference. A set call is checked as a whole before anything is set.
 
 use super::instance::is_tolerance;
-use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase};
+use super::{CallError, CallResult, InputArray, Instance, Output, Phase};
 use crate::model::{LedgerReadings, Motion};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 
@@ -61,11 +61,15 @@ fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
 
 impl Instance {
     /// Reads real variables. Computes only what the requested variables need, and what they share only once.
-    pub fn get_real(&mut self, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
+    pub fn get_real<'a>(
+        &mut self,
+        references: impl Iterator<Item = u32>,
+        values: impl Iterator<Item = Output<'a, f64>>,
+    ) -> CallResult {
         let mut motion: Option<Motion> = None;
         let mut ledger: Option<LedgerReadings> = None;
         let (mut pairs, mut states, mut rates) = (None, None, None);
-        for (reference, value) in references.iter().zip(values.iter()) {
+        for (reference, value) in references.zip(values) {
             let row = row(reference)?;
             let number = match row.access {
                 Access::Real(slot) => *slot(&mut self.now.parameters),
@@ -97,27 +101,21 @@ impl Instance {
         Ok(())
     }
 
-    /// Reads integers; enumerations too.
-    pub fn get_integer(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let row = row(reference)?;
-            value.write(match row.access {
-                Access::Integer(slot) => *slot(&mut self.now.parameters),
-                Access::Enumeration(_, get, _) => get(&self.now.parameters),
-                _ => return Err(wrong_type(row)),
-            });
+    /// Reads an integer or enumeration.
+    pub fn get_integer(&mut self, reference: u32) -> CallResult<i32> {
+        let row = row(reference)?;
+        match row.access {
+            Access::Integer(slot) => Ok(*slot(&mut self.now.parameters)),
+            Access::Enumeration(_, get, _) => Ok(get(&self.now.parameters)),
+            _ => Err(wrong_type(row)),
         }
-        Ok(())
     }
 
-    /// Reads booleans.
-    pub fn get_boolean(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let row = row(reference)?;
-            let Access::Boolean(slot) = row.access else { return Err(wrong_type(row)) };
-            value.write(i32::from(*slot(&mut self.now.parameters)));
-        }
-        Ok(())
+    /// Reads a boolean.
+    pub fn get_boolean(&mut self, reference: u32) -> CallResult<bool> {
+        let row = row(reference)?;
+        let Access::Boolean(slot) = row.access else { return Err(wrong_type(row)) };
+        Ok(*slot(&mut self.now.parameters))
     }
 
     /// Sets real variables.
@@ -148,8 +146,8 @@ impl Instance {
     }
 
     /// Sets integers; enumerations too.
-    pub fn set_integer(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
-        for (reference, value) in references.iter().zip(values.iter()) {
+    pub fn set_integer(&mut self, pairs: impl Iterator<Item = (u32, i32)> + Clone) -> CallResult {
+        for (reference, value) in pairs.clone() {
             let row = row(reference)?;
             match row.access {
                 Access::Enumeration(kind, ..) if kind.choices.iter().all(|c| c.value != value) => {
@@ -159,7 +157,7 @@ impl Instance {
                 _ => return Err(wrong_type(row)),
             }
         }
-        for (reference, value) in references.iter().zip(values.iter()) {
+        for (reference, value) in pairs {
             match row(reference)?.access {
                 Access::Integer(slot) => *slot(&mut self.now.parameters) = value,
                 Access::Enumeration(_, _, set) => set(&mut self.now.parameters, value),
@@ -170,16 +168,16 @@ impl Instance {
         Ok(())
     }
 
-    /// Sets booleans; any value but 0 is true.
-    pub fn set_boolean(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
-        for reference in references.iter() {
+    /// Sets booleans.
+    pub fn set_boolean(&mut self, pairs: impl Iterator<Item = (u32, bool)> + Clone) -> CallResult {
+        for (reference, _) in pairs.clone() {
             let row = row(reference)?;
             let Access::Boolean(_) = row.access else { return Err(wrong_type(row)) };
             self.check_settable(row)?;
         }
-        for (reference, value) in references.iter().zip(values.iter()) {
+        for (reference, value) in pairs {
             if let Access::Boolean(slot) = row(reference)?.access {
-                *slot(&mut self.now.parameters) = value != 0;
+                *slot(&mut self.now.parameters) = value;
             }
         }
         self.changed(true);

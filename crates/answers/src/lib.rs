@@ -7,7 +7,7 @@
 //! - [`pattern`]: where flanks carry, and how much
 //! - [`study`]: the published study, beside theory
 //! - [`ask`]: all of these by one function, from C and Python too
-//! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`watch`]: who waits, and may stop the work
+//! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`progress`]: reports to a caller, who may stop the work
 
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
@@ -18,7 +18,7 @@ pub mod ask;
 pub mod geometry;
 pub mod pattern;
 pub mod problem;
+pub mod progress;
 pub mod scene;
 pub mod study;
 pub mod text;
-pub mod watch;

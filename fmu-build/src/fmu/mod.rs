@@ -1,11 +1,12 @@
 //! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
 //! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
-//! `toolchains`.
+//! `evidence`, `toolchains`.
 
 pub mod dependencies;
 pub mod describe;
 pub mod documentation;
 pub mod effect_list;
+pub mod evidence;
 pub mod libraries;
 pub mod licences;
 pub mod own;
@@ -13,6 +14,7 @@ pub mod package;
 pub mod page;
 pub mod plain_types;
 pub mod platforms;
+pub mod terminals;
 pub mod toolchains;
 pub mod wheel;
 
@@ -27,6 +29,7 @@ pub enum BuildCommand {
     Wheel(wheel::WheelCommand),
     Page(page::PageCommand),
     Describe(describe::DescribeCommand),
+    Evidence(evidence::EvidenceCommand),
     Toolchains(toolchains::ToolchainsCommand),
 }
 
@@ -38,6 +41,7 @@ impl BuildCommand {
             Self::Wheel(command) => command.run(),
             Self::Page(command) => command.run(),
             Self::Describe(command) => command.run(),
+            Self::Evidence(command) => command.run(),
             Self::Toolchains(command) => command.run(),
         }
     }

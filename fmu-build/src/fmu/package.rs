@@ -12,7 +12,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, CRATES, Libraries, Library};
 use crate::fmu::page;
-use crate::fmu::{describe, documentation, effect_list, licences, plain_types};
+use crate::fmu::{describe, documentation, effect_list, evidence, licences, plain_types, terminals};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -91,6 +91,10 @@ fn archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Resu
     };
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
     add("modelDescription.xml", describe::model_description()?.as_bytes(), PLAIN)?;
+    add(terminals::FILE, terminals::text()?.as_bytes(), PLAIN)?;
+    for (path, file) in evidence::files()? {
+        add(&path, &read(&file)?, PLAIN)?;
+    }
     for Library { platform, ending, file, .. } in libraries {
         add(&format!("binaries/{platform}/{MODEL_NAME}.{ending}"), &read(file)?, EXECUTABLE)?;
     }

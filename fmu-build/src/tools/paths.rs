@@ -72,6 +72,11 @@ pub fn model_description() -> PathBuf {
     workspace().join("modelDescription").join("modelDescription.xml")
 }
 
+/// The evidence kept in the repository, which the FMU carries.
+pub fn evidence() -> PathBuf {
+    workspace().join("modelDescription").join("evidence")
+}
+
 /// `path` relative to the current folder or to the workspace, for messages.
 pub fn shown(path: &Path) -> String {
     let from = env::current_dir().unwrap_or_else(|_| workspace());

@@ -4,7 +4,7 @@ use super::*;
 use crate::instance::values::string_error;
 
 macro_rules! accesses {
-    ($($function:ident $call:ident $method:ident *$way:tt $type:ty, $pass:ident;)+) => {$(
+    ($($function:ident $call:ident *$way:tt $type:ty, $pass:ident, |$instance:ident, $references:ident, $values:ident| $body:expr;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(
@@ -13,23 +13,31 @@ macro_rules! accesses {
             count: usize,
             values: *$way $type,
         ) -> Status {
-            call!(c, $call, |instance, host| {
+            call!(c, $call, |$instance, host| {
                 // SAFETY: the host's promise, see the module
-                let (references, values) =
+                let ($references, $values) =
                     unsafe { (host.input("vr", references, count)?, host.$pass("value", values, count)?) };
-                instance.$method(references, values)
+                $body
             })
         }
     )+};
 }
 
 accesses! {
-    fmi2GetReal GetReal get_real *mut f64, output;
-    fmi2GetInteger GetInteger get_integer *mut c_int, output;
-    fmi2GetBoolean GetBoolean get_boolean *mut Boolean, output;
-    fmi2SetReal SetReal set_real *const f64, input;
-    fmi2SetInteger SetInteger set_integer *const c_int, input;
-    fmi2SetBoolean SetBoolean set_boolean *const Boolean, input;
+    fmi2GetReal GetReal *mut f64, output, |instance, vr, values| instance.get_real(vr.iter(), values.iter());
+    fmi2GetInteger GetInteger *mut c_int, output, |instance, vr, values| {
+        vr.iter().zip(values.iter()).try_for_each(|(vr, value)| Ok(value.write(instance.get_integer(vr)?)))
+    };
+    fmi2GetBoolean GetBoolean *mut Boolean, output, |instance, vr, values| {
+        vr.iter().zip(values.iter()).try_for_each(|(vr, value)| Ok(value.write(instance.get_boolean(vr)?.into())))
+    };
+    fmi2SetReal SetReal *const f64, input, |instance, vr, values| instance.set_real(vr, values);
+    fmi2SetInteger SetInteger *const c_int, input, |instance, vr, values| {
+        instance.set_integer(vr.iter().zip(values.iter()))
+    };
+    fmi2SetBoolean SetBoolean *const Boolean, input, |instance, vr, values| {
+        instance.set_boolean(vr.iter().zip(values.iter().map(|value| value != 0)))
+    };
 }
 
 /// String variables may be read and set, but there are none.

@@ -85,11 +85,11 @@ pub enum Verdict {
 impl Interference {
     /// Examines `pair`, made from `spec`, in one stance; `None` if its surface cannot be built. Backlash may be negative.
     pub fn new(pair: &Pair, spec: &GearSpec, stance: Stance) -> Option<Self> {
-        Self::watched(pair, spec, stance, &mut || true)
+        Self::stoppable(pair, spec, stance, &mut || true)
     }
 
     /// The same; `go_on` is asked at every position, and there is nothing when it says no.
-    pub fn watched(pair: &Pair, spec: &GearSpec, stance: Stance, go_on: &mut dyn FnMut() -> bool) -> Option<Self> {
+    pub fn stoppable(pair: &Pair, spec: &GearSpec, stance: Stance, go_on: &mut dyn FnMut() -> bool) -> Option<Self> {
         let skins = [Skin::new(pair, spec, 0, FACETS)?, Skin::new(pair, spec, 1, FACETS)?];
         let resolution = 2.0 * skins.iter().map(|skin| skin.coarseness(pair, spec, FACETS)).sum::<f64>();
         let nodes = [0, 1].map(|i| Vec::from_iter(skins[i].nodes.iter().map(|n| direction(n.polar, n.azimuth))));

@@ -8,6 +8,7 @@ mod blocks;
 pub mod clock;
 pub mod cycle;
 pub mod equations;
+pub mod event;
 mod friction;
 pub mod ideal_equations;
 mod ideal_step;

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::bias::Bias;
+use super::event::{Event, Pause};
 use super::pending_step::PendingStep;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
@@ -54,6 +55,10 @@ pub struct State {
     pub held: f64,
     /// The integrator's step that contains the present time. Work, heat, friction and damage are those at the beginning of it.
     pub pending_step: Option<PendingStep>,
+    /// The last event.
+    pub event: Event,
+    /// From where the way to the next communication point is reckoned, after a stop on it.
+    pub pause: Option<Pause>,
 }
 
 impl State {
@@ -78,6 +83,8 @@ impl State {
             begun: None,
             held: f64::INFINITY,
             pending_step: None,
+            event: Event::default(),
+            pause: None,
         }
     }
 
@@ -106,7 +113,8 @@ impl State {
     #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
         let Some(pending_step) = &mut self.pending_step else { return false };
-        let now = pending_step.clock.now + (until - self.time);
+        let [shown, time] = self.pause.map_or([pending_step.clock.now, self.time], |pause| [pause.now, pause.time]);
+        let now = shown + (until - time);
         if now > pending_step.end() {
             return false;
         }

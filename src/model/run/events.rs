@@ -4,6 +4,7 @@ use super::imposed;
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
+use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::{Acted, State};
 use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};
@@ -19,6 +20,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
         state.fault = true;
+        state.event.record(Happening::ToothBreaks, 0, state.time());
         state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
     }
 }

@@ -63,6 +63,8 @@ pub struct Integration<'a> {
     pub begin: f64,
     /// Whether the time to integrate to was shown before: then it is too late to refuse a tooth that bends too far.
     pub is_shown: bool,
+    /// Whether to stop at an event: the step that leads on from there then contains the clock's `now`.
+    pub pauses: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
     /// What steps are watched for.
@@ -150,7 +152,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + 
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_shown, inputs, watched } = integration;
+    let Integration { clock, begin, is_shown, pauses, inputs, watched } = integration;
     let mut course = Course {
         longest: LONGEST,
         resolution: RESOLUTION,
@@ -198,8 +200,13 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + 
         };
         equations.acting_mut().anchor(&anchors);
         if switched {
+            let before = equations.acting().friction_state;
             equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
             anchors = equations.acting().anchors();
+            let friction = [&before, &equations.acting().friction_state];
+            if state.event.record_friction(friction, begin + course.time) && pauses && course.time < clock.now {
+                clock.now = course.time;
+            }
             switched = course.time < longest && course.end - course.time > RESOLUTION;
         }
     }

@@ -9,12 +9,14 @@ use super::integration::{self, Integration};
 use super::timeline::{self, Stop};
 use super::{StepFailure, imposed};
 use crate::model::assembly::{Gears, Model};
+use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State, Watched};
 use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.
 pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
     complete(model, (state, watched));
+    state.pause = None;
     imposed::jump(model, inputs, state);
     update_friction(model, inputs, state);
     timeline::begin_holding(state);
@@ -30,7 +32,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     state.input_derivatives = None;
     let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
-    let integration = Integration { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
+    let integration = Integration { clock: &mut clock, begin, is_shown: true, pauses: false, inputs: &inputs, watched };
     let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
         // what was shown holds; the ledger tells what it lacks
@@ -41,24 +43,32 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     keep_together(model, state);
 }
 
-/// Integrates to `until` [s].
+/// Integrates to `until` [s], or to the first event on the way where that `pauses`; the state then has a pause.
 pub fn integrate(
     model: &Model,
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
-    until: f64,
+    (until, way): (f64, Way),
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
-        let begin = state.time();
+        let (begin, events) = (state.time(), state.event.count);
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             to_end(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            go_on(model, inputs, (state, watched), stop, &mut budget)
+            go_on(model, inputs, (state, watched), (stop, way), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
+        if state.time() < stop.time {
+            return Ok(());
+        }
         break_tooth(model, inputs, state);
+        if way.pauses && state.event.count != events && state.time() < until {
+            let now = state.pending_step.as_ref().map_or(0.0, |step| step.clock.now);
+            state.pause = Some(Pause { now, time: state.time(), inputs: *inputs });
+            return Ok(());
+        }
     }
     Ok(())
 }
@@ -76,7 +86,7 @@ fn to_end(
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin), budget);
+        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin, false), budget);
     }
     keep_together(model, state);
     arrive(state, stop, begin + clock.time, outcome)
@@ -87,29 +97,43 @@ fn go_on(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    stop: Stop,
+    (stop, way): (Stop, Way),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
-    let mut begin = state.time() - clock.now;
-    clock.now = if stop.is_change { clock.end } else { clock.now + (stop.time - state.time()) };
+    let [mut shown, time] = timeline::shown(state, &clock);
+    let mut begin = time - shown;
+    let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
+    clock.now = wanted;
     loop {
-        let outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin), budget);
+        let at = (&mut clock, begin, way.pauses);
+        let outcome = one_interval(model, inputs, (state, watched), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
             pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
             reached = clock.now.min(pending_step.end());
         }
         keep_together(model, state);
-        if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
-            return arrive(state, stop, begin + reached, outcome);
+        if outcome.is_ok() && state.pending_step.is_some() && clock.now < wanted {
+            state.pause = Some(Pause { now: shown, time, inputs: *inputs });
+            state.move_with_clock(begin + clock.now);
+            return Ok(());
         }
-        begin += clock.set_back();
+        if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
+            let arrived = arrive(state, stop, begin + reached, outcome);
+            if way.is_part && state.pending_step.is_some() {
+                state.pause = Some(Pause { now: shown, time, inputs: *inputs });
+            }
+            return arrived;
+        }
+        let by = clock.set_back();
+        (begin, shown, wanted) = (begin + by, shown - by, wanted - by);
     }
 }
 
 /// Moves the time to the stop if the motion has come there, and to what it has `reached` [s] otherwise.
 fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepFailure>) -> Result<(), StepFailure> {
+    state.pause = None;
     if outcome.is_err() {
         state.move_with_clock(reached);
     }
@@ -120,10 +144,10 @@ fn one_interval(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    (clock, begin): (&mut Clock, f64),
+    (clock, begin, pauses): (&mut Clock, f64, bool),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let integration = Integration { clock, begin, is_shown: false, inputs, watched };
+    let integration = Integration { clock, begin, is_shown: false, pauses, inputs, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.is_together(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);

@@ -6,10 +6,11 @@ use super::events::{break_tooth, update_friction};
 use super::progress::{self, begin_anew};
 use super::{StepFailure, imposed, start, start_report, timeline};
 use crate::model::assembly::{Gears, Given, Model};
+use crate::model::dynamics::event::{Event, Way};
 use crate::model::dynamics::{Accepted, Largest, State, Watched};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
-use crate::model::scene::{InputDerivatives, Inputs, Start};
+use crate::model::scene::{InputDerivatives, Inputs, Method, Start};
 use crate::model::setup::{HEATS, Parameters};
 use crate::problem::Problem;
 
@@ -127,16 +128,28 @@ impl Simulation {
 
     /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
+        self.advance_by(until, Way::default())
+    }
+
+    /// The last event.
+    pub fn last_event(&self) -> &Event {
+        &self.state.event
+    }
+
+    /// Integrates to `until` [s], or to the first event where the way `pauses`, or a part of the way to a communication point. The way
+    /// on from there has the same bits as without a stop.
+    pub fn advance_by(&mut self, until: f64, way: Way) -> Result<(), StepFailure> {
         self.forces = None;
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
         let holds = state.pending_step.as_ref().is_some_and(|pending_step| pending_step.inputs == *inputs);
+        let goes_on = state.pending_step.is_none() && state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs);
         if holds && state.input_derivatives.is_none() {
-            if timeline::move_within(model, state, until) {
+            if timeline::move_within(model, state, (until, way)) {
                 progress::keep_together(model, state);
                 return Ok(());
             }
-        } else {
+        } else if !goes_on {
             begin_anew(model, inputs, (state, watched));
         }
         if let Gears::Ideal(ideal) = &model.gears
@@ -158,18 +171,39 @@ impl Simulation {
         let before = (*inputs, *state);
         // what nothing counts need not be kept
         let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
-        let mut outcome = progress::integrate(model, (inputs, state, watched), until);
+        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, way));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
             go_back((inputs, state, watched), &before, &saved);
             begin_anew(model, inputs, (state, watched));
-            outcome = progress::integrate(model, (inputs, state, watched), until);
+            outcome = progress::integrate(model, (inputs, state, watched), (until, way));
         }
         if outcome.is_ok() && !state.is_sound() {
             outcome = Err(StepFailure::not_finite(state.time()));
             go_back((inputs, state, watched), &before, &saved);
         }
         outcome
+    }
+
+    /// Where the solver's step ends that contains the present or begins there [s]; none where the solver's steps end where the host
+    /// asks.
+    pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
+        let is_closed = matches!(&self.model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state));
+        if is_closed || self.model.parameters.solver.method == Method::FixedStep {
+            return Ok(None);
+        }
+        let end = |state: &State| {
+            let step = state.pending_step.as_ref()?;
+            let [now, time] = timeline::shown(state, &step.clock);
+            Some(time + (step.end() - now)).filter(|&end| end > state.time())
+        };
+        let holds = self.state.pending_step.as_ref().is_some_and(|step| step.inputs == self.inputs);
+        if let (true, Some(end)) = (holds, end(&self.state)) {
+            return Ok(Some(end));
+        }
+        // the least way on begins the step
+        self.advance_by(self.state.time().next_up(), Way { is_part: true, ..Way::default() })?;
+        Ok(end(&self.state))
     }
 
     /// Where the host's solver last completed a step, for snapshots.

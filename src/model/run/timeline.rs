@@ -7,6 +7,8 @@
 use super::StepFailure;
 use super::integration::LONGEST_INTERVAL;
 use crate::model::assembly::Model;
+use crate::model::dynamics::event::{Pause, Way};
+use crate::model::dynamics::pending_step::PendingStep;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
@@ -61,9 +63,15 @@ pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
 
 /// Moves to `until` [s] if the step ahead contains it and the equations hold up to there and beyond. Returns whether it does.
 #[inline]
-pub fn move_within(model: &Model, state: &mut State, until: f64) -> bool {
-    next_change(model, state).is_none_or(|change| until + resolution(change) < change)
-        && state.move_within(until, model.layout.count())
+pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -> bool {
+    let Some(PendingStep { clock, inputs, .. }) = &state.pending_step else { return false };
+    let ([now, time], inputs) = (shown(state, clock), *inputs);
+    let moves = next_change(model, state).is_none_or(|change| until + resolution(change) < change)
+        && state.move_within(until, model.layout.count());
+    if moves {
+        state.pause = way.is_part.then_some(Pause { now, time, inputs });
+    }
+    moves
 }
 
 /// Inputs have changed, or something else: from now on they hold.
@@ -80,6 +88,11 @@ pub fn clock(model: &Model, state: &State) -> Clock {
     let held = state.held - state.begun.map_or(0.0, |begun| state.time() - begun);
     let change = next_change(model, state).unwrap_or(f64::INFINITY);
     Clock::new(change - state.time(), held * (1.0 + ROUNDING))
+}
+
+/// Begin of the way to the next communication point: on the integrator's clock and in time [s].
+pub fn shown(state: &State, clock: &Clock) -> [f64; 2] {
+    state.pause.map_or([clock.now, state.time()], |pause| [pause.now, pause.time])
 }
 
 /// Moves the time to `until` [s], to which the motion must have come: by the integrator's clock it has come to `reached` [s].

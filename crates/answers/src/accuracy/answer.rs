@@ -11,9 +11,9 @@ use super::search::{Found, is_within, search};
 use super::switches::{Standing, Switch, effects};
 use super::want::{self, Want};
 use crate::problem::wrong;
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
-use crate::watch::Watch;
 
 /// Price of all runs, in that of a reference run; and of a reference that is not certain, as little can be told.
 const BUDGET: f64 = 30.0;
@@ -101,8 +101,8 @@ impl Answer {
     }
 }
 
-/// Answers `question` for `scene`. `watch` is told what is tried and may stop it.
-pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<Answer> {
+/// Answers `question` for `scene`. `progress` reports each run to the caller, who may stop the work.
+pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Result<Answer> {
     let (scene, wants) = want::parse(scene, &question.wants).map_err(wrong)?;
     let latest = scene.stop_time - LEAST_POINTS * scene.step;
     if !(0.0..=latest).contains(&question.from) {
@@ -113,15 +113,15 @@ pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<A
     }
     SceneRun::start(&scene, scene.step)?;
     let richest = reference::richest(&scene)?;
-    let (reference, spent) = reference::run(&richest.scene, &wants, question, watch)?;
+    let (reference, spent) = reference::run(&richest.scene, &wants, question, progress)?;
     let uncertain = 3.0 * reference.0.error() > question.within;
     let limit = if uncertain { BUDGET_UNCERTAIN } else { BUDGET } * reference.0.cost;
-    let mut bench = Bench::new(&wants, question.from, reference, [spent, limit], watch);
+    let mut bench = Bench::new(&wants, question.from, reference, [spent, limit], progress);
     let found = search(&mut bench, &scene, &richest, question.within, question.timed);
     let roles = roles(&mut bench, &scene, &richest, &found, question.within);
     let [cheaper, richer] = neighbours(&bench, question.within, found.chosen);
     // runs that were stopped have failed, and mean nothing
-    bench.watch.go_on()?;
+    bench.progress.check_stopped()?;
     let mut seconds = [None; 4];
     if question.timed {
         for (seconds, run) in seconds.iter_mut().zip([found.chosen, cheaper, richer]) {
@@ -130,7 +130,7 @@ pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<A
         }
         seconds[3] = Some(bench.reference.effort.seconds);
     }
-    bench.watch.go_on()?;
+    bench.progress.check_stopped()?;
     let Bench { reference, scales, trials, spent, .. } = bench;
     Ok(Answer {
         within: question.within,

@@ -5,8 +5,8 @@ use bevel_differential::model::Parameters;
 use super::price;
 use super::record::{Effort, Record};
 use super::want::Want;
+use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::watch::Watch;
 
 /// A run may cost this many times the reference, and every run may take so many evaluations, however cheap the reference is.
 const PATIENCE: f64 = 1.5;
@@ -63,8 +63,8 @@ pub struct Bench<'a, 'w> {
     /// Largest cost that all runs together may have.
     pub limit: f64,
     failed: Vec<(Parameters, String)>,
-    /// Is told the progress of the runs, and may stop them.
-    pub watch: &'a mut Watch<'w>,
+    /// Reports the runs to the caller, who may stop them.
+    pub progress: &'a mut Progress<'w>,
 }
 
 /// Values of the wanted quantities in `record`.
@@ -79,9 +79,9 @@ impl<'a, 'w> Bench<'a, 'w> {
         from: f64,
         (reference, scales): (Trial, Vec<f64>),
         [spent, limit]: [f64; 2],
-        watch: &'a mut Watch<'w>,
+        progress: &'a mut Progress<'w>,
     ) -> Self {
-        Self { wants, from, reference, scales, trials: Vec::new(), spent, limit, failed: Vec::new(), watch }
+        Self { wants, from, reference, scales, trials: Vec::new(), spent, limit, failed: Vec::new(), progress }
     }
 
     /// Whether the limit allows one more run of this cost.
@@ -98,9 +98,9 @@ impl<'a, 'w> Bench<'a, 'w> {
         if let Some((_, why)) = self.failed.iter().find(|(other, _)| *other == p) {
             return Err(why.clone());
         }
-        self.watch.say(self.spent / self.limit, what);
+        self.progress.begin_task(self.spent / self.limit, what);
         let most = FREE.max(price::evaluations(&p, PATIENCE * self.reference.cost));
-        let figures = Record::of(scene, self.from, most, self.watch).and_then(|record| {
+        let figures = Record::of(scene, self.from, most, self.progress).and_then(|record| {
             let cost = price::cost(&p, &record.effort);
             self.spent += cost;
             Ok((values(self.wants, &record)?, record.effort, cost))
@@ -122,7 +122,7 @@ impl<'a, 'w> Bench<'a, 'w> {
     pub fn seconds(&mut self, scene: &Scene) -> f64 {
         let (mut least, mut total) = (f64::INFINITY, 0.0);
         for _ in 0..OFTEN {
-            let Ok(record) = Record::of(scene, self.from, f64::INFINITY, self.watch) else { break };
+            let Ok(record) = Record::of(scene, self.from, f64::INFINITY, self.progress) else { break };
             (least, total) = (least.min(record.effort.seconds), total + record.effort.seconds);
             if total > LONG_ENOUGH {
                 break;

@@ -4,9 +4,9 @@ use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Variable, named};
 use cpu_time::ThreadTime;
 
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
-use crate::watch::Watch;
 
 /// What a run gave.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,8 +44,8 @@ fn angles() -> [Option<&'static Variable>; 2] {
 impl Record {
     /// Runs `scene` and records it from after `from` [s] on, with at most `most` evaluations of the tooth forces; or says
     /// why it does not come to its end.
-    pub fn of(scene: &Scene, from: f64, most: f64, watch: &mut Watch) -> Result<Self, String> {
-        watch.go_on().map_err(|stopped| stopped.to_string())?;
+    pub fn of(scene: &Scene, from: f64, most: f64, progress: &mut Progress) -> Result<Self, String> {
+        progress.check_stopped().map_err(|stopped| stopped.to_string())?;
         let begun = ThreadTime::now();
         let mut run = SceneRun::attempt(scene, scene.step).map_err(|found| in_one_line(&found))?;
         let mut record = Self { values: vec![Vec::new(); scene.outputs.len()], ..Self::default() };
@@ -54,7 +54,7 @@ impl Record {
         // half a step, as communication points are rounded
         let from = from + 0.5 * scene.step;
         while !run.is_over() {
-            watch.go_on().map_err(|stopped| stopped.to_string())?;
+            progress.check_stopped().map_err(|stopped| stopped.to_string())?;
             run.advance().map_err(|error| error.root_cause().to_string())?;
             if run.time() > from {
                 record.take(scene, &mut run, teeth);

@@ -12,8 +12,8 @@ use super::record::{Record, in_one_line};
 use super::switches::{Standing, effects, settled};
 use super::want::Want;
 use crate::problem::wrong;
+use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::watch::Watch;
 
 /// Tolerance of the first run, as a part of the accuracy, and at most.
 const FIRST: f64 = 1e-4;
@@ -83,13 +83,13 @@ pub fn run(
     richest: &Scene,
     wants: &[Want],
     question: &Question,
-    watch: &mut Watch,
+    progress: &mut Progress,
 ) -> Result<((Trial, Vec<f64>), f64)> {
     let mut tolerance = (FIRST * question.within).min(COARSEST).min(richest.parameters.solver.relative_tolerance);
     let mut at = |tolerance: f64| {
         let scene = Scene { parameters: at_tolerance(&richest.parameters, tolerance), ..richest.clone() };
-        watch.say(0.0, &format!("the reference, tolerance {tolerance:.0e}"));
-        let record = Record::of(&scene, question.from, f64::INFINITY, watch)
+        progress.begin_task(0.0, &format!("the reference, tolerance {tolerance:.0e}"));
+        let record = Record::of(&scene, question.from, f64::INFINITY, progress)
             .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
         let (values, cost) = (values(wants, &record).map_err(wrong)?, price::cost(&scene.parameters, &record.effort));
         let (what, effort) = ("the reference".into(), record.effort);

@@ -7,7 +7,7 @@ use std::{ptr, slice};
 use serde_json::json;
 
 use super::{Refusal, ask};
-use crate::watch::Watch;
+use crate::progress::Progress;
 
 /// Told the part of the work that is done, from 0 to 1, and what is being done; `context` is what the caller of `bd_ask` gave.
 /// Another value than 0 stops the work.
@@ -41,12 +41,12 @@ pub unsafe extern "C" fn bd_ask(
         // SAFETY: the caller's promise
         let question = unsafe { CStr::from_ptr(question) };
         let numbers = if numbers.is_null() { &[] } else { unsafe { slice::from_raw_parts(numbers, count) } };
-        let mut watch = Watch::new(|done, what| {
+        let mut reports = Progress::new(|done, what| {
             let (Some(progress), Ok(what)) = (progress, CString::new(what)) else { return true };
             // SAFETY: a function of the caller's, with its own context
             unsafe { progress(context, done, what.as_ptr()) == 0 }
         });
-        reply(answer(question, numbers, &mut watch))
+        reply(answer(question, numbers, &mut reports))
     });
     replied.unwrap_or_else(|_| reply(Err(internal("a fault of this library"))))
 }
@@ -84,12 +84,12 @@ pub fn as_in_c(question: &CStr, numbers: &[f64], mut go_on: impl FnMut() -> bool
     }
 }
 
-fn answer(question: &CStr, numbers: &[f64], watch: &mut Watch) -> Result<serde_json::Value, Refusal> {
+fn answer(question: &CStr, numbers: &[f64], progress: &mut Progress) -> Result<serde_json::Value, Refusal> {
     let text = question.to_str().map_err(|why| Refusal::unreadable(format!("the question is not UTF-8: {why}")))?;
     let question =
         serde_json::from_str(text).map_err(|why| Refusal::unreadable(format!("the question cannot be read: {why}")))?;
     // what has panicked is gone with its question
-    match catch_unwind(AssertUnwindSafe(|| ask(&question, numbers, watch))) {
+    match catch_unwind(AssertUnwindSafe(|| ask(&question, numbers, progress))) {
         Ok(answer) => answer.map_err(Refusal::from),
         Err(panic) => {
             let told = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());

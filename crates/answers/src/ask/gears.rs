@@ -9,8 +9,8 @@ use crate::geometry::interference::InterferenceCheck;
 use crate::geometry::shape::shape;
 use crate::geometry::{json, text, xyz};
 use crate::problem::{Problem, Problems};
+use crate::progress::Progress;
 use crate::scene::set::{real, value, variable};
-use crate::watch::Watch;
 
 /// Fewest and most points between the ends of a flank's curve: fewer show no involute, more no CAD program wants.
 const FACETS: [usize; 2] = [2, 1000];
@@ -40,10 +40,10 @@ fn usual() -> usize {
 }
 
 impl GeometryQuestion {
-    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let (design, thicken) = self.checked()?;
-        watch.say(0.0, "turning the gears through a tooth pitch");
-        let check = InterferenceCheck::watched(&design, thicken, watch)?;
+        progress.begin_task(0.0, "turning the gears through a tooth pitch");
+        let check = InterferenceCheck::with_progress(&design, thicken, progress)?;
         let (dimensions, found) = (text::text(&design), check.text());
         let mut files = Map::new();
         let mut add = |name: String, content: String| files.insert(name, Value::String(content));
@@ -55,7 +55,7 @@ impl GeometryQuestion {
         }
         let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "files": files});
         if self.solids {
-            watch.say(1.0, "making solids");
+            progress.begin_task(1.0, "making solids");
             let density = design.parameters.material.density;
             let shape = shape(&design.pair, &design.spec, density, self.facets);
             answer["shape"] = shape.map_err(|found| anyhow!("{found}"))?;

@@ -16,8 +16,8 @@ use crate::accuracy::switches::Switch;
 use crate::accuracy::words::difference;
 use crate::accuracy::{Question, chosen, report, table};
 use crate::problem::{Problem, Problems, wrong};
+use crate::progress::Progress;
 use crate::scene::{script, ssv};
-use crate::watch::Watch;
 
 /// Asks for the cheapest model of a scene that gives the wanted quantities within an accuracy.
 #[derive(Deserialize)]
@@ -83,7 +83,7 @@ impl WordQuestion {
 }
 
 impl AccuracyQuestion {
-    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene()?;
         let question = Question {
             wants: self.want.clone(),
@@ -91,7 +91,7 @@ impl AccuracyQuestion {
             from: seconds("from", self.from.as_deref())?.unwrap_or(0.0),
             timed: self.timed,
         };
-        let found = answer(&scene, &question, watch)?;
+        let found = answer(&scene, &question, progress)?;
         let wants: Vec<String> = found.wants.iter().map(|want| want.text(&found.scene)).collect();
         let place = |run: Option<usize>| {
             let run = run.map(|run| &found.trials[run])?;

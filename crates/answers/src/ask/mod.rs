@@ -1,9 +1,9 @@
 //! One function that answers all questions: a question is a value of JSON, and so is the answer.
 //!
 //! ```
-//! use answers::{ask::ask, watch::Watch};
+//! use answers::{ask::ask, progress::Progress};
 //! let question = serde_json::json!({"ask": "geometry", "set": ["geometry.module=4mm"]});
-//! let answer = ask(&serde_json::from_value(question).unwrap(), &[], &mut Watch::nobody()).unwrap();
+//! let answer = ask(&serde_json::from_value(question).unwrap(), &[], &mut Progress::silent()).unwrap();
 //! assert!(answer["text"].as_str().unwrap().contains("4.0000"));
 //! ```
 
@@ -20,7 +20,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::problem::{Problem, Problems};
-use crate::watch::{Stopped, Watch};
+use crate::progress::{Progress, Stopped};
 
 /// What is asked. Every question is one object of JSON, whose `ask` says which.
 #[derive(Deserialize)]
@@ -52,24 +52,24 @@ pub enum Question {
     Statistics(judged::StatisticsQuestion),
 }
 
-/// Answers a question, with the `numbers` that come beside it. `watch` is told how far the work is, and may stop it.
-pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Value> {
+/// Answers a question, with the `numbers` that come beside it. `progress` reports to the caller, who may stop the work.
+pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Result<Value> {
     let answer = match question {
         Question::Scenes(question) => question.answer(),
         Question::Scene(question) => question.values(),
         Question::Plan(question) => question.plan(),
-        Question::Run(question) => question.answer(watch),
+        Question::Run(question) => question.answer(progress),
         Question::Export(question) => question.answer(),
-        Question::Loads(question) => question.answer(watch),
-        Question::Accuracy(question) => question.answer(watch),
-        Question::Pattern(question) => question.answer(watch),
-        Question::Geometry(question) => question.answer(watch),
+        Question::Loads(question) => question.answer(progress),
+        Question::Accuracy(question) => question.answer(progress),
+        Question::Pattern(question) => question.answer(progress),
+        Question::Geometry(question) => question.answer(progress),
         Question::Study(question) => question.answer(),
         Question::Word(question) => question.answer(),
         Question::Statistics(question) => question.answer(numbers),
     };
     // what fails because it was stopped tells nothing else
-    answer.map_err(|why| watch.go_on().err().map_or(why, Into::into))
+    answer.map_err(|why| progress.check_stopped().err().map_or(why, Into::into))
 }
 
 /// Why there is no answer.

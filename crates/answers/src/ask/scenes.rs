@@ -11,12 +11,12 @@ use serde_json::{Map, Value, json};
 use super::source::{Source, seconds};
 use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
+use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
 use crate::scene::{self, Scene, loads, plan, script, ssv};
 use crate::text::shown;
-use crate::watch::Watch;
 
 /// All scenes of a folder.
 #[derive(Deserialize)]
@@ -124,17 +124,17 @@ impl ExportQuestion {
 }
 
 impl LoadsQuestion {
-    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let (scene, every) = (self.of.scene()?, seconds("every", self.every.as_deref())?);
-        let lines = written(&self.out, |file| loads::write(&scene, every, file, watch))?;
+        let lines = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
         Ok(json!({"lines": lines, "file": self.out}))
     }
 }
 
 impl RunQuestion {
-    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene()?;
-        let outcome = written(&self.out, |file| run(&scene, None, Some(file), watch))?;
+        let outcome = written(&self.out, |file| run(&scene, None, Some(file), progress))?;
         Ok(json!({"text": outcome.text(), "file": self.out}))
     }
 }
@@ -157,12 +157,12 @@ fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
 }
 
 impl PatternQuestion {
-    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let cases = match self.of.as_slice() {
             [] => cases::all()?,
             named => named.iter().map(|of| Ok(PatternCase::of(of.scene()?))).collect::<Result<_>>()?,
         };
-        let patterns = Patterns::of(&cases, watch)?;
+        let patterns = Patterns::of(&cases, progress)?;
         let files: Map<String, Value> =
             patterns.files.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
         let table = patterns.table().terminal();

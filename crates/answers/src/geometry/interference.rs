@@ -14,8 +14,8 @@ use bevel_differential::geometry::{GearSpec, Pair};
 
 use super::design::Design;
 use super::json::Ordered;
+use crate::progress::Progress;
 use crate::text::table::wrapped;
-use crate::watch::Watch;
 
 const MM: f64 = 1e3;
 const GEARS: [&str; 2] = ["planet", "side gear"];
@@ -35,27 +35,27 @@ pub struct InterferenceCheck {
 impl InterferenceCheck {
     /// Checks `design` with teeth thicker by `thicken` [m].
     pub fn new(design: &Design, thicken: f64) -> Result<Self> {
-        Self::watched(design, thicken, &mut Watch::nobody())
+        Self::with_progress(design, thicken, &mut Progress::silent())
     }
 
-    /// The same; `watch` may stop it.
-    pub fn watched(design: &Design, thicken: f64, watch: &mut Watch) -> Result<Self> {
+    /// The same for a caller who may stop the check through `progress`.
+    pub fn with_progress(design: &Design, thicken: f64, progress: &mut Progress) -> Result<Self> {
         let spec = GearSpec { backlash: design.spec.backlash - thicken, ..design.spec };
         let pair = Pair::new(&spec);
         let stopped = AtomicBool::new(false);
         let look = |stance, go_on: &mut dyn FnMut() -> bool| {
-            let found = Interference::watched(&pair, &spec, stance, go_on);
+            let found = Interference::stoppable(&pair, &spec, stance, go_on);
             found.context("the gears have no surface to look at")
         };
         let (middle, driving) = std::thread::scope(|scope| {
             let driving = scope.spawn(|| look(Stance::Driving, &mut || !stopped.load(Ordering::Relaxed)));
             let middle = look(Stance::Middle, &mut || {
-                stopped.store(watch.go_on().is_err(), Ordering::Relaxed);
+                stopped.store(progress.check_stopped().is_err(), Ordering::Relaxed);
                 !stopped.load(Ordering::Relaxed)
             });
             (middle, driving.join())
         });
-        watch.go_on()?;
+        progress.check_stopped()?;
         let driving = driving.map_err(|_| anyhow::anyhow!("the check of interference broke off"))??;
         Ok(Self { stances: [middle?, driving], pair, spec, thicken })
     }

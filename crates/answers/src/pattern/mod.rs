@@ -12,8 +12,8 @@ pub mod sample;
 
 use anyhow::Result;
 
+use crate::progress::Progress;
 use crate::text::table::Table;
-use crate::watch::Watch;
 use cases::PatternCase;
 use envelope::Envelope;
 use findings::PatternFindings;
@@ -29,12 +29,12 @@ pub struct Patterns {
 
 impl Patterns {
     /// Simulates `cases`.
-    pub fn of(cases: &[PatternCase], watch: &mut Watch) -> Result<Self> {
+    pub fn of(cases: &[PatternCase], progress: &mut Progress) -> Result<Self> {
         let (mut envelopes, mut contacts, mut findings) = (Envelope::file()?, Engagement::file()?, Vec::new());
         let mut outline = envelope::outline_file()?;
         for (i, case) in cases.iter().enumerate() {
-            watch.say(i as f64 / cases.len() as f64, &case.title);
-            let record = Engagement::new(&case.scene, watch)?;
+            progress.begin_task(i as f64 / cases.len() as f64, &case.title);
+            let record = Engagement::new(&case.scene, progress)?;
             envelope::outline(&record.pair, &case.name, &mut outline)?;
             Envelope::new(&record).rows(&case.name, &mut envelopes)?;
             record.rows(&case.name, &mut contacts)?;

@@ -17,10 +17,10 @@ use bevel_differential::geometry::Pair;
 use bevel_differential::model::{GearContact, Simulation, ToothLoad, Touch};
 use bevel_differential::strength::LineContact;
 
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 use crate::text::csv_file::CsvFile;
-use crate::watch::Watch;
 
 /// Sections into which a section of the whole face is divided.
 const SECTIONS: usize = 8;
@@ -75,7 +75,7 @@ pub struct Engagement {
 
 impl Engagement {
     /// Runs `scene` until a pair that came into contact after the start has parted.
-    pub fn new(scene: &Scene, watch: &mut Watch) -> Result<Self> {
+    pub fn new(scene: &Scene, progress: &mut Progress) -> Result<Self> {
         ensure!(
             scene.parameters.scene.gear_contact == GearContact::Solid,
             "scene {}: patterns are seen on solid teeth alone: set scene.gear_contact = \"solid\"",
@@ -92,7 +92,7 @@ impl Engagement {
         while !run.is_over() {
             if !first {
                 run.advance()?;
-                watch.go_on()?;
+                progress.check_stopped()?;
             }
             let now = instant(&run.simulation, &pair, &line);
             now.iter().for_each(|c| {

@@ -11,7 +11,7 @@ use bevel_differential::model::{GearContact, ToothLoad};
 
 use super::Scene;
 use super::run::SceneRun;
-use crate::watch::Watch;
+use crate::progress::Progress;
 
 /// Times that differ by less than this part of an interval are the same.
 const SAME: f64 = 1e-6;
@@ -48,7 +48,7 @@ pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear
 
 /// Writes the history of `scene` to `out`, a record every `every` seconds (by default its communication step);
 /// returns the number of lines.
-pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, watch: &mut Watch) -> Result<u64> {
+pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<u64> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
         bail!("scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load", scene.name);
     }
@@ -64,7 +64,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, watch: &mut
     let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
     let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
     rows.write_record(head).context("the loads cannot be written")?;
-    watch.say(0.0, "simulating");
+    progress.begin_task(0.0, "simulating");
     let (mut records, mut lines) = (0u64, 0u64);
     loop {
         if run.time() >= (records as f64 - SAME) * every {
@@ -82,7 +82,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, watch: &mut
             break;
         }
         run.advance()?;
-        watch.advance(run.time() / scene.stop_time)?;
+        progress.advance(run.time() / scene.stop_time)?;
     }
     rows.flush().context("the loads cannot be written")?;
     Ok(lines)

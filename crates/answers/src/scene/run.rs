@@ -11,8 +11,8 @@ use bevel_differential::variables::{Access, Variable, check_ranges};
 use super::units;
 use super::{InputTable, Scene};
 use crate::problem::Problems;
+use crate::progress::Progress;
 use crate::text::table::Table;
-use crate::watch::Watch;
 
 /// Times that differ by less than this part of a communication step are the same.
 const SAME: f64 = 1e-9;
@@ -147,9 +147,14 @@ pub struct SceneResult {
 }
 
 /// Runs `scene` to its end, or for at most `steps` communication steps; each communication point goes to `csv` too.
-pub fn run(scene: &Scene, steps: Option<u64>, csv: Option<&mut dyn Write>, watch: &mut Watch) -> Result<SceneResult> {
+pub fn run(
+    scene: &Scene,
+    steps: Option<u64>,
+    csv: Option<&mut dyn Write>,
+    progress: &mut Progress,
+) -> Result<SceneResult> {
     let begun = Instant::now();
-    watch.say(0.0, "simulating");
+    progress.begin_task(0.0, "simulating");
     let mut run = SceneRun::start(scene, scene.step)?;
     let mut csv = csv.map(|out| record(scene, out).context("the record cannot be written")).transpose()?;
     let mut values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
@@ -178,7 +183,7 @@ pub fn run(scene: &Scene, steps: Option<u64>, csv: Option<&mut dyn Write>, watch
         seen += (run.simulation.state().work - work).abs();
         (power, work) = (now, run.simulation.state().work);
         line(&mut csv, run.time(), &values)?;
-        watch.advance(run.time() / scene.stop_time)?;
+        progress.advance(run.time() / scene.stop_time)?;
     }
     if let Some(rows) = &mut csv {
         rows.flush().context("the record cannot be written")?;

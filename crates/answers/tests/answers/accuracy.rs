@@ -5,9 +5,9 @@ use std::path::Path;
 use answers::accuracy::answer::{Answer, Role};
 use answers::accuracy::gears::Gears;
 use answers::accuracy::{Question, answer, chosen, report};
+use answers::progress::Progress;
 use answers::scene::run::run;
 use answers::scene::{Scene, load};
-use answers::watch::Watch;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::GearContact;
 
@@ -55,7 +55,7 @@ fn parsed(text: &str) -> Scene {
 fn asked(text: &str, wants: &[&str], within: f64) -> Answer {
     let wants = wants.iter().map(|want| (*want).to_owned()).collect();
     let question = Question { wants, within, from: 0.0, timed: false };
-    answer(&parsed(text), &question, &mut Watch::nobody()).expect("an answer")
+    answer(&parsed(text), &question, &mut Progress::silent()).expect("an answer")
 }
 
 fn role<'a>(found: &'a Answer, name: &str) -> &'a Role {
@@ -143,7 +143,7 @@ fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
     let text = chosen::text(&found, TEETH).expect("a file");
     let scene = parsed(&text);
     assert_eq!(scene.parameters, found.choice().expect("a setting").scene.parameters);
-    let result = run(&scene, None, None, &mut Watch::nobody()).expect("a run");
+    let result = run(&scene, None, None, &mut Progress::silent()).expect("a run");
     let trial = found.choice().expect("a setting");
     // this one summarises from the start on
     assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);
@@ -153,6 +153,6 @@ fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
 fn a_scene_that_cannot_run_says_why() {
     let text = format!("{TEETH}scene.left_drive = \"speed\"\nscene.right_drive = \"speed\"\n");
     let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0, timed: false };
-    let failed = answer(&parsed(&text), &question, &mut Watch::nobody()).err().expect("three imposed speeds");
+    let failed = answer(&parsed(&text), &question, &mut Progress::silent()).err().expect("three imposed speeds");
     assert!(format!("{failed:#}").contains("two independent speeds"), "{failed:#}");
 }

@@ -4,12 +4,12 @@ use answers::pattern::cases::{PatternCase, turn};
 use answers::pattern::envelope::Envelope;
 use answers::pattern::findings::{PatternFindings, centroid, markdown};
 use answers::pattern::sample::{Engagement, LoadedSection};
-use answers::watch::Watch;
+use answers::progress::Progress;
 use bevel_differential::contact::errors::ToothErrorSpec;
 use bevel_differential::model::GearContact;
 
 fn record(errors: &ToothErrorSpec) -> Engagement {
-    Engagement::new(&turn(errors).expect("a scene"), &mut Watch::nobody()).expect("an engagement")
+    Engagement::new(&turn(errors).expect("a scene"), &mut Progress::silent()).expect("an engagement")
 }
 
 fn case(errors: &ToothErrorSpec) -> PatternCase {
@@ -80,10 +80,12 @@ fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
 fn scenes_without_solid_teeth_and_scenes_too_short_are_refused() {
     let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
     scene.stop_time = 0.1;
-    assert!(Engagement::new(&scene, &mut Watch::nobody()).expect_err("too short").to_string().contains("parted again"));
+    assert!(
+        Engagement::new(&scene, &mut Progress::silent()).expect_err("too short").to_string().contains("parted again")
+    );
     scene.parameters.scene.gear_contact = GearContact::Tooth;
     assert!(
-        Engagement::new(&scene, &mut Watch::nobody())
+        Engagement::new(&scene, &mut Progress::silent())
             .expect_err("no solids")
             .to_string()
             .contains("scene.gear_contact")

@@ -1,14 +1,14 @@
 //! Questions that make no sense are answered by what is wrong with them.
 
 use answers::ask::{Question, Refusal, ask};
-use answers::watch::Watch;
+use answers::progress::Progress;
 use serde_json::{Value, json};
 
 use crate::folder;
 
 fn refused(question: Value) -> Refusal {
     let question: Question = serde_json::from_value(question).expect("a question");
-    ask(&question, &[], &mut Watch::nobody()).err().map(Refusal::from).expect("a refusal")
+    ask(&question, &[], &mut Progress::silent()).err().map(Refusal::from).expect("a refusal")
 }
 
 fn about(name: &str, set: &[&str]) -> Value {
@@ -68,7 +68,7 @@ fn figures_need_numbers_that_fit() {
     let question =
         |points: usize| json!({"ask": "statistics", "points": points, "figures": [{"statistic": "mean", "series": 0}]});
     let asked = |points: usize, numbers: &[f64]| {
-        ask(&serde_json::from_value(question(points)).expect("a question"), numbers, &mut Watch::nobody())
+        ask(&serde_json::from_value(question(points)).expect("a question"), numbers, &mut Progress::silent())
     };
     // straight from 0 to 2 and on to 4 over unequal steps
     let answer = asked(3, &[0.0, 1.0, 3.0, 0.0, 2.0, 4.0]).expect("a figure");

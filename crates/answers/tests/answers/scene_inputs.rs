@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use answers::progress::Progress;
 use answers::scene::run::run;
 use answers::scene::{Scene, assignments, find, load};
-use answers::watch::Watch;
 use anyhow::Result;
 
 use crate::folder;
@@ -104,8 +104,8 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
     ))?;
     assert_eq!(scene.inputs, same.inputs);
     let (mut first, mut second) = (Vec::new(), Vec::new());
-    run(&scene, None, Some(&mut first), &mut Watch::nobody())?;
-    run(&same, None, Some(&mut second), &mut Watch::nobody())?;
+    run(&scene, None, Some(&mut first), &mut Progress::silent())?;
+    run(&same, None, Some(&mut second), &mut Progress::silent())?;
     assert_eq!(String::from_utf8(first)?, String::from_utf8(second)?);
     let tables = |scene: &Scene| -> Vec<_> {
         scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()

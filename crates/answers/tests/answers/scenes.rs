@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use answers::progress::Progress;
 use answers::scene::run::{SceneResult, SceneRun, run};
 use answers::scene::{InputTable, Scene, all, files, find, load, loads, plan};
-use answers::watch::Watch;
 use anyhow::Result;
 
 use crate::{folder, workspace};
@@ -27,7 +27,7 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
         assert!(!scene.description.is_empty() && !scene.outputs.is_empty(), "{}", scene.name);
         let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
         assert!(text.contains("cost class") && text.contains("states"), "{text}");
-        let outcome = run(&scene, Some(STEPS), None, &mut Watch::nobody())?;
+        let outcome = run(&scene, Some(STEPS), None, &mut Progress::silent())?;
         for output in &outcome.outputs {
             let finite = [output.min, output.mean, output.max, output.end].iter().all(|x| x.is_finite());
             assert!(finite, "{}: {}", scene.name, output.row.name);
@@ -41,7 +41,7 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
 
 #[test]
 fn the_study_is_the_study() -> Result<()> {
-    let turning = run(&find("study_turning", &folder())?, None, None, &mut Watch::nobody())?;
+    let turning = run(&find("study_turning", &folder())?, None, None, &mut Progress::silent())?;
     for (name, wanted) in [("left.speed", 1079f64), ("right.speed", 829.0), ("carrier.speed", 954.0)] {
         let mean = named(&turning, name).mean.to_degrees();
         assert!((mean / wanted - 1.0).abs() < 2e-3, "{name}: {mean}");
@@ -52,7 +52,7 @@ fn the_study_is_the_study() -> Result<()> {
 
 #[test]
 fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
-    let outcome = run(&find("clunk", &folder())?, None, None, &mut Watch::nobody())?;
+    let outcome = run(&find("clunk", &folder())?, None, None, &mut Progress::silent())?;
     let peak = named(&outcome, "left.shaft_torque").max + named(&outcome, "right.shaft_torque").max;
     println!("clunk: {peak} N.m");
     assert!((peak / 265.58 - 1.0).abs() < 0.01, "{peak}");
@@ -62,7 +62,7 @@ fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
 
 #[test]
 fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
-    let outcome = run(&find("one_wheel_on_ice", &folder())?, None, None, &mut Watch::nobody())?;
+    let outcome = run(&find("one_wheel_on_ice", &folder())?, None, None, &mut Progress::silent())?;
     let difference = named(&outcome, "left.wheel_speed").end - named(&outcome, "right.wheel_speed").end;
     assert!((difference / (835.0 * 0.2) - 1.0).abs() < 2e-3, "{difference}");
     Ok(())
@@ -86,7 +86,7 @@ fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
     let mut scene = find("study_turning", &folder())?;
     scene.stop_time = 0.02;
     let mut text = Vec::new();
-    let lines = loads::write(&scene, Some(2e-3), &mut text, &mut Watch::nobody())?;
+    let lines = loads::write(&scene, Some(2e-3), &mut text, &mut Progress::silent())?;
     let text = String::from_utf8(text)?;
     let rows: Vec<Vec<&str>> =
         text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect()).collect();
@@ -112,7 +112,7 @@ fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
 
 #[test]
 fn scenes_without_teeth_have_no_loads() -> Result<()> {
-    let problem = loads::write(&find("hil", &folder())?, None, &mut Vec::new(), &mut Watch::nobody())
+    let problem = loads::write(&find("hil", &folder())?, None, &mut Vec::new(), &mut Progress::silent())
         .expect_err("no teeth")
         .to_string();
     assert!(problem.contains("scene.gear_contact = ideal"), "{problem}");

@@ -1,0 +1,65 @@
+//! The evidence that the FMU carries: parameter sets, inputs and results of the shipped scenes, as data in the repository. A script
+//! makes them; packaging copies them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::Args;
+
+use crate::fmu::package;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script};
+
+/// The folder in the archive. FMI-LS-REF gives its name.
+const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
+/// The script that makes the files.
+const SCRIPT: &str = "fmu-build/python/evidence.py";
+
+/// Simulates the shipped scenes and writes their results to modelDescription/evidence, for `bevel-differential verify`
+#[derive(Args, Clone, Debug)]
+pub struct EvidenceCommand {}
+
+impl EvidenceCommand {
+    /// Writes the files and prints what they state.
+    pub fn run(&self) -> Result<()> {
+        let progress = Progress::start("looking for Python");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        progress.stage("packaging the FMU");
+        let fmu = package::package()?;
+        progress.begin_bar("simulating");
+        let mut command = environment.command();
+        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::evidence());
+        let told = script::follow(&mut command, SCRIPT, &progress)?;
+        progress.finish();
+        print!("{told}");
+        println!("{} is renewed; the next packaging takes it into the FMU", paths::shown(&paths::evidence()));
+        Ok(())
+    }
+}
+
+/// Paths in the archive and files of the repository, in a fixed order. Without the folder there are none, so that the command can
+/// package the FMU that makes the first.
+pub fn files() -> Result<Vec<(String, PathBuf)>> {
+    let root = paths::evidence();
+    let mut found = Vec::new();
+    if root.is_dir() {
+        collect(&root, IN_ARCHIVE, &mut found)?;
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn collect(folder: &Path, in_archive: &str, found: &mut Vec<(String, PathBuf)>) -> Result<()> {
+    for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", paths::shown(folder)))? {
+        let entry = entry?.path();
+        let name = format!("{in_archive}/{}", entry.file_name().unwrap_or_default().to_string_lossy());
+        if entry.is_dir() {
+            collect(&entry, &name, found)?;
+        } else {
+            found.push((name, entry));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,195 @@
+//! terminalsAndIcons.xml: which variables belong to one physical connection. FMI 2.0.4 takes the file of FMI 3.0.
+//!
+//! A shaft has two terminals, as a parameter of the scene decides which of its variables is the input. A host connects the terminal
+//! that fits the drive of the scene.
+
+use anyhow::{Context, Result, ensure};
+use bevel_differential::variables::{Causality, named};
+
+use answers::text::xml::Element;
+
+/// The path in the archive.
+pub const FILE: &str = "terminalsAndIcons/terminalsAndIcons.xml";
+/// The version of FMI whose schema the file follows.
+const VERSION: &str = "3.0";
+/// Members with equal names are connected.
+const MATCHING_RULE: &str = "plug";
+/// Kinds of terminals. FMI leaves these names to the project.
+const TORQUE_DRIVEN: &str = "org.bevel-differential.rotational-flange.torque-driven";
+const SPEED_DRIVEN: &str = "org.bevel-differential.rotational-flange.speed-driven";
+const BRAKE: &str = "org.bevel-differential.wheel-brake";
+const COMMAND: &str = "org.bevel-differential.command";
+
+/// What FMI says of a variable in a connection.
+#[derive(Clone, Copy)]
+enum Kind {
+    /// Connected variables are equal.
+    Signal,
+    /// Connected flows add up to zero; positive into the differential.
+    Inflow,
+    /// The same; positive out of the differential.
+    Outflow,
+}
+
+/// A variable of a terminal: name of the member, variable, kind.
+type Member = (&'static str, &'static str, Kind);
+
+struct Terminal {
+    name: &'static str,
+    kind: &'static str,
+    description: &'static str,
+    members: &'static [Member],
+}
+
+use Kind::{Inflow, Outflow, Signal};
+
+const TERMINALS: [Terminal; 11] = [
+    Terminal {
+        name: "carrier_torque_driven",
+        kind: TORQUE_DRIVEN,
+        description: "Carrier with scene.carrier_drive = torque: the torque is the input. Speed, angle and torque are positive \
+                      forward; a positive torque drives the differential forward",
+        members: &[
+            ("tau", "carrier.torque_command", Inflow),
+            ("w", "carrier.speed", Signal),
+            ("phi", "carrier.angle", Signal),
+        ],
+    },
+    Terminal {
+        name: "carrier_speed_driven",
+        kind: SPEED_DRIVEN,
+        description: "Carrier with scene.carrier_drive = speed: the speed is the input. The speed is positive forward; a positive \
+                      torque of the drive drives the differential forward",
+        members: &[("tau", "carrier.torque", Inflow), ("w", "carrier.speed_command", Signal)],
+    },
+    Terminal {
+        name: "left_torque_driven",
+        kind: TORQUE_DRIVEN,
+        description: "Left half-shaft with scene.left_drive = torque: the load is the input. Speed and angle are positive forward; \
+                      a positive load resists forward rotation, and drives a standing wheel backward",
+        members: &[
+            ("tau", "left.load_torque", Outflow),
+            ("w", "left.wheel_speed", Signal),
+            ("phi", "left.wheel_angle", Signal),
+        ],
+    },
+    Terminal {
+        name: "left_speed_driven",
+        kind: SPEED_DRIVEN,
+        description: "Left half-shaft with scene.left_drive = speed: the speed is the input. The speed is positive forward; a \
+                      positive shaft torque drives the wheel forward",
+        members: &[("tau", "left.shaft_torque", Outflow), ("w", "left.speed_command", Signal)],
+    },
+    Terminal {
+        name: "right_torque_driven",
+        kind: TORQUE_DRIVEN,
+        description: "Right half-shaft with scene.right_drive = torque: the load is the input. Speed and angle are positive \
+                      forward; a positive load resists forward rotation, and drives a standing wheel backward",
+        members: &[
+            ("tau", "right.load_torque", Outflow),
+            ("w", "right.wheel_speed", Signal),
+            ("phi", "right.wheel_angle", Signal),
+        ],
+    },
+    Terminal {
+        name: "right_speed_driven",
+        kind: SPEED_DRIVEN,
+        description: "Right half-shaft with scene.right_drive = speed: the speed is the input. The speed is positive forward; a \
+                      positive shaft torque drives the wheel forward",
+        members: &[("tau", "right.shaft_torque", Outflow), ("w", "right.speed_command", Signal)],
+    },
+    Terminal {
+        name: "planet_spin",
+        kind: SPEED_DRIVEN,
+        description: "Spin of all planets on their pins, relative to the carrier, with scene.planet_spin = imposed: the speed is \
+                      the input. A positive spin speeds the left side up; the torque is that of the spin drive on all planets",
+        members: &[("tau", "planet.spin_torque", Inflow), ("w", "planet.spin_command", Signal)],
+    },
+    Terminal {
+        name: "left_brake",
+        kind: BRAKE,
+        description: "Brake of the left wheel with effects.wheel_brake. The torque has no direction: it opposes rotation and holds \
+                      a standing wheel; the speed is positive forward",
+        members: &[("brake_torque", "left.brake_torque", Signal), ("w", "left.wheel_speed", Signal)],
+    },
+    Terminal {
+        name: "right_brake",
+        kind: BRAKE,
+        description: "Brake of the right wheel with effects.wheel_brake. The torque has no direction: it opposes rotation and \
+                      holds a standing wheel; the speed is positive forward",
+        members: &[("brake_torque", "right.brake_torque", Signal), ("w", "right.wheel_speed", Signal)],
+    },
+    Terminal {
+        name: "lock",
+        kind: COMMAND,
+        description: "Differential lock: 0 opens it, 1 closes it; the output counts side gears that dry friction holds to the carrier",
+        members: &[("command", "lock.command", Signal), ("held", "held.sides", Signal)],
+    },
+    Terminal {
+        name: "fault",
+        kind: COMMAND,
+        description: "Tooth fault with effects.tooth_fault: the tooth breaks when the command rises above 0.5",
+        members: &[("command", "fault.trigger", Signal)],
+    },
+];
+
+/// The file's text. Fails where a terminal names a variable that is neither input nor output.
+pub fn text() -> Result<String> {
+    let terminals = TERMINALS.iter().map(terminal).collect::<Result<Vec<_>>>()?;
+    let root = Element::new("fmiTerminalsAndIcons")
+        .with("fmiVersion", VERSION)
+        .child(Element::new("Terminals").children(terminals));
+    root.document().context("the terminals cannot be written")
+}
+
+fn terminal(terminal: &Terminal) -> Result<Element> {
+    let members = terminal.members.iter().map(|member| variable(terminal.name, member)).collect::<Result<Vec<_>>>()?;
+    Ok(Element::new("Terminal")
+        .with("name", terminal.name)
+        .with("matchingRule", MATCHING_RULE)
+        .with("terminalKind", terminal.kind)
+        .with("description", terminal.description)
+        .children(members))
+}
+
+fn variable(terminal: &str, &(member, name, kind): &Member) -> Result<Element> {
+    let row =
+        named(name).with_context(|| format!("terminal {terminal}, member {member}: there is no variable {name}"))?;
+    ensure!(
+        matches!(row.causality, Causality::Input | Causality::Output),
+        "terminal {terminal}, member {member}: {name} is neither input nor output"
+    );
+    let kind = match kind {
+        Signal => "signal",
+        Inflow => "inflow",
+        Outflow => "outflow",
+    };
+    Ok(Element::new("TerminalMemberVariable")
+        .with("variableName", name)
+        .with("memberName", member)
+        .with("variableKind", kind))
+}
+
+#[cfg(test)]
+mod tests {
+    use bevel_differential::variables::{Causality, table};
+
+    use super::{Kind, TERMINALS, text, variable};
+
+    #[test]
+    fn every_input_belongs_to_one_terminal() {
+        let members = || TERMINALS.iter().flat_map(|terminal| terminal.members);
+        for row in table().rows.iter().filter(|row| row.causality == Causality::Input) {
+            assert_eq!(members().filter(|(_, name, _)| *name == row.name).count(), 1, "{}", row.name);
+        }
+        assert!(text().is_ok());
+    }
+
+    #[test]
+    fn a_variable_that_cannot_be_connected_is_refused() {
+        for (name, said) in [("left.wheel_sped", "no variable"), ("geometry.module", "neither input nor output")] {
+            let refused = variable("left", &("w", name, Kind::Signal)).err().map(|error| error.to_string());
+            assert!(refused.as_deref().is_some_and(|text| text.contains(said) && text.contains(name)), "{refused:?}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Co-simulation with events: steps that end at an event or at the solver's own steps, and values that change at events alone.
+
+use serde::{Deserialize, Serialize};
+
+use super::instance::check_step;
+use super::{CallError, CallResult, Instance, Kind, Phase};
+use crate::model::{Event, StepFailure, Way};
+
+/// What the host of a co-simulation allows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Allowed {
+    /// It handles events in event mode.
+    pub events: bool,
+    /// A step may end at an event.
+    pub early_return: bool,
+}
+
+/// Outputs that change at events alone, where the host handles events.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Discrete {
+    /// The last event.
+    pub event: Event,
+    /// Masks of what dry friction holds: side gears, planets, wheels.
+    pub held: [f64; 3],
+}
+
+/// How a step, or a part of it, ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ended {
+    /// The time that was reached [s].
+    pub time: f64,
+    /// Whether an event happened that the host is to handle.
+    pub event: bool,
+    /// Whether the time is before the end of the step.
+    pub early: bool,
+}
+
+impl Instance {
+    /// Refuses calls of co-simulation on an instance for model exchange.
+    pub fn check_co_simulation(&self) -> CallResult {
+        if self.now.kind == Kind::CoSimulation {
+            return Ok(());
+        }
+        Err(CallError::error("this call is for co-simulation, but the instance is for model exchange"))
+    }
+
+    /// A step from `point` over `h` [s], to the first event if the host allows it.
+    pub fn step_to_event(&mut self, point: f64, h: f64) -> CallResult<Ended> {
+        self.begin_step(point, h)?;
+        self.move_on(point + h, false)
+    }
+
+    /// The part of a step from `point` over `h` [s] up to the next step of the solver.
+    pub fn step_to_solver(&mut self, point: f64, h: f64) -> CallResult<Ended> {
+        self.begin_step(point, h)?;
+        let until = point + h;
+        let next = self.simulation()?.next_solver_time().map_err(|failure| self.step_failed(&failure))?;
+        match next {
+            Some(next) if next < until => self.move_on(next, true),
+            _ => self.move_on(until, false),
+        }
+    }
+
+    fn begin_step(&mut self, point: f64, h: f64) -> CallResult {
+        self.check_co_simulation()?;
+        let stop = self.now.stop_time;
+        let time = self.simulation()?.time();
+        check_step(time, stop, point, h)
+    }
+
+    fn move_on(&mut self, until: f64, is_part: bool) -> CallResult<Ended> {
+        let allowed = self.allowed;
+        let simulation = self.simulation()?;
+        let count = simulation.last_event().count;
+        if until > simulation.time() {
+            let outcome = simulation.advance_by(until, Way { pauses: allowed.early_return, is_part });
+            if let Err(failure) = outcome {
+                return Err(self.step_failed(&failure));
+            }
+        }
+        let simulation = self.simulation()?;
+        let (time, happened) = (simulation.time(), simulation.last_event().count != count);
+        self.warn_while_running();
+        if self.now.stop_time.is_some_and(|stop| time >= stop) {
+            self.warn_at_end();
+        }
+        Ok(Ended { time, event: happened && allowed.events, early: time < until })
+    }
+
+    /// The error of a step that failed.
+    #[cold]
+    pub fn step_failed(&mut self, failure: &StepFailure) -> CallError {
+        self.now.phase = Phase::StepFailed;
+        let last = self.now.simulation.as_ref().map_or(f64::NAN, crate::model::Simulation::time);
+        CallError::discard(format!(
+            "{failure}; values are those of the last successful time {last} s; continue with {} or {}",
+            self.face.set_state, self.face.reset
+        ))
+    }
+
+    /// Lets outputs that change at events alone take their present values.
+    pub fn publish(&mut self) -> CallResult {
+        let simulation = self.simulation()?;
+        self.now.discrete = Discrete { event: *simulation.last_event(), held: simulation.ledger().held };
+        Ok(())
+    }
+
+    /// Outputs that change at events alone: as published where the host handles events, else as they are now.
+    pub fn discrete(&mut self) -> CallResult<Discrete> {
+        if !self.allowed.events {
+            self.publish()?;
+        }
+        Ok(self.now.discrete)
+    }
+
+    /// Enters event mode within a co-simulation.
+    pub fn enter_event_mode_of_steps(&mut self) -> CallResult {
+        self.check_co_simulation()?;
+        if !self.allowed.events {
+            return Err(CallError::error("the host has said that it does not use event mode"));
+        }
+        self.now.phase = Phase::Event;
+        Ok(())
+    }
+
+    /// Leaves event mode for the next step.
+    pub fn enter_step_mode(&mut self) -> CallResult {
+        self.check_co_simulation()?;
+        self.now.phase = Phase::StepComplete;
+        Ok(())
+    }
+}
