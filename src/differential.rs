@@ -70,7 +70,7 @@ fn variable(name: &str) -> Result<&'static Variable, DifferentialError> {
 }
 
 impl Differential {
-    /// The differential of the published study, with the start values of the FMU.
+    /// The differential with the start values of the FMU: that of the study, except for the addenda.
     pub fn new() -> Self {
         Self::default()
     }

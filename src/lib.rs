@@ -35,4 +35,6 @@ pub use differential::{Differential, DifferentialError};
 #[allow(unsafe_code)]
 pub mod fmi2;
 #[allow(unsafe_code)]
+pub mod fmi3;
+#[allow(unsafe_code)]
 pub mod instance;

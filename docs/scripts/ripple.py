@@ -153,7 +153,7 @@ def both(values):
 
 def main():
     style.apply()
-    print("| variant | TE₁, µm | TE₂, µm | ripple measured, % | quasi-static, % | κ√(a₁c), % |")
+    print("| variant | TE₁, µm | TE₂, µm | ripple measured, % | quasi-static, % | formula, % |")
     print("|---|---:|---:|---:|---:|---:|")
     points = []
     for name, changes, exponent, step in variants():

@@ -148,9 +148,11 @@ mod tests {
 
     #[test]
     fn without_a_command_the_study_runs() {
-        for (words, readme) in [(&[][..], false), (&["--readme"], true), (&["study", "--readme"], true)] {
+        for (words, write) in
+            [(&[][..], false), (&["--write"], true), (&["study", "--write"], true), (&["--readme"], true)]
+        {
             let found = parsed(words);
-            assert!(matches!(&found, Ok(AnyCommand::Study(study)) if study.readme == readme), "{words:?}");
+            assert!(matches!(&found, Ok(AnyCommand::Study(study)) if study.write == write), "{words:?}");
         }
     }
 

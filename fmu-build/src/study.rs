@@ -1,4 +1,4 @@
-//! The command `study`: packages the FMU and lets the Python package compare it with the published study and with theory. The
+//! The command `study`: packages the FMU and lets the Python package compare it with the study and with theory. The
 //! reports of both cases come with the comparison, and the package's own program for this checkout.
 
 use std::fs;
@@ -21,8 +21,8 @@ const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end --
 #[derive(Args, Clone, Debug, Default)]
 pub struct StudyCommand {
     /// Also write the comparison into docs/study.md, and renew the pictures
-    #[arg(long)]
-    pub readme: bool,
+    #[arg(long, alias = "readme")]
+    pub write: bool,
 }
 
 impl StudyCommand {
@@ -49,7 +49,7 @@ impl StudyCommand {
         println!("FMU: {}", paths::shown(&fmu));
         let program = paths::shown(&environment.launcher(&fmu)?);
         println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");
-        if self.readme {
+        if self.write {
             let text = fs::read_to_string(folder.join("table.md")).context("table.md cannot be read")?;
             sections::renew(DOCUMENT, MARKS, &text)?;
             sections::copy_pictures(&folder)?;

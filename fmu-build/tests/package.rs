@@ -23,7 +23,7 @@ fn packing_twice_gives_the_same_bytes_with_and_without_the_page() -> Result<()> 
     let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
     for (page, packing) in [(None, Packing::Quick), (Some(&b"<!DOCTYPE html>"[..]), Packing::Small)] {
         for archive in &archives {
-            package::write_archive(&libraries, page, packing, archive)?;
+            package::write_archive(package::Version::Two, &libraries, page, packing, archive)?;
         }
         assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
         let mut packed = ZipArchive::new(File::open(&archives[0])?)?;

@@ -82,7 +82,7 @@ pub const N_PER_UM: DisplayUnit = shown("N/um", 1e-6);
 /// Newton per millimetre of face width and micrometre of deflection.
 pub const N_PER_MM_UM: DisplayUnit = shown("N/(mm.um)", 1e-9);
 /// Millipascal-second.
-pub const MPA_S: DisplayUnit = shown("mPa.s", 1e3);
+pub const MILLI_PA_S: DisplayUnit = shown("mPa.s", 1e3);
 /// Kilometre per hour.
 pub const KM_PER_H: DisplayUnit = shown("km/h", 3.6);
 /// Kilonewton.
@@ -148,5 +148,5 @@ units! {
     /// Torque per square of angular speed.
     NMS2_PER_RAD2 = "N.m.s2/rad2", base(1, 2, 0, -2), [];
     /// Viscosity.
-    PA_S = "Pa.s", base(1, -1, -1, 0), [MPA_S];
+    PA_S = "Pa.s", base(1, -1, -1, 0), [MILLI_PA_S];
 }

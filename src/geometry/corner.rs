@@ -41,7 +41,7 @@ struct Cell {
 pub struct CornerGap {
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub end: f64,
-    exact: ClosedForm,
+    exact: CornerTravel,
     per_sin_base: f64,
     /// First cell boundary above 0, a power of two, as its bits shifted to count cells.
     first: u64,
@@ -63,9 +63,9 @@ pub struct CornerContact {
     pub mate_polar: f64,
 }
 
-/// The closed form of a corner's way past the end of the path.
+/// Travel of a corner past the end of the path, in closed form.
 #[derive(Clone, Copy, Debug)]
-pub struct ClosedForm {
+pub struct CornerTravel {
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub end: f64,
     tip: f64,
@@ -78,7 +78,7 @@ pub struct ClosedForm {
     polar: [f64; 3],
 }
 
-impl ClosedForm {
+impl CornerTravel {
     /// Closed form of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`.
     pub fn new(pair: &Pair, i: usize) -> Self {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
@@ -122,7 +122,7 @@ impl CornerGap {
     /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or four
     /// base pitches beyond the path's end, whichever comes first; it continues quadratically from there.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
-        let exact = ClosedForm::new(pair, i);
+        let exact = CornerTravel::new(pair, i);
         // the table ends where the gap exceeds every approach the model admits
         let step = pair.base_pitch / SEARCH.0;
         let known = |j: &i32| exact.at(step * f64::from(*j)).gap.v.is_finite();

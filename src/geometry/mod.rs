@@ -13,7 +13,7 @@ pub mod pair;
 pub mod solid;
 mod spec;
 
-pub use corner::{ClosedForm, CornerGap};
+pub use corner::{CornerGap, CornerTravel};
 pub use involute::Gear;
 pub use pair::{Pair, Path, Tredgold};
 pub use spec::{AddendumSystem, GearSpec};

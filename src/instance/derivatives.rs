@@ -1,7 +1,7 @@
 //! Derivatives: of inputs, as the host sets them; of outputs with respect to time; directional derivatives.
 
 use super::values::{finite, row, wrong_type};
-use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase, Snapshot};
+use super::{CallError, CallResult, InputArray, Instance, Kind, Output, OutputArray, Phase, Snapshot};
 use crate::model::{
     Along, Direction, Forces, GearCache, InputDerivatives, Inputs, ORDERS, PairLines, STATES, STENCIL, Simulation,
 };
@@ -143,24 +143,24 @@ impl Instance {
     }
 
     /// Derivatives of unknowns along a direction of knowns.
-    pub fn get_directional_derivative(
+    pub fn get_directional_derivative<'a>(
         &mut self,
-        unknown: InputArray<u32>,
-        known: (InputArray<u32>, InputArray<f64>),
-        values: OutputArray<f64>,
+        unknown: impl ExactSizeIterator<Item = u32> + Clone,
+        known: impl Iterator<Item = (u32, f64)> + Clone,
+        values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
-        let sources = unknown.iter().map(|r| row(r).and_then(output_source)).collect::<Result<Vec<_>, _>>()?;
-        if let Some(bad) = known.1.iter().find(|x| !x.is_finite()) {
+        let sources = unknown.clone().map(|r| row(r).and_then(output_source)).collect::<Result<Vec<_>, _>>()?;
+        if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
-        if unknown.is_empty() {
+        if unknown.len() == 0 {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
             return initial_derivatives((&self.now, &self.cache), (unknown, &sources), known, values);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
-        for (reference, change) in known.0.iter().zip(known.1.iter()) {
+        for (reference, change) in known {
             let row = row(reference)?;
             let state = table().states.iter().position(|&i| i as u32 == reference);
             match (row.access, state) {
@@ -179,7 +179,7 @@ impl Instance {
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.direction(&states, &inputs);
         let mut slopes = Slopes::new(simulation, &direction);
-        for ((reference, source), value) in unknown.iter().zip(sources).zip(values.iter()) {
+        for ((reference, source), value) in unknown.zip(sources).zip(values) {
             value.write(finite_slope(row(reference)?, slopes.of(source))?);
         }
         Ok(())
@@ -246,14 +246,14 @@ impl<'a> Slopes<'a> {
 
 /// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
 /// equilibrium.
-fn initial_derivatives(
+fn initial_derivatives<'a>(
     (now, cache): (&Snapshot, &GearCache),
-    (unknown, sources): (InputArray<u32>, &[OutputSource]),
-    (references, change): (InputArray<u32>, InputArray<f64>),
-    values: OutputArray<f64>,
+    (unknown, sources): (impl Iterator<Item = u32>, &[OutputSource]),
+    known: impl Iterator<Item = (u32, f64)> + Clone,
+    values: impl Iterator<Item = Output<'a, f64>>,
 ) -> CallResult {
     let mut size = 0.0f64;
-    for (reference, change) in references.iter().zip(change.iter()) {
+    for (reference, change) in known.clone() {
         let row = row(reference)?;
         let mut origin = now.clone();
         let value = match row.access {
@@ -271,7 +271,7 @@ fn initial_derivatives(
     let step = if size > 0.0 { RELATIVE_STEP / size } else { 1.0 };
     let moved = |offset: f64| {
         let mut moved = now.clone();
-        for (reference, change) in references.iter().zip(change.iter()) {
+        for (reference, change) in known.clone() {
             let row = row(reference)?;
             let value = match row.access {
                 Access::Input(slot) => slot(&mut moved.inputs),
@@ -299,7 +299,7 @@ fn initial_derivatives(
             *sum += weight * source.read(&mut simulation);
         }
     }
-    for ((reference, sum), value) in unknown.iter().zip(sums).zip(values.iter()) {
+    for ((reference, sum), value) in unknown.zip(sums).zip(values) {
         value.write(finite_slope(row(reference)?, sum / step)?);
     }
     Ok(())

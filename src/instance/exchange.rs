@@ -6,7 +6,7 @@ use crate::variables::table;
 
 impl Instance {
     /// Refuses calls of model exchange on an instance for co-simulation.
-    fn check_model_exchange(&self) -> CallResult {
+    pub fn check_model_exchange(&self) -> CallResult {
         if self.now.kind == Kind::ModelExchange {
             return Ok(());
         }

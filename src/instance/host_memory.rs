@@ -61,7 +61,13 @@ impl<'a, T> OutputArray<'a, T> {
     }
 }
 
-impl<T> Output<'_, T> {
+impl<'a, T> Output<'a, T> {
+    /// A value of this library's own.
+    pub fn of(cell: &'a Cell<T>) -> Self {
+        // SAFETY: a cell has the layout of its content, and only valid contents are written
+        Self(unsafe { &*std::ptr::from_ref(cell).cast() })
+    }
+
     /// Writes the value.
     pub fn write(self, value: T) {
         self.0.set(MaybeUninit::new(value));

@@ -108,6 +108,10 @@ impl Instance {
                 Kind::ModelExchange => simulation.start_model_exchange(),
             }
         }
+        if self.allowed.events {
+            self.publish()?;
+            self.now.phase = Phase::Event;
+        }
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Events)) {
             self.log.event(&simulation.describe());
         }

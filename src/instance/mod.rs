@@ -21,6 +21,7 @@ mod panic_guard;
 mod phase;
 mod snapshot;
 mod steps;
+mod stored;
 pub(crate) mod values;
 
 pub use basic::*;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::instance::check_step;
 use super::{CallError, CallResult, Instance, Kind, Phase};
-use crate::model::{Event, StepFailure, Way};
+use crate::model::{Event, StepFailure, Update, Way};
 
 /// What the host of a co-simulation allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub struct Allowed {
     pub events: bool,
     /// A step may end at an event.
     pub early_return: bool,
+    /// The address of its function that is called at the solver's steps, and of what that is given; 0 = none.
+    pub update: [usize; 2],
 }
 
 /// Outputs that change at events alone, where the host handles events.
@@ -29,10 +31,12 @@ pub struct Discrete {
 pub struct Ended {
     /// The time that was reached [s].
     pub time: f64,
-    /// Whether an event happened that the host is to handle.
+    /// Whether an event has happened that the host is to handle.
     pub event: bool,
-    /// Whether the time is before the end of the step.
+    /// Whether an event has ended the step before its end.
     pub early: bool,
+    /// Whether the step is done.
+    pub is_done: bool,
 }
 
 impl Instance {
@@ -71,7 +75,6 @@ impl Instance {
     fn move_on(&mut self, until: f64, is_part: bool) -> CallResult<Ended> {
         let allowed = self.allowed;
         let simulation = self.simulation()?;
-        let count = simulation.last_event().count;
         if until > simulation.time() {
             let outcome = simulation.advance_by(until, Way { pauses: allowed.early_return, is_part });
             if let Err(failure) = outcome {
@@ -79,12 +82,14 @@ impl Instance {
             }
         }
         let simulation = self.simulation()?;
-        let (time, happened) = (simulation.time(), simulation.last_event().count != count);
+        let (time, count) = (simulation.time(), simulation.last_event().count);
         self.warn_while_running();
         if self.now.stop_time.is_some_and(|stop| time >= stop) {
             self.warn_at_end();
         }
-        Ok(Ended { time, event: happened && allowed.events, early: time < until })
+        let (early, event) = (time < until, allowed.events && count != self.now.discrete.event.count);
+        let is_done = early || !is_part;
+        Ok(Ended { time, event: event && is_done, early, is_done })
     }
 
     /// The error of a step that failed.
@@ -113,20 +118,50 @@ impl Instance {
         Ok(self.now.discrete)
     }
 
-    /// Enters event mode within a co-simulation.
-    pub fn enter_event_mode_of_steps(&mut self) -> CallResult {
-        self.check_co_simulation()?;
-        if !self.allowed.events {
+    /// Enters event mode, from a solver of the host's or between steps.
+    pub fn enter_event_mode_of_any(&mut self) -> CallResult {
+        if self.now.kind == Kind::CoSimulation && !self.allowed.events {
             return Err(CallError::error("the host has said that it does not use event mode"));
         }
-        self.now.phase = Phase::Event;
-        Ok(())
+        self.enter_event_mode()
     }
 
     /// Leaves event mode for the next step.
     pub fn enter_step_mode(&mut self) -> CallResult {
         self.check_co_simulation()?;
         self.now.phase = Phase::StepComplete;
+        Ok(())
+    }
+
+    /// Leaves event mode for the host's solver.
+    pub fn enter_continuous_time_mode_of_exchange(&mut self) -> CallResult {
+        self.check_model_exchange()?;
+        self.enter_continuous_time_mode()
+    }
+
+    /// Discrete values follow from the states and inputs; there is nothing to iterate.
+    pub fn evaluate_discrete_states(&mut self) -> CallResult {
+        Ok(())
+    }
+
+    /// Event iteration of either kind: one is always enough.
+    pub fn update_discrete_states(&mut self) -> CallResult<Update> {
+        if self.now.kind == Kind::ModelExchange {
+            return self.new_discrete_states();
+        }
+        self.publish()?;
+        Ok(Update { states_changed: false, next: None })
+    }
+
+    /// Structural parameters may be set from here on.
+    pub fn enter_configuration(&mut self) -> CallResult {
+        self.now.phase = Phase::Configuration;
+        Ok(())
+    }
+
+    /// Structural parameters stay as they are from here on.
+    pub fn exit_configuration(&mut self) -> CallResult {
+        self.now.phase = Phase::Instantiated;
         Ok(())
     }
 }

@@ -24,9 +24,9 @@ use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Sta
 pub struct Radau;
 
 /// √6.
-const ROOT: f64 = 2.449_489_742_783_178;
+const SQRT_6: f64 = 2.449_489_742_783_178;
 /// Nodes c_i of the stages, in parts of the step.
-const C: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.0];
+const C: [f64; 3] = [(4.0 - SQRT_6) / 10.0, (4.0 + SQRT_6) / 10.0, 1.0];
 /// Real eigenvalue γ of A⁻¹.
 const GAMMA: f64 = 3.637_834_252_744_496;
 /// Complex eigenvalues α ± iβ of A⁻¹.
@@ -44,7 +44,7 @@ const INVERSE: [[f64; 3]; 3] = [
     [-0.502_872_634_945_786_9, 2.571_926_949_855_605, -0.596_039_204_828_224_9],
 ];
 /// e_i of the error estimate.
-const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * ROOT) / 3.0, (-13.0 + 7.0 * ROOT) / 3.0, -1.0 / 3.0];
+const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * SQRT_6) / 3.0, (-13.0 + 7.0 * SQRT_6) / 3.0, -1.0 / 3.0];
 
 /// Largest number of iterations. A shorter step is cheaper than more iterations.
 const ITERATIONS: i32 = 10;
@@ -86,7 +86,7 @@ impl Method for Radau {
                 }
             }
         }
-        let (mut last, mut left) = (f64::INFINITY, ITERATIONS);
+        let (mut last, mut iterations_left) = (f64::INFINITY, ITERATIONS);
         let enough = LEFT_OVER.max(ROUNDING * norm.size(start));
         loop {
             let mut change = [Point::ZERO; 3];
@@ -113,13 +113,15 @@ impl Method for Radau {
             if !sum.is_finite() {
                 return None;
             }
-            left -= 1;
+            iterations_left -= 1;
             let shrink = size / last;
             let to_come = size * shrink / (1.0 - shrink);
-            if size <= ROUNDING * norm.size(start) || (shrink < 1.0 && to_come <= enough && left < ITERATIONS - 1) {
+            if size <= ROUNDING * norm.size(start)
+                || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1)
+            {
                 break;
             }
-            if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(left)) > enough {
+            if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(iterations_left)) > enough {
                 return None;
             }
             last = size;

@@ -53,7 +53,7 @@ impl SnCurve {
 
 /// Strength of a gear's teeth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Material {
+pub struct ToothStrength {
     /// Root bending, pulsating load.
     pub bending: SnCurve,
     /// Pitting of the flanks.
@@ -62,7 +62,7 @@ pub struct Material {
     pub idler_factor: f64,
 }
 
-impl Default for Material {
+impl Default for ToothStrength {
     /// Carburised steel of the kind 20CrMnTi, MQ (ISO 6336-5): σ_FE = 2 σ_Flim with σ_Flim = 500 MPa, knee at 3·10⁶,
     /// Y_NT = 2.5 at 10³ (ISO 6336-3); σ_Hlim = 1500 MPa, knee at 5·10⁷, Z_NT = 1.6 at 10⁵ (ISO 6336-2); Y_M = 0.7.
     fn default() -> Self {
@@ -74,7 +74,7 @@ impl Default for Material {
     }
 }
 
-impl Material {
+impl ToothStrength {
     /// Bending strength of teeth loaded on alternate flanks.
     pub fn idler_bending(&self) -> SnCurve {
         self.bending.weakened(self.idler_factor)

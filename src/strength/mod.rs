@@ -20,7 +20,7 @@ pub mod tooth_form;
 pub use counting::{Rolling, loaded_flank};
 pub use damage::{Cycle, FlankDamage, ToothDamage};
 pub use hertz::LineContact;
-pub use material::{Material, SnCurve};
+pub use material::{SnCurve, ToothStrength};
 pub use mean_stress::pulsating_range;
 pub use miner::Damage;
 pub use rainflow::{LoadCycle, Rainflow};

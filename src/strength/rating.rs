@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{LineContact, Material, RootStress, SnCurve, face_load};
+use super::{LineContact, RootStress, SnCurve, ToothStrength, face_load};
 use crate::geometry::Pair;
 
 /// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).
@@ -30,7 +30,7 @@ impl Rating {
     pub fn new(
         pair: &Pair,
         (young_modulus, poisson_ratio): (f64, f64),
-        material: &Material,
+        material: &ToothStrength,
         tool_radius: f64,
     ) -> Option<Self> {
         Some(Self {

@@ -3,7 +3,7 @@
 import re
 from html.parser import HTMLParser
 
-from bevel_differential.report.style import MARK
+from bevel_differential.report.svg_style import MARK
 
 VOID = {"meta", "link", "br", "hr", "img", "input"}
 # letters of a path in SVG that draw something

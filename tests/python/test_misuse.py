@@ -91,7 +91,7 @@ def test_whole_numbers_beyond_those_of_fmi_are_an_error(fmu, value):
 @pytest.mark.parametrize("content", [b"", b"no archive"])
 def test_what_is_no_fmu_is_said(tmp_path, content):
     (tmp_path / "my.fmu").write_bytes(content)
-    with pytest.raises(DifferentialError, match="it is no FMU"):
+    with pytest.raises(DifferentialError, match="not an FMU"):
         Fmu.of(tmp_path / "my.fmu")
 
 

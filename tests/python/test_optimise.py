@@ -22,7 +22,7 @@ from bevel_differential.optimise.design_task import DesignRow, DesignTask, confi
 from bevel_differential.optimise.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
-from bevel_differential.optimise.report import scene_text, standing, write_gears
+from bevel_differential.optimise.report import compared_with_front, scene_text, write_gears
 from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
 
@@ -283,8 +283,8 @@ def test_the_study_s_gears_stand_where_their_figures_say(two, folder):
     assert row.refused == ("face width", "face.width_in_modules:final <= 3") and not row.feasible
     mass, safety = (row.figures[name] for name in ("gears.mass:final", "safety.root_min:final"))
     better = sum(each.figures["gears.mass:final"] <= mass and each.figures["safety.root_min:final"] >= safety for each in best)
-    assert f"{better} of {len(best)} designs of the front are better" in standing("study", row, best, two) if better else \
-        "no design of the front is better" in standing("study", row, best, two)
+    assert f"{better} of {len(best)} designs of the front are better" in compared_with_front("study", row, best, two) if better else \
+        "no design of the front is better" in compared_with_front("study", row, best, two)
     chosen = front.choice(best, two.objectives, row)
     assert len(chosen) == len({each.run for _, each in chosen}) == front.CHOICES
 

@@ -57,7 +57,7 @@ def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle
     (["name,count,left.load_torque [lbf.ft]", "a,1,1"], ["line 1", "'lbf.ft'", "N.m"]),
     (["name,count,count", "a,1,1"], ["line 1, column count", "twice"]),
     (["name,duration [s]", "a,1"], ["no column count"]),
-    (["name,count,left.speed [rpm]", "a,1,1"], ["column left.speed [rpm]", "none of the inputs and parameters"]),
+    (["name,count,left.speed [rpm]", "a,1,1"], ["column left.speed [rpm]", "not an input or parameter"]),
     (["name,count,geometry.module [mm]", "a,1,4"], ["geometry.module", "whole cycle"]),
     ([HEAD], ["no line below the header"]),
     ([HEAD, "a,1,1,20,,100,7"], ["line 2", "7 cells where the header has 6"]),
@@ -88,7 +88,7 @@ def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
     (["time [s],torque [N.m]", "1,1", "0,1"], ["line 3, column time [s]", "must not fall"]),
     (["time [s],torque [N.m]", "0,1"], ["two times or more"]),
     (["torque [N.m]", "0"], ["no column time"]),
-    (["time [s],contact.damping", "0,1"], ["contact.damping", "none of the inputs"]),
+    (["time [s],contact.damping", "0,1"], ["contact.damping", "not an input of"]),
     (["time [s],torque [N.m]", "0,", "1,1"], ["line 2, column torque [N.m]", "write a value"]),
 ])
 def test_what_is_wrong_in_a_history_is_said_with_its_place(cycle, tmp_path, lines, parts):

@@ -3,7 +3,7 @@
 use crate::common::{Host, assert_contains, reference};
 use bevel_differential::fmi2::{Status, fmi2SetRealInputDerivatives};
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::strength::{LoadCycle, Material, Rating, SnCurve, pulsating_range};
+use bevel_differential::strength::{LoadCycle, Rating, SnCurve, ToothStrength, pulsating_range};
 use std::f64::consts::TAU;
 
 const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
@@ -19,7 +19,7 @@ fn close(program: f64, expected: f64, relative: f64) {
 
 fn rating() -> Rating {
     let pair = Pair::new(&GearSpec::default());
-    Rating::new(&pair, (2.07e11, 0.25), &Material::default(), 0.25).expect("sound teeth")
+    Rating::new(&pair, (2.07e11, 0.25), &ToothStrength::default(), 0.25).expect("sound teeth")
 }
 
 /// Normal force of a mesh under the torque on a side gear [N].

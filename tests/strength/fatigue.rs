@@ -28,7 +28,7 @@ fn normal_force(pair: &Pair, torque: f64, planets: f64) -> f64 {
 }
 
 fn rating(tool_radius: f64) -> Rating {
-    Rating::new(&default_pair(), (2.07e11, 0.25), &Material::default(), tool_radius).expect("sound teeth")
+    Rating::new(&default_pair(), (2.07e11, 0.25), &ToothStrength::default(), tool_radius).expect("sound teeth")
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn cycles_to_failure(curve: &SnCurve, stress: f64) -> f64 {
 #[test]
 fn miner_examples() {
     let g = golden();
-    let material = Material::default();
+    let material = ToothStrength::default();
     let planet = "planet idler: sigma_FE=2*500(MQ ISO6336-5)*Y_M 0.7";
     for (name, curve) in [
         (format!("Miner_N2_{planet}"), material.idler_bending()),
@@ -200,7 +200,7 @@ fn miner_examples() {
 
 #[test]
 fn s_n_curves_pass_through_the_standards_points() {
-    let Material { bending, pitting, .. } = Material::default();
+    let ToothStrength { bending, pitting, .. } = ToothStrength::default();
     close(cycles_to_failure(&bending, 1000e6), 3e6, 1e-12);
     close(cycles_to_failure(&bending, 2500e6), 1e3, 1e-9);
     close(cycles_to_failure(&pitting, 1500e6), 5e7, 1e-12);
@@ -221,7 +221,7 @@ fn s_n_curves_pass_through_the_standards_points() {
 
 #[test]
 fn damage_adds_up_and_scales_with_the_power_of_the_load() {
-    let curve = Material::default().bending;
+    let curve = ToothStrength::default().bending;
     let (mut whole, mut first, mut second) = (Damage::default(), Damage::default(), Damage::default());
     for i in 0..100 {
         let (stress, cycles) = (300e6 + 5e6 * f64::from(i), 0.25 * f64::from(i % 7));

@@ -1,6 +1,6 @@
 //! Rainflow counting against ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole sequence.
 
-use bevel_differential::strength::{Damage, LoadCycle, Material, Rainflow, SnCurve, pulsating_range};
+use bevel_differential::strength::{Damage, LoadCycle, Rainflow, SnCurve, ToothStrength, pulsating_range};
 use serde_json::Value;
 
 fn golden() -> Value {
@@ -156,7 +156,7 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
 
 #[test]
 fn a_standing_gear_s_cycles_become_damage_of_its_root() {
-    let material = Material::default();
+    let material = ToothStrength::default();
     let per_torque = 1e6;
     let mut history = Rainflow::new(0.0);
     let mut damage = Damage::default();

@@ -3,7 +3,7 @@
 use crate::common::Host;
 use bevel_differential::fmi2::Status;
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::strength::{Material, Rating};
+use bevel_differential::strength::{Rating, ToothStrength};
 
 const SAFETY: [&str; 2] = ["safety.root_min", "safety.flank_min"];
 const TORQUE: f64 = 835.0;
@@ -31,7 +31,7 @@ fn started(values: &[(&str, f64)], spin: bool) -> Host {
 /// Rated stresses of root and flank under the torque on each side gear [Pa]: planet, side gear, flank.
 fn rated(torque: f64) -> [f64; 3] {
     let pair = Pair::new(&GearSpec::default());
-    let rating = Rating::new(&pair, (2.07e11, 0.25), &Material::default(), 0.25).expect("sound teeth");
+    let rating = Rating::new(&pair, (2.07e11, 0.25), &ToothStrength::default(), 0.25).expect("sound teeth");
     let force = torque / (2.0 * pair.mean_cone * pair.sin_base()[1]);
     [
         rating.root[0].stress(force),

@@ -5,7 +5,7 @@
 //! - [`accuracy`]: the cheapest model that is accurate enough
 //! - [`geometry`]: dimensions, curves and solids of the gears, interference
 //! - [`pattern`]: where flanks carry, and how much
-//! - [`study`]: the published study, beside theory
+//! - [`study`]: the study that the start values come from, beside theory
 //! - [`ask`]: all of these by one function, from C and Python too
 //! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`progress`]: reports to a caller, who may stop the work
 

@@ -32,7 +32,7 @@ def summary(folder):
     left = range(len(by_tolerance[0]))
     return (f"{OWN}, by solver.relative_tolerance: error of speed, error of force, time × that at 1e-6:\n\n"
             f"{markdown(by_tolerance, left)}\n"
-            "cheapest for an error of speed of at most …: method, tolerance or step, time × the default's:\n\n"
+            "cheapest method by largest error of speed: method, tolerance or step, time × that of the default:\n\n"
             f"{markdown(cheapest, left)}")
 
 

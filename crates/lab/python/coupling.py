@@ -21,11 +21,11 @@ COUPLINGS = [("0", "impact", "plain"), ("1", "impact", "rollback_once"), ("2", "
              ("constant", "impact", "constant_inputs"), ("0", "ideal", "plain"), ("2", "ideal", "rollback_twice")]
 # as in coupling.c: inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], slip stiffness [N] and radius [m] of a
 # tyre, force of a tyre at the start [N]
-WHEEL, SPEED, STIFFNESS, RADIUS, FORCE = 1.0, 70.0, 6e4, 0.3, 0.5 * 50.0 / 0.3
+WHEEL_INERTIA, SPEED, SLIP_STIFFNESS, RADIUS, FORCE = 1.0, 70.0, 6e4, 0.3, 0.5 * 50.0 / 0.3
 # communication step [s]; cost is relative to stepping without rollback at this step, with teeth
-UNIT = 1e-3
+UNIT_STEP = 1e-3
 # tolerance of the differential, small enough for the errors of coupling to show; tolerance of the reference with constant inputs
-TOLERANCE, FINEST = 1e-9, 1e-11
+TOLERANCE, REFERENCE_TOLERANCE = 1e-9, 1e-11
 # step of the reference, which integrates host and differential as one system [s]: an explicit method has to resolve the teeth's
 # damping
 IN_ONE_PIECE = {"ideal": 1e-4, "impact": 1e-6}
@@ -44,8 +44,8 @@ class Host:
 
     def run(self, how, fidelity, step, tolerance=TOLERANCE, runs=1):
         """Samples of shape (times, 4); steps and evaluations; processor time of each run [s]. Raises `ValueError`."""
-        values = {**FIDELITIES[fidelity], "scene.carrier_drive": "torque", "inertia.left_end": WHEEL, "inertia.right_end": WHEEL,
-                  "carrier.speed_command": SPEED, "solver.relative_tolerance": tolerance}
+        values = {**FIDELITIES[fidelity], "scene.carrier_drive": "torque", "inertia.left_end": WHEEL_INERTIA,
+                  "inertia.right_end": WHEEL_INERTIA, "carrier.speed_command": SPEED, "solver.relative_tolerance": tolerance}
         write_start(self.folder / "set", self.fmu, values)
         command = [self.program, library_of(self.fmu), self.fmu.description.guid, self.folder / "set", how, repr(step), str(runs),
                    str(self.fmu.description.numberOfContinuousStates), *self.references]
@@ -53,35 +53,35 @@ class Host:
         if done.returncode:
             raise ValueError(done.stderr.strip())
         lines = [line.split() for line in done.stdout.splitlines()]
-        told = [list(map(float, line[1:])) for line in lines if line[0] == "run"]
+        reports = [list(map(float, line[1:])) for line in lines if line[0] == "run"]
         samples = np.array([line for line in lines if line[0] != "run"], float)
-        return samples, [int(count) for count in told[0][:2]] if told else [], [seconds for *_, seconds in told]
+        return samples, [int(count) for count in reports[0][:2]] if reports else [], [seconds for *_, seconds in reports]
 
     def reference(self, how, fidelity):
         """Samples of the reference."""
         if how == "constant":
-            return self.run(how, fidelity, 0.1, FINEST)[0]
+            return self.run(how, fidelity, 0.1, REFERENCE_TOLERANCE)[0]
         return self.run("whole", fidelity, IN_ONE_PIECE[fidelity], 1e-6)[0]
 
 
 def longest_stable_step():
     """Longest communication step at which a tyre that grips is stable without rollback [s]: 2 J v/(C r²), v speed of the car."""
-    return 2.0 * WHEEL * RADIUS * SPEED / (1.0 + FORCE / STIFFNESS) / (STIFFNESS * RADIUS**2)
+    return 2.0 * WHEEL_INERTIA * RADIUS * SPEED / (1.0 + FORCE / SLIP_STIFFNESS) / (SLIP_STIFFNESS * RADIUS**2)
 
 
 def measure(fmu, folder, steps, rounds, begin, end):
     """Measures and writes the file. The progress bar moves from `begin` to `end`."""
-    host, runs, exact = Host(fmu, folder), [], {}
+    host, runs, references = Host(fmu, folder), [], {}
     for done, (how, fidelity, name) in enumerate(COUPLINGS):
         say(begin + 0.4 * (end - begin) * done / len(COUPLINGS), "coupled runs: errors")
         kind = ("constant" if how == "constant" else "whole", fidelity)
-        if kind not in exact:
-            exact[kind] = host.reference(how, fidelity)
+        if kind not in references:
+            references[kind] = host.reference(how, fidelity)
         for step in steps:
             run = {"of": (how, fidelity, name), "step": step, "ends": ["ok", ""]}
             try:
                 samples, run["counts"], _ = host.run(how, fidelity, step)
-                run["errors"] = errors(exact[kind], samples)
+                run["errors"] = errors(references[kind], samples)
                 if not all(map(math.isfinite, run["errors"])):
                     raise ValueError("results are no numbers")
             except ValueError as why:
@@ -92,7 +92,8 @@ def measure(fmu, folder, steps, rounds, begin, end):
         return host.run(*run["of"][:2], run["step"], runs=RUNS)[2] if run["ends"][0] == "ok" else []
 
     seconds = in_turn(runs, rounds, take, (begin + 0.4 * (end - begin), end), "coupled runs: times")
-    unit = next(quartiles(taken)[0] for run, taken in zip(runs, seconds) if run["of"] == COUPLINGS[0] and run["step"] == UNIT)
+    unit = next(quartiles(taken)[0] for run, taken in zip(runs, seconds)
+                if run["of"] == COUPLINGS[0] and run["step"] == UNIT_STEP)
     rows = [HEAD]
     for before, run, taken in zip([None, *runs], runs, seconds):
         median, low, high = quartiles(taken)
@@ -104,7 +105,7 @@ def measure(fmu, folder, steps, rounds, begin, end):
                      order, *run["counts"]])
     write_measured(folder / "communication_step.csv", [
         "a car accelerates with its left wheel on ice; tyres and car in the host, differential and wheels in the FMU",
-        "errors against the whole in one piece (classical Runge-Kutta), of constant_inputs against tolerance 1e-11",
+        "errors against one integration of host and differential (Runge-Kutta of order 4); constant_inputs: against tolerance 1e-11",
         "cost: cpu_s over that of plain stepping with teeth at 1e-3 s; order: between this step and the next smaller",
-        "steps, rhs_calls: of steps that were kept; those taken back are in the times only",
+        "steps, rhs_calls: without the steps taken back, which are in the times only",
         f"longest stable plain step by the tyre's slope, s: {longest_stable_step():.6e}"], rows)

@@ -183,7 +183,7 @@ def write(found, folder):
                        f"{error:.4f}", f"{tangential:.4f}", int(pairs)] for time, force, speed, error, tangential, pairs in columns]
     write_measured(folder / "solids.csv", [
         "the study's turn; errors against exact teeth at a tolerance of 1e-9, and (usual) at 1e-6; order: from the row before",
-        "force: normal forces of all planets on a side gear; te: transmission error; path: where exact teeth run evenly",
+        "force: normal forces of all planets on a side gear; te: transmission error; path: where exact teeth keep force and speed constant",
         "real_time: simulated over processor time at 1e-6; cost: processor time over that of exact teeth"], lines)
     write_measured(folder / "solids_cycle.csv", ["left side gear, all planets; one mesh cycle at a tolerance of 1e-9"], cycle)
 

@@ -39,8 +39,8 @@ def convergence(folder, machine, rows):
     against_cost(axes[1][1], exact, solids)
     style.caption(figure, "Solid teeth with n facets on each flank against exact ones, in the study's turn. On the path of contact "
                   "(upper right, full lines) the deepest point alone turns from facet to facet: its ripple of speed and force falls "
-                  "with 1/n only, and the patch has the smaller error. At tip corners (dotted) it is the other way round: the edge "
-                  "cuts the patch off, so that pairs enter late and leave early, until the patch is much shorter than the "
+                  "with 1/n only, and the patch has the smaller error. At tip corners (dotted) the patch has the larger error: the "
+                  "tooth edge cuts it off, and pairs enter late and leave early. This ends when the patch is much shorter than the "
                   "hand-over. The transmission error follows the height of the arcs over the facets, ∝ 1/n². The mean force hardly "
                   "depends on facets. Lower right: exact teeth (star) are both more accurate and cheaper than solids by orders of "
                   f"magnitude. Errors at tolerance 1e-9, times at the default 1e-6. {machine}.")
@@ -119,9 +119,9 @@ def cycle(folder):
         panel.set_xlim(0.0, 1e3 * (exact[-1]["time_s"] - start))
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
-    style.caption(figure, "What facets do in the study's turn, coarse to fine. Exact teeth (dashed) run evenly except where a tip corner "
+    style.caption(figure, "Effect of facets in the study's turn, coarse to fine. Exact teeth (dashed) run evenly except where a tip corner "
                   "takes load over or hands it on. The deepest point alone (red) goes from facet to facet: waves and spikes of speed "
                   "and force that get smaller and more frequent with the number of facets. The patch (blue), as wide as a facet, has "
-                  "almost none, but is cut off at the tip edge, so that pairs enter late and leave early; with 4 facets the "
+                  "almost none. The tip edge cuts the patch off: pairs enter late and leave early. With 4 facets the "
                   "hand-over is lost. The load is constant throughout.")
     style.save(figure, folder / "solids_cycle.png")

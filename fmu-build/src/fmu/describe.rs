@@ -26,7 +26,7 @@ const STEP_SIZE: f64 = 0.001;
 /// Writes modelDescription/modelDescription.xml, and the lists of effects in README.md and docs/effects.md
 #[derive(Args, Clone, Debug)]
 pub struct DescribeCommand {
-    /// Only check whether they are up to date
+    /// Only check whether the files are up to date
     #[arg(long)]
     check: bool,
 }
@@ -35,20 +35,23 @@ impl DescribeCommand {
     /// Writes or checks the files.
     pub fn run(&self) -> Result<()> {
         let file = paths::model_description();
+        let files = format!("{} and the lists of effects in the documents", paths::shown(&file));
         if !self.check {
             write(&file)?;
             effect_list::write()?;
+            println!("written: {files}");
         } else if let Some(stale) = stale_document(&file)? {
             bail!("{stale} is out of date; renew it: cargo run --release -- describe");
+        } else {
+            println!("up to date: {files}");
         }
-        println!("{} and the lists of effects in the documents are up to date", paths::shown(&file));
         Ok(())
     }
 }
 
 /// The first file that is out of date: the model description in `file`, or a document with a list of effects.
 pub fn stale_document(file: &Path) -> Result<Option<String>> {
-    if fs::read_to_string(file).ok() != Some(model_description()?) {
+    if fs::read_to_string(file).ok() != Some(model_description(Choices::Enumerations)?) {
         return Ok(Some(paths::shown(file).to_string()));
     }
     Ok(effect_list::stale()?.map(str::to_owned))
@@ -63,30 +66,14 @@ pub enum Choices {
     Integers,
 }
 
-/// The model description with enumerations, that of the packaged FMU.
-pub fn model_description() -> Result<String> {
-    described(Choices::Enumerations)
-}
-
 /// The model description as XML, with named choices declared as `choices` says.
-pub fn described(choices: Choices) -> Result<String> {
+pub fn model_description(choices: Choices) -> Result<String> {
     let table = table();
     let variables = table.rows.iter().enumerate();
-    let root = Element::new("fmiModelDescription")
-        .with("fmiVersion", "2.0")
-        .with("modelName", MODEL_NAME)
-        .with("guid", guid())
-        .with("description", "Dynamics of a bevel gear differential with tooth contact, pair by pair")
-        .with("author", "The bevel-differential project")
-        .with("version", env!("CARGO_PKG_VERSION"))
-        .with("copyright", "The BevelDifferential authors")
-        .with("license", "MIT OR Apache-2.0")
-        .with("generationTool", concat!("fmu-build ", env!("CARGO_PKG_VERSION")))
-        .with("generationDateAndTime", GENERATION_TIME)
-        .with("variableNamingConvention", "structured")
+    let root = root("2.0", "guid", guid())
         .with("numberOfEventIndicators", EVENT_INDICATORS)
-        .child(kind_of_fmu("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false)))
-        .child(kind_of_fmu("CoSimulation", |kind| {
+        .child(kind_element("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false)))
+        .child(kind_element("CoSimulation", |kind| {
             kind.with("canHandleVariableCommunicationStepSize", true)
                 .with("canInterpolateInputs", true)
                 .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
@@ -97,18 +84,42 @@ pub fn described(choices: Choices) -> Result<String> {
             (choices == Choices::Enumerations)
                 .then(|| Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))),
         )
-        .child(Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
-            Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
-        })))
-        .child(
-            Element::new("DefaultExperiment")
-                .with("startTime", number(0.0))
-                .with("stopTime", number(STOP_TIME))
-                .with("stepSize", number(STEP_SIZE)),
-        )
+        .child(log_categories())
+        .child(default_experiment())
         .child(Element::new("ModelVariables").children(variables.map(|(i, row)| scalar_variable(i, row, choices))))
         .child(structure(table));
     root.document().context("the model description cannot be written")
+}
+
+/// The root of a model description of the FMI version `version`, with the attribute that names these very sources.
+pub(super) fn root(version: &str, token: &'static str, guid: &str) -> Element {
+    Element::new("fmiModelDescription")
+        .with("fmiVersion", version)
+        .with("modelName", MODEL_NAME)
+        .with(token, guid)
+        .with("description", "Dynamics of a bevel gear differential with tooth contact, pair by pair")
+        .with("author", "The bevel-differential project")
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("copyright", "The BevelDifferential authors")
+        .with("license", "MIT OR Apache-2.0")
+        .with("generationTool", concat!("fmu-build ", env!("CARGO_PKG_VERSION")))
+        .with("generationDateAndTime", GENERATION_TIME)
+        .with("variableNamingConvention", "structured")
+}
+
+/// The categories of the log.
+pub(super) fn log_categories() -> Element {
+    Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
+        Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
+    }))
+}
+
+/// The study's duration and output interval.
+pub(super) fn default_experiment() -> Element {
+    Element::new("DefaultExperiment")
+        .with("startTime", number(0.0))
+        .with("stopTime", number(STOP_TIME))
+        .with("stepSize", number(STEP_SIZE))
 }
 
 /// Writes the model description to `file`.
@@ -116,11 +127,12 @@ pub fn write(file: &Path) -> Result<()> {
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder)?;
     }
-    fs::write(file, model_description()?).with_context(|| format!("{} cannot be written", file.display()))
+    fs::write(file, model_description(Choices::Enumerations)?)
+        .with_context(|| format!("{} cannot be written", file.display()))
 }
 
 /// Element for co-simulation or model exchange: the attributes that only this kind has, then those of both kinds.
-fn kind_of_fmu(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
+fn kind_element(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
     own(Element::new(name).with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false))
         .with("canBeInstantiatedOnlyOncePerProcess", false)
         .with("canNotUseMemoryManagementFunctions", true)
@@ -129,12 +141,12 @@ fn kind_of_fmu(name: &'static str, own: impl FnOnce(Element) -> Element) -> Elem
         .with("providesDirectionalDerivative", true)
 }
 
-fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'static Unit> {
+pub(super) fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'static Unit> {
     let used = |unit: &Unit| table.rows.iter().any(|row| row.unit.is_some_and(|u| u.name == unit.name));
     units::ALL.iter().filter(move |unit| used(unit))
 }
 
-fn unit(unit: &Unit) -> Element {
+pub(super) fn unit(unit: &Unit) -> Element {
     let base = unit.base.map(|base| {
         let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
         let given = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
@@ -153,7 +165,7 @@ fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
 }
 
 /// Enumeration types in the order of their first use.
-fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType> {
+pub(super) fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType> {
     let mut seen: Vec<&EnumType> = Vec::new();
     for kind in table.rows.iter().filter_map(enumeration_of) {
         if !seen.iter().any(|k| k.name == kind.name) {
@@ -164,13 +176,19 @@ fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType
 }
 
 fn enumeration(kind: &EnumType) -> Element {
-    let items = kind.choices.iter().map(|choice| {
+    Element::new("SimpleType")
+        .with("name", kind.name)
+        .child(Element::new("Enumeration").children(enumeration_items(kind)))
+}
+
+/// The choices of an enumeration.
+pub(super) fn enumeration_items(kind: &EnumType) -> impl Iterator<Item = Element> {
+    kind.choices.iter().map(|choice| {
         Element::new("Item")
             .with("name", choice.name)
             .with("value", choice.value)
             .with("description", choice.description)
-    });
-    Element::new("SimpleType").with("name", kind.name).child(Element::new("Enumeration").children(items))
+    })
 }
 
 /// Causality as FMI spells it.
@@ -221,7 +239,7 @@ fn description(row: &Variable, choices: Choices) -> String {
 }
 
 /// Whether the variable is a velocity state. Imposed speeds may set these states at events.
-fn is_velocity(reference: usize) -> bool {
+pub(super) fn is_velocity(reference: usize) -> bool {
     let states = &table().states;
     states[states.len() / 2..].contains(&reference)
 }
@@ -286,6 +304,6 @@ fn structure(table: &Table) -> Element {
 }
 
 /// The shortest decimal number that reads back to the same bits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }

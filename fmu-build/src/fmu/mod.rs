@@ -4,6 +4,7 @@
 
 pub mod dependencies;
 pub mod describe;
+pub mod describe3;
 pub mod documentation;
 pub mod effect_list;
 pub mod evidence;

@@ -12,7 +12,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, CRATES, Libraries, Library};
 use crate::fmu::page;
-use crate::fmu::{describe, documentation, effect_list, evidence, licences, plain_types, terminals};
+use crate::fmu::{describe, describe3, documentation, effect_list, evidence, licences, plain_types, terminals};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -30,7 +30,39 @@ pub enum Packing {
     Small = 9,
 }
 
-/// Builds target/fmu/BevelDifferential.fmu for every platform whose tool chain is installed
+/// Version of FMI that an archive is made for. Both hold the same library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+impl Version {
+    /// The folder of a platform's library, which is given by its name in FMI 2.0.
+    fn platform(self, name: &str) -> String {
+        if self == Self::Two {
+            return name.to_owned();
+        }
+        let machine = if name.ends_with("64") { "x86_64" } else { std::env::consts::ARCH };
+        let system = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        format!("{machine}-{}", if system == "win" { "windows" } else { system })
+    }
+
+    fn description(self) -> Result<String> {
+        match self {
+            Self::Two => describe::model_description(describe::Choices::Enumerations),
+            Self::Three => describe3::model_description(),
+        }
+    }
+
+    fn icon(self) -> &'static str {
+        if self == Self::Two { "model.png" } else { "terminalsAndIcons/icon.png" }
+    }
+}
+
+/// Builds target/fmu/BevelDifferential.fmu (FMI 2.0) and BevelDifferential3.fmu (FMI 3.0) for every platform whose tool chain is installed
 #[derive(Args, Clone, Debug)]
 pub struct PackageCommand {
     /// Also build BevelDifferential_integers.fmu, for hosts without enumerations (libcosim, Ecos)
@@ -45,7 +77,7 @@ impl PackageCommand {
         let (fmu, left_out) = packed()?;
         let plain = if self.integers { Some(plain_types::package(&fmu)?) } else { None };
         progress.finish();
-        for file in std::iter::once(&fmu).chain(&plain) {
+        for file in [fmu.clone(), of_fmi3(&fmu)].iter().chain(&plain) {
             println!("{}", paths::shown(file));
         }
         if !left_out.is_empty() {
@@ -65,7 +97,8 @@ fn packed() -> Result<(PathBuf, Vec<String>)> {
     let Libraries { built, mut left_out, ships } = libraries::build()?;
     let (fmu, (page, remark)) = (paths::fmu(), page::made()?);
     let packing = if ships { Packing::Small } else { Packing::Quick };
-    write_archive(&built, page.as_deref(), packing, &fmu)?;
+    write_archive(Version::Two, &built, page.as_deref(), packing, &fmu)?;
+    write_archive(Version::Three, &built, page.as_deref(), packing, &of_fmi3(&fmu))?;
     effect_list::write_json(&fmu)?;
     if page.is_none() {
         left_out.push(remark);
@@ -73,12 +106,23 @@ fn packed() -> Result<(PathBuf, Vec<String>)> {
     Ok((fmu, left_out))
 }
 
-/// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
-pub fn write_archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing, target: &Path) -> Result<()> {
-    write_whole(target, &archive(libraries, page, packing).context("the archive cannot be created")?)
+/// The FMU of FMI 3.0 beside that of FMI 2.0.
+pub fn of_fmi3(fmu: &Path) -> PathBuf {
+    fmu.with_file_name(format!("{MODEL_NAME}3.fmu"))
 }
 
-fn archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Result<Vec<u8>> {
+/// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
+pub fn write_archive(
+    version: Version,
+    libraries: &[Library],
+    page: Option<&[u8]>,
+    packing: Packing,
+    target: &Path,
+) -> Result<()> {
+    write_whole(target, &archive(version, libraries, page, packing).context("the archive cannot be created")?)
+}
+
+fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let mut add = |path: &str, content: &[u8], permissions: u32| -> Result<()> {
         let options = SimpleFileOptions::default()
@@ -90,12 +134,13 @@ fn archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Resu
         Ok(zip.write_all(content)?)
     };
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
-    add("modelDescription.xml", describe::model_description()?.as_bytes(), PLAIN)?;
+    add("modelDescription.xml", version.description()?.as_bytes(), PLAIN)?;
     add(terminals::FILE, terminals::text()?.as_bytes(), PLAIN)?;
     for (path, file) in evidence::files()? {
         add(&path, &read(&file)?, PLAIN)?;
     }
     for Library { platform, ending, file, .. } in libraries {
+        let platform = version.platform(platform);
         add(&format!("binaries/{platform}/{MODEL_NAME}.{ending}"), &read(file)?, EXECUTABLE)?;
     }
     let licences = licences::collected(CRATES[0], libraries)?;
@@ -111,6 +156,6 @@ fn archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Resu
     for (path, text) in licences.files {
         add(&format!("documentation/licenses/{path}"), &text, PLAIN)?;
     }
-    add("model.png", &read(&paths::workspace().join("fmu-build").join("model.png"))?, PLAIN)?;
+    add(version.icon(), &read(&paths::workspace().join("fmu-build").join("model.png"))?, PLAIN)?;
     Ok(zip.finish()?.into_inner())
 }

@@ -11,7 +11,7 @@ use anyhow::{Context, Result};
 use zip::write::SimpleFileOptions;
 use zip::{DateTime, ZipArchive, ZipWriter};
 
-use crate::fmu::describe::{Choices, described};
+use crate::fmu::describe::{Choices, model_description};
 use crate::tools::files::write_whole;
 
 const DESCRIPTION: &str = "modelDescription.xml";
@@ -34,18 +34,19 @@ fn variant(fmu: &Path) -> Result<Vec<u8>> {
             continue;
         }
         out.start_file(DESCRIPTION, SimpleFileOptions::default().last_modified_time(DateTime::default()))?;
-        out.write_all(described(Choices::Integers)?.as_bytes())?;
+        out.write_all(model_description(Choices::Integers)?.as_bytes())?;
     }
     Ok(out.finish()?.into_inner())
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::fmu::describe::{Choices, described};
+    use crate::fmu::describe::{Choices, model_description};
 
     #[test]
     fn every_enumeration_becomes_an_integer_whose_description_names_the_choices() {
-        let [usual, plain] = [Choices::Enumerations, Choices::Integers].map(|c| described(c).expect("a description"));
+        let [usual, plain] =
+            [Choices::Enumerations, Choices::Integers].map(|c| model_description(c).expect("a description"));
         let count = |text: &str, part: &str| text.matches(part).count();
         let enumerations = count(&usual, "<Enumeration declaredType=");
         assert!(enumerations > 5);

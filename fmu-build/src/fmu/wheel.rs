@@ -143,5 +143,5 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
             write_whole(&package.join("answers").join("licenses").join(path), &text)?;
         }
     }
-    package::write_archive(libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
+    package::write_archive(package::Version::Two, libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
 }

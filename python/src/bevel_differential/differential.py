@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 import numpy as np
 
 from .batches import Batches
-from .extras import needed
+from .extras import require
 from .fmu import Fmu
 from .inputs import Inputs, Signals
 from .instance import DISCARD, Closing, Instance
@@ -143,7 +143,7 @@ class Differential(Runner):
 
 def as_frame(record: np.ndarray) -> "pandas.DataFrame":
     """A record as a pandas DataFrame, by time."""
-    return needed("pandas", "sweep").DataFrame(record).set_index("time")
+    return require("pandas", "sweep").DataFrame(record).set_index("time")
 
 
 def _advance(instance, batches, record, steps, signals):

@@ -12,8 +12,8 @@ def install(module: str, extra: str) -> str:
     return f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: pip install \"WHEEL[{extra}]\""
 
 
-def needed(module: str, extra: str) -> ModuleType:
-    """The module, or an error that says which extra of this package brings it."""
+def require(module: str, extra: str) -> ModuleType:
+    """Imports the module, or fails and names the extra of this package that brings it."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:

@@ -53,11 +53,11 @@ class Fmu:
                 try:
                     _loaded[key] = cls(file)
                 except (BadZipFile, OSError) as error:
-                    raise DifferentialError(f"{file}: it is no FMU ({error}); name a file that ends with .fmu") from None
+                    raise DifferentialError(f"{file}: not an FMU ({error}); name a file that ends with .fmu") from None
             return _loaded[key]
 
     @classmethod
-    def alike(cls, file: str, sha256: str) -> "Fmu":
+    def by_hash(cls, file: str, sha256: str) -> "Fmu":
         """The FMU with this SHA-256: `file`, or else the default FMU of this machine."""
         for place in (Path(file), Path(usual())):
             if place.is_file() and cls.of(place).sha256 == sha256:
@@ -67,7 +67,7 @@ class Fmu:
 
     def __reduce__(self) -> tuple:
         # another process or machine finds the FMU by its hash, as its files may be elsewhere
-        return Fmu.alike, (str(self.file), self.sha256)
+        return Fmu.by_hash, (str(self.file), self.sha256)
 
     @cached_property
     def sha256(self) -> str:
@@ -94,7 +94,7 @@ class Fmu:
         for name, value in {**(values or {}), **named}.items():
             variable = self.variable(name)
             if variable.causality not in ("parameter", "input"):
-                raise DifferentialError(f"{name}: it is calculated and cannot be set")
+                raise DifferentialError(f"{name}: an output or a calculated value; only parameters and inputs can be set")
             number = variable.number(value)
             if variable.has_unit(value):
                 # the FMU's own message guesses at the unit that was meant

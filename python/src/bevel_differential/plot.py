@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from .extras import needed
+from .extras import require
 from .fmu import Fmu
 from .values import DifferentialError, FileName
 
@@ -26,7 +26,7 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
 
     Writes `file` (PNG, SVG or PDF) if there is one. Returns the matplotlib figure; it is not one of pyplot's, so that nothing is
     to be closed."""
-    needed("matplotlib", "plot")
+    require("matplotlib", "plot")
     from . import style
 
     names = (record.dtype.names or ())[1:]

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from .extras import needed
+from .extras import require
 from .output_file import is_parquet
 from .values import FileName
 
@@ -13,10 +13,10 @@ from .values import FileName
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
     """Writes a file, by its ending as Parquet; numbers read back to the same bits."""
     if is_parquet(file):
-        pa = needed("pyarrow", "sweep")
+        pa = require("pyarrow", "sweep")
         columns = dict(zip(head, map(list, zip(*rows))))
         table = pa.table({name: [None if cell == "" else cell for cell in cells] for name, cells in columns.items()})
-        needed("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), file)
+        require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), file)
         return Path(file)
     with open(file, "w", newline="", encoding="utf-8") as out:
         out.writelines(f"# {comment}\n" for comment in comments)

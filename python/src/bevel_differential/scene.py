@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 import numpy as np
 
 from .differential import Runner, as_frame
-from .extras import needed
+from .extras import require
 from .fmu import Fmu
 from .inputs import Signals, Table, Values, input_variable
 from .plot import plot
@@ -117,12 +117,12 @@ class Scene(Runner):
 
     def to_parquet(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI as Parquet; fields name their units."""
-        pa = needed("pyarrow", "sweep")
+        pa = require("pyarrow", "sweep")
         units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in _outputs(record)}}
         fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})
                   for name, unit in units.items()]
         table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
-        needed("pyarrow.parquet", "sweep").write_table(table, file)
+        require("pyarrow.parquet", "sweep").write_table(table, file)
         return Path(file)
 
     def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":

@@ -15,24 +15,24 @@ const PULLING: f64 = 3.0;
 /// Largest pull. It is below 1, because a pair yields less to a load on another pair than to its own.
 const MOST_PULL: f64 = 0.9;
 /// Distance past the ends of the path beyond which couplings are constant [base pitches].
-const PAST: f64 = 0.25;
+const PAST_END: f64 = 0.25;
 /// Number of next pairs on the same flank with a coupling of their own. Many small teeth on elastic bodies also touch past both
 /// ends of the path. Without the couplings among these pairs the common compliance would be indefinite, without an equilibrium.
-const NEIGHBOURS: i64 = 16;
+const SAME_FLANK_PAIRS: i64 = 16;
 /// Largest magnitude of the sum of the pair numbers on unlike flanks of a mesh.
-const FACING: i64 = 16;
+const MOST_FACING: i64 = 16;
 /// Places on each side of the middle at which the least value of a coupling is searched.
-const PLACES: i32 = 8;
+const SEARCH_PLACES: i32 = 8;
 
 /// Couplings by the elastic bodies of a planet and its side gears.
 #[derive(Clone, Debug)]
-pub struct SharedBodies {
+pub struct PairCouplings {
     /// On the same flank of a mesh, by the difference of the pair numbers less 1.
-    within: Vec<Polynomial>,
-    /// On unlike flanks of a mesh, by the sum of the pair numbers plus `FACING`.
-    facing: Vec<Polynomial>,
+    same_flank: Vec<Polynomial>,
+    /// On unlike flanks of a mesh, by the sum of the pair numbers plus `MOST_FACING`.
+    opposite_flank: Vec<Polynomial>,
     /// Between a planet's two meshes, by the flanks on the left and right and by the difference of the planet's tooth numbers.
-    across: [Vec<Polynomial>; 4],
+    other_mesh: [Vec<Polynomial>; 4],
     /// Bounds of the approach that loads on other pairs add to a pair.
     pub pull: Pull,
 }
@@ -42,11 +42,11 @@ pub struct SharedBodies {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pull {
     /// By pairs on the same flank.
-    pub within: f64,
+    pub same_flank: f64,
     /// By pairs on the other flank of the mesh.
-    pub facing: f64,
+    pub opposite_flank: f64,
     /// By pairs on a like (0) or unlike (1) flank of the planet's other mesh.
-    pub across: [f64; 2],
+    pub other_mesh: [f64; 2],
 }
 
 impl Pull {
@@ -55,16 +55,16 @@ impl Pull {
     #[inline(always)]
     pub fn margin(&self, depth: &[[f64; 2]; 2], side: usize, flank: usize) -> f64 {
         let [own, other] = [side, 1 - side].map(|side| depth[side].map(|depth| depth.clamp(0.0, 1.0)));
-        self.within * own[flank]
-            + self.facing * own[1 - flank]
-            + self.across[0] * other[flank]
-            + self.across[1] * other[1 - flank]
+        self.same_flank * own[flank]
+            + self.opposite_flank * own[1 - flank]
+            + self.other_mesh[0] * other[flank]
+            + self.other_mesh[1] * other[1 - flank]
     }
 }
 
 /// A loaded pair: the data that its couplings depend on.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing {
+pub struct PairPlace {
     /// Left (0) or right (1) side gear.
     pub side: usize,
     /// Flank.
@@ -83,15 +83,15 @@ pub struct Coupling {
     /// t [1/Pa].
     pub value: f64,
     /// ∂t/∂s and ∂t/∂s′ of t as a function of u. They are right together, for the motion of the gears, not one by one.
-    pub by: [f64; 2],
+    pub gradient: [f64; 2],
     /// ∂²t/∂s², ∂²t/∂s∂s′, ∂²t/∂s′².
-    pub twice: [f64; 3],
+    pub hessian: [f64; 3],
 }
 
 /// The coupling `t` as a polynomial of u about `middle` [rad]. `places` gives both places at u. Both lie between `low` and `high`
 /// on a range of u that is shorter by `apart`. If there is no such range, the polynomial is constant: `t` with the places at
 /// `middle` limited to `low` and `high`.
-fn on(
+fn polynomial_of(
     [low, high]: [f64; 2],
     (middle, apart): (f64, f64),
     places: impl Fn(f64) -> [f64; 2],
@@ -105,23 +105,23 @@ fn on(
     }
 }
 
-impl SharedBodies {
+impl PairCouplings {
     /// The couplings of `mesh`. `path` is the path of contact [rad], and `beams` the part of it on which both teeth are beams.
     /// `centred` is the place of a pair whose tooth stands in the middle of its gap, `pitch` the base pitch [rad].
     pub fn new(mesh: &MeshOnBodies, [path, beams]: [[f64; 2]; 2], (centred, pitch): (f64, f64)) -> Self {
-        let reach = [path[0] - PAST * pitch, path[1] + PAST * pitch];
+        let reach = [path[0] - PAST_END * pitch, path[1] + PAST_END * pitch];
         let middle = 0.5 * (reach[0] + reach[1]);
         // the angle of a load follows the same formula where a tooth is no longer a beam
         let tooth = |side, flank, s| LoadedTooth { side, flank, s };
         // s − s′ = apart, both places move in the same direction
         let with = |apart: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            on(reach, (middle, apart), |u| [u + 0.5 * apart, u - 0.5 * apart], t)
+            polynomial_of(reach, (middle, apart), |u| [u + 0.5 * apart, u - 0.5 * apart], t)
         };
         // s + s′ = sum, both places move in opposite directions
         let against = |sum: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            on(reach, (0.0, sum - 2.0 * middle), |u| [0.5 * sum + u, 0.5 * sum - u], t)
+            polynomial_of(reach, (0.0, sum - 2.0 * middle), |u| [0.5 * sum + u, 0.5 * sum - u], t)
         };
-        let within = (1..=NEIGHBOURS)
+        let same_flank = (1..=SAME_FLANK_PAIRS)
             .map(|k| {
                 let at = |[a, b]: [f64; 2]| {
                     let [a, b] = [a, b].map(|s| tooth(0, Flank::Drive, s));
@@ -130,7 +130,7 @@ impl SharedBodies {
                 with(k as f64 * pitch, &at)
             })
             .collect();
-        let facing = (-FACING..=FACING)
+        let opposite_flank = (-MOST_FACING..=MOST_FACING)
             .map(|k| {
                 let at = |[a, b]: [f64; 2]| {
                     mesh.coupling_of([k, k + 1], &tooth(0, Flank::Drive, a), &tooth(0, Flank::Coast, b))
@@ -139,7 +139,7 @@ impl SharedBodies {
             })
             .collect();
         let count = mesh.teeth_of(0) as i64;
-        let across = [0, 1, 2, 3].map(|flanks| {
+        let other_mesh = [0, 1, 2, 3].map(|flanks| {
             let [left, right] = flanks_of(flanks);
             let forward = if left == Flank::Drive { 1.0 } else { -1.0 };
             let difference = |d: i64| {
@@ -151,7 +151,7 @@ impl SharedBodies {
             };
             (0..count).map(difference).collect()
         });
-        let mut bodies = Self { within, facing, across, pull: Pull::default() };
+        let mut couplings = Self { same_flank, opposite_flank, other_mesh, pull: Pull::default() };
         let least = mesh.least_alone(beams);
         let pull = |all: &[Polynomial]| {
             // only couplings of pairs that can both be on the path; pairs further apart touch only where many more pairs touch
@@ -160,22 +160,23 @@ impl SharedBodies {
             // the loads that pull may themselves grow by the pull
             if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
         };
-        bodies.pull = Pull {
-            within: pull(&bodies.within),
-            facing: pull(&bodies.facing),
-            across: [[0, 3], [1, 2]].map(|[a, b]| pull(&bodies.across[a]).max(pull(&bodies.across[b]))),
+        couplings.pull = Pull {
+            same_flank: pull(&couplings.same_flank),
+            opposite_flank: pull(&couplings.opposite_flank),
+            other_mesh: [[0, 3], [1, 2]]
+                .map(|[a, b]| pull(&couplings.other_mesh[a]).max(pull(&couplings.other_mesh[b]))),
         };
-        bodies
+        couplings
     }
 
     /// The coupling of `a` and `b`, with second derivatives if `TWICE`.
     #[inline(always)]
-    pub fn coupling<const TWICE: bool>(&self, a: &Standing, b: &Standing) -> Coupling {
+    pub fn coupling<const TWICE: bool>(&self, a: &PairPlace, b: &PairPlace) -> Coupling {
         let alike = a.flank == b.flank;
         let (polynomial, with) = if a.side != b.side {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };
-            let all =
-                &self.across[2 * usize::from(left.flank == Flank::Coast) + usize::from(right.flank == Flank::Coast)];
+            let all = &self.other_mesh
+                [2 * usize::from(left.flank == Flank::Coast) + usize::from(right.flank == Flank::Coast)];
             // the difference without whole turns of the planet
             let mut difference = left.tooth.wrapping_sub(right.tooth);
             if difference as u64 >= all.len() as u64 {
@@ -183,9 +184,9 @@ impl SharedBodies {
             }
             (all.get(difference as usize), !alike)
         } else if alike {
-            (self.within.get(a.number.wrapping_sub(b.number).unsigned_abs().wrapping_sub(1) as usize), true)
+            (self.same_flank.get(a.number.wrapping_sub(b.number).unsigned_abs().wrapping_sub(1) as usize), true)
         } else {
-            (self.facing.get(a.number.wrapping_add(b.number).wrapping_add(FACING) as usize), false)
+            (self.opposite_flank.get(a.number.wrapping_add(b.number).wrapping_add(MOST_FACING) as usize), false)
         };
         let Some(polynomial) = polynomial else { return Coupling::default() };
         // with u = (s − s′)/2, s is the place on the left mesh, or on the drive flank
@@ -198,12 +199,12 @@ impl SharedBodies {
             [0.5, -0.5]
         };
         let [value, slope, bend] = polynomial.at::<TWICE>(own * a.s + other * b.s);
-        let twice = [own * own * bend, own * other * bend, other * other * bend];
-        Coupling { value, by: [own * slope, other * slope], twice }
+        let hessian = [own * own * bend, own * other * bend, other * other * bend];
+        Coupling { value, gradient: [own * slope, other * slope], hessian }
     }
 }
 
-/// Flanks on the left and right, by their index in `across`.
+/// Flanks on the left and right, by their index in `other_mesh`.
 fn flanks_of(number: usize) -> [Flank; 2] {
     [number / 2, number % 2].map(|coast| if coast == 1 { Flank::Coast } else { Flank::Drive })
 }
@@ -211,6 +212,8 @@ fn flanks_of(number: usize) -> [Flank; 2] {
 impl Polynomial {
     /// The least value at evenly spaced places.
     fn least(&self) -> f64 {
-        (-PLACES..=PLACES).map(|j| self.at_share(f64::from(j) / f64::from(PLACES))).fold(f64::INFINITY, f64::min)
+        (-SEARCH_PLACES..=SEARCH_PLACES)
+            .map(|j| self.at_share(f64::from(j) / f64::from(SEARCH_PLACES)))
+            .fold(f64::INFINITY, f64::min)
     }
 }

@@ -3,7 +3,7 @@
 //! The own arc of a pair takes the place of its arc in every slice: bodies move a tooth as a whole. Loads of others follow from
 //! the elastic torque over the face, ω = M/J.
 
-use super::super::bodies::{SharedBodies, Standing};
+use super::super::bodies::{PairCouplings, PairPlace};
 use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place_for};
 use super::directions::Arcs;
 use super::face::{Cut, Part};
@@ -36,7 +36,7 @@ pub struct SharedTeeth<'a> {
     /// Teeth, left and right.
     pub teeth: [MeshTeeth<'a>; 2],
     /// The bodies.
-    pub bodies: &'a SharedBodies,
+    pub bodies: &'a PairCouplings,
     /// Number of the planet's tooth of a pair, of the unrolled sequence.
     pub numbers: &'a dyn Fn(PairName) -> i64,
 }
@@ -50,7 +50,7 @@ struct Near {
     opening: Opening,
     axial: [f64; 2],
     arcs: Arcs,
-    standing: Standing,
+    pair_place: PairPlace,
 }
 
 /// All of them, and what they share.
@@ -70,8 +70,8 @@ impl Shared {
 }
 
 /// How the bodies see pairs.
-fn standing_of<'a>(near: &'a [Option<Near>; MOST]) -> impl Fn(usize) -> Option<&'a Standing> {
-    |k| near[k].as_ref().map(|near| &near.standing)
+fn pair_places_of<'a>(near: &'a [Option<Near>; MOST]) -> impl Fn(usize) -> Option<&'a PairPlace> {
+    |k| near[k].as_ref().map(|near| &near.pair_place)
 }
 
 /// What the elastic part of a face carries at an own arc, over J.
@@ -133,13 +133,13 @@ impl Detailed {
                 }
                 if let Some(place) = place_for(pair.depth, &mut count, |k| arc[k]) {
                     let tooth = (shared.numbers)(*name);
-                    let standing = Standing { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
-                    near[place] = Some(Near { side, name: *name, pair: *pair, opening, axial, arcs, standing });
+                    let pair_place = PairPlace { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
+                    near[place] = Some(Near { side, name: *name, pair: *pair, opening, axial, arcs, pair_place });
                     arc[place] = pair.depth;
                 }
             });
         }
-        couplings.fill(shared.bodies, count, standing_of(near));
+        couplings.fill(shared.bodies, count, pair_places_of(near));
         // flanks that excess material presses carry at arcs below 0, so that every arc is asked
         *own = Own::new(couplings, arc, |k, arc| {
             let carried = near[k].as_ref().map_or(Carried::default(), |near| self.carried(spring, near, arc));
@@ -234,7 +234,7 @@ impl Detailed {
         let Shared { near, arc, couplings, own } = &all;
         let along = couplings.times(&couplings.by_own, &own.load);
         let gradients = (ROWS > 0).then(|| {
-            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, standing_of(near));
+            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, pair_places_of(near));
             let (mut by, mut changes) = ([[0.0; COORDINATES]; MOST], [Change::default(); MOST]);
             for (k, near) in near.iter().flatten().enumerate() {
                 let (at, pair) = (3 * near.side, &near.pair);

@@ -35,7 +35,7 @@ impl ToothErrors {
             ));
         }
         if let Some(runout) = &mut self.runout {
-            runout.turn(gears)?;
+            runout.set_azimuths(gears)?;
         }
         if let Some(pitch) = &mut self.pitch {
             pitch.replace(gears)?;

@@ -48,7 +48,7 @@ impl Tolerances {
     }
 
     /// Whether gear `i` of `pair` lies in the ranges of the standard's formulas.
-    pub fn are_valid(pair: &Pair, i: usize) -> bool {
+    pub fn covers(pair: &Pair, i: usize) -> bool {
         (1e-3..=50e-3).contains(&mean_module(pair))
             && (5e-3..=2.5).contains(&tolerance_diameter(pair, i))
             && (5..=400).contains(&pair.gears[i].teeth)
@@ -156,7 +156,8 @@ impl PitchDeviations {
         for (own, given) in self.gears.iter_mut().zip(gears) {
             for (own, given) in own.iter_mut().zip(&given.positions) {
                 if own.len() != given.len() || !given.iter().all(|position| position.is_finite()) {
-                    let what = format!("{} positions of teeth are given, some not finite or too few", given.len());
+                    let what =
+                        format!("{} positions of teeth are given; {} finite ones are needed", given.len(), own.len());
                     return Err(Problem::new("tooth_errors.accuracy_grade", what));
                 }
                 own.copy_from_slice(given);
@@ -214,7 +215,7 @@ mod tests {
             let out = (g.addendum - pair.gears[1 - i].addendum) / 2.0 * pair.mean_cone / pair.outer_cone;
             let radius = pair.mean_cone * g.pitch.sin() + out * g.pitch.cos();
             assert!((tolerance_diameter(&pair, i) - 2.0 * radius).abs() < 1e-15);
-            assert!(Tolerances::are_valid(&pair, i));
+            assert!(Tolerances::covers(&pair, i));
         }
     }
 

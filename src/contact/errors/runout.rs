@@ -64,7 +64,7 @@ impl Runout {
     }
 
     /// Replaces the azimuths by those of `gears`, one entry per gear. Refuses values that are not finite.
-    pub fn turn(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
+    pub fn set_azimuths(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         let [planets, sides] = &mut self.direction;
         for (azimuth, gear) in sides.iter_mut().chain(planets.iter_mut()).zip(gears) {
             if !gear.azimuth.is_finite() {

@@ -1,6 +1,6 @@
 //! Couplings of all pairs that may carry.
 
-use crate::contact::bodies::{Coupling, SharedBodies, Standing};
+use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
 
 /// Pairs of a planet's two meshes that may carry at once. Flanks that approach by half a base pitch, the limit, have four in a
 /// mesh of a dozen teeth and up to eighteen of two hundred; at a tenth of it, six. Of more than these the deepest count.
@@ -42,43 +42,48 @@ impl<const K: usize> Couplings<K> {
     /// Those of no pairs.
     pub const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Couplings of the first `count` pairs, each `standing` as told.
+    /// Couplings of the first `count` pairs, each at its `pair_place`.
     #[inline(always)]
-    pub fn new<'a>(bodies: &SharedBodies, count: usize, standing: impl Fn(usize) -> Option<&'a Standing>) -> Self {
+    pub fn new<'a>(bodies: &PairCouplings, count: usize, pair_place: impl Fn(usize) -> Option<&'a PairPlace>) -> Self {
         let mut all = Self::NONE;
-        all.fill(bodies, count, standing);
+        all.fill(bodies, count, pair_place);
         all
     }
 
-    /// Fills in those of the first `count` pairs, each `standing` as told.
+    /// Fills in those of the first `count` pairs, each at its `pair_place`.
     #[inline(always)]
-    pub fn fill<'a>(&mut self, bodies: &SharedBodies, count: usize, standing: impl Fn(usize) -> Option<&'a Standing>) {
+    pub fn fill<'a>(
+        &mut self,
+        bodies: &PairCouplings,
+        count: usize,
+        pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
+    ) {
         self.count = count;
-        for_each_two(bodies, count, standing, |k, l, t: &Coupling| self.set(k, l, t), false);
+        for_each_two(bodies, count, pair_place, |k, l, t: &Coupling| self.set(k, l, t), false);
     }
 
     /// The same with second derivatives.
     #[inline(always)]
     pub fn with_bends<'a>(
-        bodies: &SharedBodies,
+        bodies: &PairCouplings,
         count: usize,
-        standing: impl Fn(usize) -> Option<&'a Standing>,
+        pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
     ) -> (Self, Bends<K>) {
         let mut all = Self { count, ..Self::NONE };
         let mut bends = Bends { own: [[0.0; K]; K], both: [[0.0; K]; K] };
         let set = |k: usize, l: usize, t: &Coupling| {
             all.set(k, l, t);
-            (bends.own[k][l], bends.own[l][k]) = (t.twice[0], t.twice[2]);
-            (bends.both[k][l], bends.both[l][k]) = (t.twice[1], t.twice[1]);
+            (bends.own[k][l], bends.own[l][k]) = (t.hessian[0], t.hessian[2]);
+            (bends.both[k][l], bends.both[l][k]) = (t.hessian[1], t.hessian[1]);
         };
-        for_each_two(bodies, count, standing, set, true);
+        for_each_two(bodies, count, pair_place, set, true);
         (all, bends)
     }
 
     #[inline(always)]
     fn set(&mut self, k: usize, l: usize, t: &Coupling) {
         (self.value[k][l], self.value[l][k]) = (t.value, t.value);
-        (self.by_own[k][l], self.by_own[l][k]) = (t.by[0], t.by[1]);
+        (self.by_own[k][l], self.by_own[l][k]) = (t.gradient[0], t.gradient[1]);
     }
 
     /// Σ_l m_kl ω_l of one of the matrices above.
@@ -97,15 +102,15 @@ impl<const K: usize> Couplings<K> {
 /// Calls `visit` with each two pairs and their coupling; with second derivatives if `twice`.
 #[inline(always)]
 fn for_each_two<'a>(
-    bodies: &SharedBodies,
+    bodies: &PairCouplings,
     count: usize,
-    standing: impl Fn(usize) -> Option<&'a Standing>,
+    pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
     mut visit: impl FnMut(usize, usize, &Coupling),
     twice: bool,
 ) {
     for k in 1..count {
         for l in 0..k {
-            let (Some(a), Some(b)) = (standing(k), standing(l)) else { continue };
+            let (Some(a), Some(b)) = (pair_place(k), pair_place(l)) else { continue };
             let t = if twice { bodies.coupling::<true>(a, b) } else { bodies.coupling::<false>(a, b) };
             visit(k, l, &t);
         }

@@ -4,7 +4,7 @@
 
 use super::couplings::{MOST, place_for};
 use super::{Bends, Change, Couplings, Gradients, Moved, Own};
-use crate::contact::bodies::{SharedBodies, Standing};
+use crate::contact::bodies::{PairCouplings, PairPlace};
 use crate::contact::impact::Force;
 use crate::contact::law::FaceLaw;
 use crate::contact::mesh::{MeshForce, MeshState};
@@ -15,7 +15,7 @@ pub struct SharedMeshes<'a> {
     /// The mesh, alike on both sides.
     pub mesh: &'a Mesh,
     /// The bodies.
-    pub bodies: &'a SharedBodies,
+    pub bodies: &'a PairCouplings,
     /// Number of the planet's tooth that stands at the right mesh's line as tooth 0 does at the left one's.
     pub opposite: i64,
     /// Pairs by which the planet's position was wrapped, in the sense of x of each mesh.
@@ -42,7 +42,7 @@ const COORDINATES: usize = 4;
 #[derive(Clone, Copy)]
 struct Near<P> {
     pair: ToothPair,
-    standing: Standing,
+    pair_place: PairPlace,
     place: P,
 }
 
@@ -75,30 +75,31 @@ macro_rules! by_count {
 impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
     #[inline(always)]
     fn new<S: Spring<Place = P>>(
-        bodies: &SharedBodies,
+        bodies: &PairCouplings,
         law: &FaceLaw<S>,
         near: &'a [Option<Near<P>>; MOST],
         count: usize,
     ) -> Self {
-        let couplings = Couplings::new(bodies, if K < MOST { K } else { count }, Self::standing(near));
+        let couplings = Couplings::new(bodies, if K < MOST { K } else { count }, Self::pair_places(near));
         Self::of(law, near, couplings)
     }
 
     /// The same with second derivatives of the couplings.
     #[inline(always)]
     fn with_bends<S: Spring<Place = P>>(
-        bodies: &SharedBodies,
+        bodies: &PairCouplings,
         law: &FaceLaw<S>,
         near: &'a [Option<Near<P>>; MOST],
         count: usize,
     ) -> (Self, Bends<K>) {
-        let (couplings, bends) = Couplings::with_bends(bodies, if K < MOST { K } else { count }, Self::standing(near));
+        let (couplings, bends) =
+            Couplings::with_bends(bodies, if K < MOST { K } else { count }, Self::pair_places(near));
         (Self::of(law, near, couplings), bends)
     }
 
     #[inline(always)]
-    fn standing(near: &'a [Option<Near<P>>; MOST]) -> impl Fn(usize) -> Option<&'a Standing> {
-        |k| near[k].as_ref().map(|near| &near.standing)
+    fn pair_places(near: &'a [Option<Near<P>>; MOST]) -> impl Fn(usize) -> Option<&'a PairPlace> {
+        |k| near[k].as_ref().map(|near| &near.pair_place)
     }
 
     #[inline(always)]
@@ -163,8 +164,8 @@ impl SharedMeshes<'_> {
                     let depth_of = |k: usize| near[k].as_ref().map_or(0.0, |near: &Near<S::Place>| near.pair.depth);
                     if let Some(place) = place_for(pair.depth, &mut count, depth_of) {
                         let tooth = self.tooth(side, flank, pair.number);
-                        let standing = Standing { side, flank, number: pair.number, tooth, s: pair.s };
-                        near[place] = Some(Near { pair: *pair, standing, place: law.specific.place(pair.s) });
+                        let pair_place = PairPlace { side, flank, number: pair.number, tooth, s: pair.s };
+                        near[place] = Some(Near { pair: *pair, pair_place, place: law.specific.place(pair.s) });
                     }
                 });
             }
@@ -188,7 +189,7 @@ impl SharedMeshes<'_> {
             let along = sharing.couplings.times(&sharing.couplings.by_own, &sharing.own.load);
             let mut sum = [MeshForce::default(); 2];
             for (k, near) in sharing.loaded() {
-                let (pair, side, own) = (&near.pair, near.standing.side, &sharing.own);
+                let (pair, side, own) = (&near.pair, near.pair_place.side, &sharing.own);
                 let rate = self.rate(pair, &states[side]);
                 let response = law.respond_at(&near.place, self.mesh.cone * own.arc[k], rate);
                 let torque = self.mesh.cone * response.force.total;
@@ -226,7 +227,7 @@ impl SharedMeshes<'_> {
         let (mut arc, mut changes) = ([[0.0; COORDINATES]; K], [Change::default(); K]);
         for k in 0..couplings.count {
             let Some(near) = &sharing.near[k] else { continue };
-            let (pair, x) = (&near.pair, 2 * near.standing.side + 1);
+            let (pair, x) = (&near.pair, 2 * near.pair_place.side + 1);
             (arc[k][x - 1], arc[k][x]) = (pair.slope[0], pair.slope[1]);
             changes[k].place = (x, pair.s_slope, 0.0);
             if own.load[k] > 0.0 {
@@ -236,7 +237,7 @@ impl SharedMeshes<'_> {
         let gradients = Gradients::new((couplings, bends), own, &along, arc, &changes);
         let mut sum = SharedForce::default();
         for (k, near) in sharing.loaded() {
-            let (pair, side) = (&near.pair, near.standing.side);
+            let (pair, side) = (&near.pair, near.pair_place.side);
             let state = &states[side];
             let rate = self.rate(pair, state);
             let response = law.respond_at(&near.place, r * own.arc[k], rate);
@@ -306,7 +307,7 @@ impl SharedMeshes<'_> {
         by_count!(count, (), {
             let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
             for (k, near) in sharing.near.iter().flatten().enumerate() {
-                moved.add(near.standing.side, near.pair.flank, near.pair.number, sharing.arc[k] - sharing.own.arc[k]);
+                moved.add(near.pair_place.side, near.pair.flank, near.pair.number, sharing.arc[k] - sharing.own.arc[k]);
             }
         });
         moved
@@ -324,7 +325,7 @@ impl SharedMeshes<'_> {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
-        for (k, near) in sharing.loaded().filter(|(_, near)| near.standing.side == side) {
+        for (k, near) in sharing.loaded().filter(|(_, near)| near.pair_place.side == side) {
             let pair = ToothPair { depth: sharing.own.arc[k], ..near.pair };
             let rate = self.rate(&pair, &states[side]);
             visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);

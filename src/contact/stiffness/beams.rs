@@ -20,7 +20,7 @@ pub const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dede
 const ADDENDUM: [&str; 2] = ["geometry.planet_addendum", "geometry.side_addendum"];
 
 /// The parameter to change if a tooth is not a beam under a load at the roll lengths `rolls` [m].
-fn unfit(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static str> {
+fn parameter_at_fault(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static str> {
     for (i, tooth) in teeth.sections.iter().enumerate() {
         let load = tooth.load(rolls[i]);
         if rolls[i] <= 0.0 {
@@ -37,8 +37,8 @@ fn unfit(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static str> {
 }
 
 /// Whether both teeth are beams under a load at the roll lengths `rolls` [m].
-pub fn fit(teeth: &SectionPair, rolls: [f64; 2]) -> bool {
-    unfit(teeth, rolls).is_none()
+pub fn are_beams(teeth: &SectionPair, rolls: [f64; 2]) -> bool {
+    parameter_at_fault(teeth, rolls).is_none()
 }
 
 /// Place of step `j` of a search on `range`.
@@ -52,7 +52,7 @@ pub fn places(range: [f64; 2]) -> impl Iterator<Item = f64> {
 }
 
 /// Boundary of `fits` between `inside` (true) and `outside` (false), by bisection. `fits` holds at the result.
-pub fn edge(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f64 {
+pub fn boundary(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..50 {
         let half = 0.5 * (inside + outside);
         if fits(half) { inside = half } else { outside = half }
@@ -63,7 +63,7 @@ pub fn edge(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f6
 /// The longest part of `path` [rad] on which both teeth act as beams. Fails with the parameter to change if that part is
 /// shorter than `LEAST_RANGE`.
 pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
-    let fits = |s: f64| fit(teeth, teeth.rolls(s * outer_cone));
+    let fits = |s: f64| are_beams(teeth, teeth.rolls(s * outer_cone));
     let mut best = [0.0, 0.0];
     let mut j = 0;
     while j <= SEARCH {
@@ -75,8 +75,8 @@ pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f
         while j < SEARCH && fits(between(path, j + 1)) {
             j += 1;
         }
-        let low = if first == 0 { path[0] } else { edge(between(path, first), between(path, first - 1), fits) };
-        let high = if j == SEARCH { path[1] } else { edge(between(path, j), between(path, j + 1), fits) };
+        let low = if first == 0 { path[0] } else { boundary(between(path, first), between(path, first - 1), fits) };
+        let high = if j == SEARCH { path[1] } else { boundary(between(path, j), between(path, j + 1), fits) };
         if high - low > best[1] - best[0] {
             best = [low, high];
         }
@@ -85,8 +85,8 @@ pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f
     if best[1] - best[0] < LEAST_RANGE * base_pitch {
         let middle = between(path, SEARCH / 2) * outer_cone;
         return Err(problem!(
-            unfit(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),
-            "only {:.3} base pitches of the path load both teeth as beams: they are pointed, or touch at their roots",
+            parameter_at_fault(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),
+            "the beam formulas hold on only {:.3} base pitches of the path: the teeth are pointed, or touch at their roots",
             (best[1] - best[0]) / base_pitch
         ));
     }

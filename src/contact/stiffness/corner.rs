@@ -5,8 +5,8 @@
 //! point plus R_e times the arc from there. A corner uses the same rule, so that both agree at the end of the path.
 
 use super::SectionPair;
-use super::beams::{LEAST_RANGE, edge, fit};
-use crate::geometry::{ClosedForm, Gear, Pair};
+use super::beams::{LEAST_RANGE, are_beams, boundary};
+use crate::geometry::{CornerTravel, Gear, Pair};
 
 /// Steps per base pitch and number of steps, in the search for the end of the corner's travel.
 const SEARCH: (f64, i32) = (64.0, 256);
@@ -15,7 +15,7 @@ const SEARCH: (f64, i32) = (64.0, 256);
 #[derive(Clone, Copy, Debug)]
 pub struct TipCorner {
     own: usize,
-    way: ClosedForm,
+    travel: CornerTravel,
     mate: Gear,
     outer_cone: f64,
     /// Roll length of the own tooth at its tip [m].
@@ -28,14 +28,14 @@ pub struct TipCorner {
 impl TipCorner {
     /// The corner of gear `own` (0 planet, 1 side gear) of `pair`, whose sections are `teeth`.
     pub fn new(pair: &Pair, teeth: &SectionPair, own: usize) -> Self {
-        let (way, mate) = (ClosedForm::new(pair, own), 1 - own);
+        let (travel, mate) = (CornerTravel::new(pair, own), 1 - own);
         let mate_pitch = (teeth.sections[mate].pitch_roll, pair.pitch_arc[mate]);
         Self {
             own,
-            way,
+            travel,
             mate: pair.gears[mate],
             outer_cone: pair.outer_cone,
-            tip_roll: teeth.sections[own].pitch_roll + pair.outer_cone * way.end,
+            tip_roll: teeth.sections[own].pitch_roll + pair.outer_cone * travel.end,
             mate_pitch,
             mate_tip: mate_pitch.0 + pair.outer_cone * (pair.tip_arc[mate] - mate_pitch.1),
         }
@@ -43,12 +43,12 @@ impl TipCorner {
 
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub fn end(&self) -> f64 {
-        self.way.end
+        self.travel.end
     }
 
     /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad].
     pub fn mate_arc(&self, delta: f64) -> f64 {
-        self.mate.action_arc(self.way.at(delta).mate_polar)
+        self.mate.action_arc(self.travel.at(delta).mate_polar)
     }
 
     /// Roll lengths of both gears [m] at Δ = `delta` [rad].
@@ -62,11 +62,11 @@ impl TipCorner {
     pub fn length(&self, teeth: &SectionPair, base_pitch: f64) -> f64 {
         let fits = |delta: f64| {
             let rolls = self.rolls(delta);
-            rolls[1 - self.own] < self.mate_tip && fit(teeth, rolls)
+            rolls[1 - self.own] < self.mate_tip && are_beams(teeth, rolls)
         };
         let step = |j: i32| base_pitch / SEARCH.0 * f64::from(j);
         let last = (1..=SEARCH.1).take_while(|&j| fits(step(j))).last().unwrap_or(0);
-        let length = if last == SEARCH.1 { step(last) } else { edge(step(last), step(last + 1), fits) };
+        let length = if last == SEARCH.1 { step(last) } else { boundary(step(last), step(last + 1), fits) };
         if length < LEAST_RANGE * base_pitch { 0.0 } else { length }
     }
 }

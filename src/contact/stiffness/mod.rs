@@ -120,7 +120,7 @@ impl PairStiffness {
             }
             let (corner, own) = (&corners[i], 1 - i);
             let arc = corner.mate_arc(0.0);
-            let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], bend: arc * arc };
+            let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], mate_arc_squared: arc * arc };
             // the own tooth carries at its tip all along
             let tip = gear(own, corner.rolls(0.0)[own]);
             PastEnd::corner(&part, end, LEVEL * base_pitch, |delta| {

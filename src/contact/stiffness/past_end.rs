@@ -26,7 +26,7 @@ pub struct CornerPart {
     /// Length of the stretch [rad].
     pub length: f64,
     /// Square of the mate's arc at the path's end, (ρ₀/R_e)² [rad²].
-    pub bend: f64,
+    pub mate_arc_squared: f64,
 }
 
 /// Continuation of the compliance past an end of the path.
@@ -45,7 +45,7 @@ struct CornerTable {
     /// The halves meet at `middle` and end at `length`.
     middle: f64,
     length: f64,
-    bend: f64,
+    mate_arc_squared: f64,
     first: f64,
     per_eighth_root: f64,
     per_root: f64,
@@ -98,12 +98,12 @@ fn smooth_step(x: f64, length: f64) -> Jet {
 
 impl CornerTable {
     fn new(part: &CornerPart, end: Jet, f: impl Fn(f64) -> f64) -> Self {
-        let CornerPart { turn, length, bend } = *part;
+        let CornerPart { turn, length, mate_arc_squared } = *part;
         let middle = 0.5 * length;
-        let (first, last) = (eighth_root(bend), eighth_root(middle + bend));
+        let (first, last) = (eighth_root(mate_arc_squared), eighth_root(middle + mate_arc_squared));
         let per_cell = (last - first) / CELLS as f64;
         let share = |j: usize| j as f64 / CELLS as f64;
-        let near = (1..CELLS).map(|j| square(square(square(first + per_cell * j as f64))) - bend);
+        let near = (1..CELLS).map(|j| square(square(square(first + per_cell * j as f64))) - mate_arc_squared);
         let far = (1..CELLS).map(|j| length - (length - middle) * square(1.0 - share(j)));
         let knots: Vec<f64> = [0.0].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
         let values: Vec<f64> = knots.iter().map(|&x| f(x)).collect();
@@ -119,7 +119,7 @@ impl CornerTable {
             turn,
             middle,
             length,
-            bend,
+            mate_arc_squared,
             first,
             per_eighth_root: 1.0 / per_cell,
             per_root: CELLS as f64 / sqrt(length - middle),
@@ -130,7 +130,7 @@ impl CornerTable {
     #[inline]
     fn at(&self, x: f64) -> Jet {
         let cell = if x < self.middle {
-            (self.per_eighth_root * (eighth_root(x + self.bend) - self.first)) as usize
+            (self.per_eighth_root * (eighth_root(x + self.mate_arc_squared) - self.first)) as usize
         } else {
             2 * CELLS - 1 - (self.per_root * sqrt(self.length - x)) as usize
         };
@@ -188,14 +188,16 @@ impl PastEnd {
 mod tests {
     use super::*;
 
-    const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, bend: 0.03 };
+    const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, mate_arc_squared: 0.03 };
     /// Value and slopes at the end of a path before the function below.
     const END: Jet = Jet { v: 6.873, d: 1.0, dd: -3.0 };
 
-    /// A compliance like that of a corner. The mate's arc grows as √(x + `bend`), and Hertz's logarithm has its pole where the
+    /// A compliance like that of a corner. The mate's arc grows as √(x + `mate_arc_squared`), and Hertz's logarithm has its pole where the
     /// arc is zero. The logarithm of a pointed tooth has its pole a little past the end.
-    fn function(bend: f64) -> impl Fn(f64) -> f64 {
-        move |x: f64| 5.0 - 0.5 * libm::log(x + bend) - 0.1 * libm::log(0.302 - x) + crate::numeric::sin(4.0 * x)
+    fn function(mate_arc_squared: f64) -> impl Fn(f64) -> f64 {
+        move |x: f64| {
+            5.0 - 0.5 * libm::log(x + mate_arc_squared) - 0.1 * libm::log(0.302 - x) + crate::numeric::sin(4.0 * x)
+        }
     }
 
     #[test]
@@ -212,8 +214,8 @@ mod tests {
 
     #[test]
     fn a_corner_far_from_and_near_to_its_mate_s_base_circle_is_met() {
-        for bend in [0.03, 2e-4, 8e-7] {
-            let (f, part) = (function(bend), CornerPart { bend, ..PART });
+        for mate_arc_squared in [0.03, 2e-4, 8e-7] {
+            let (f, part) = (function(mate_arc_squared), CornerPart { mate_arc_squared, ..PART });
             let past_end = PastEnd::corner(&part, END, 0.1, &f);
             let mut worst = 0f64;
             for j in 0..=20_000 {
@@ -221,14 +223,14 @@ mod tests {
                 let x = part.turn + (part.length - part.turn) * share;
                 worst = worst.max((past_end.at(x).v / f(x) - 1.0).abs());
             }
-            println!("{bend:e}: {worst:e}");
-            assert!(worst < 1e-9, "{bend:e}: {worst:e}");
+            println!("{mate_arc_squared:e}: {worst:e}");
+            assert!(worst < 1e-9, "{mate_arc_squared:e}: {worst:e}");
         }
     }
 
     #[test]
     fn value_slope_and_curvature_have_no_jumps() {
-        let past_end = PastEnd::corner(&PART, END, 0.1, function(PART.bend));
+        let past_end = PastEnd::corner(&PART, END, 0.1, function(PART.mate_arc_squared));
         assert_eq!(past_end.at(0.0), END);
         for x in [PART.turn, 0.5 * (PART.turn + PART.length), PART.length] {
             let (a, b) = (past_end.at(x * (1.0 - 1e-14)), past_end.at(x));

@@ -25,7 +25,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 host.output("dvUnknown", unknown_values, unknown_count)?,
             )
         };
-        instance.get_directional_derivative(unknown, (known, change), values)
+        instance.get_directional_derivative(unknown.iter(), known.iter().zip(change.iter()), values.iter())
     })
 }
 

@@ -94,15 +94,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     call!(c, SetDebugLogging, |instance, host| {
         // SAFETY: the host's promise, see the module
-        let texts = unsafe { host.input("categories", categories, count) }?;
-        // SAFETY: as above
-        let names: Vec<_> = texts.iter().map(|text| unsafe { host.string(text) }.unwrap_or(c"NULL")).collect();
-        let unknown = instance.log.configure(logging != 0, names.into_iter());
-        if unknown.is_empty() {
-            Ok(())
-        } else {
-            Err(CallError::warning(format!("unknown log categories: {unknown:?}")))
-        }
+        unsafe { instance.configure_log(host, logging != 0, categories, count) }
     })
 }
 

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::cache::Cache;
 use super::solid;
-use crate::contact::bodies::{MeshOnBodies, SharedBodies, Support};
+use crate::contact::bodies::{MeshOnBodies, PairCouplings, Support};
 use crate::contact::errors::ToothErrorSpec;
 use crate::contact::solid::mesh::SolidMesh;
 use crate::contact::stiffness::{Elasticity, PairStiffness, RootSpec};
@@ -36,7 +36,7 @@ pub struct OnBodies {
     /// Stiffness of a pair alone, teeth and bodies.
     pub stiffness: PairStiffness,
     /// How pairs move each other.
-    pub bodies: Arc<SharedBodies>,
+    pub bodies: Arc<PairCouplings>,
 }
 
 /// What is kept.
@@ -89,7 +89,7 @@ impl GearCache {
             let supports = [Support::FreeBore(bores[0]), Support::Bore(bores[1])];
             let mesh = MeshOnBodies::new(pair, &teeth, supports, planets)?;
             let stiffness = PairStiffness::of_gears(pair, &teeth, load, |i, roll| mesh.gear(i, roll))?;
-            let bodies = Arc::new(SharedBodies::new(
+            let bodies = Arc::new(PairCouplings::new(
                 &mesh,
                 [stiffness.path, stiffness.range],
                 (pair.centred_position(), pair.base_pitch),

@@ -24,7 +24,7 @@ pub struct Inertias {
     /// Mass of a side gear [kg].
     pub side_mass: f64,
     /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m], always of its solid.
-    pub planet_moment: f64,
+    pub planet_mass_moment: f64,
     /// Number of planets.
     pub planets: f64,
 }
@@ -44,7 +44,7 @@ impl Inertias {
             planet: planet_axial,
             planet_transverse: transverse,
             side_mass: side.mass * (side_axial / side.axial),
-            planet_moment: planet.mass * planet.centre,
+            planet_mass_moment: planet.mass * planet.centre,
             planets,
         }
     }
@@ -105,6 +105,6 @@ mod tests {
         let given = p.inertia.side_gear;
         assert_eq!((j.planet, j.side), (3.0 * axial, [given + 0.5, given]));
         // but not its mass
-        assert_eq!(j.planet_moment, mass * centre);
+        assert_eq!(j.planet_mass_moment, mass * centre);
     }
 }

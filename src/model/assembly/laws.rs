@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::contact::bodies::SharedBodies;
+use crate::contact::bodies::PairCouplings;
 use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::law::{DampedImpact, FaceLaw, Lumped};
@@ -29,7 +29,7 @@ pub struct Laws {
     /// Cone distance at which the resultant of a pair acts [m].
     pub cone: f64,
     /// The bodies that pairs share, where they are elastic.
-    pub bodies: Option<Arc<SharedBodies>>,
+    pub bodies: Option<Arc<PairCouplings>>,
 }
 
 impl Laws {
@@ -118,7 +118,7 @@ fn of_teeth<S>(
     tooth: &ToothEffects,
     cache: &GearCache,
     law: impl Fn(&PairStiffness) -> S,
-) -> Result<(S, Option<Arc<SharedBodies>>), Problem> {
+) -> Result<(S, Option<Arc<PairCouplings>>), Problem> {
     if !tooth.on_bodies {
         return Ok((law(&*cache.stiffness(p, pair)?), None));
     }

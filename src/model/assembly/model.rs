@@ -183,7 +183,7 @@ fn teeth(
         friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
-        planet_moment: ideal.inertia.planet_moment,
+        planet_mass_moment: ideal.inertia.planet_mass_moment,
         body_effects,
     };
     Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, effect_terms)

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{BodyEffects, Inertias};
-use crate::contact::bodies::SharedBodies;
+use crate::contact::bodies::PairCouplings;
 use crate::contact::detailed::Detailed;
 use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::Pair;
@@ -34,7 +34,7 @@ pub struct Teeth {
     /// Largest approach of flanks: the working depth or half the base pitch, whichever is smaller [rad].
     pub deflection_limit: f64,
     /// Elastic gear bodies that couple the tooth pairs; `None` where bodies are rigid.
-    pub shared: Option<Arc<SharedBodies>>,
+    pub shared: Option<Arc<PairCouplings>>,
     /// Constants of the effects; boxed, so that the layout of `Teeth` is the same in every build.
     pub effect_terms: Box<EffectTerms>,
 }
@@ -53,7 +53,7 @@ impl Teeth {
     /// Constants for the scene plan `plan` and the gears `pair`, with their mesh and elastic bodies.
     pub fn new(
         pair: &Pair,
-        (mesh, shared): (Mesh, Option<Arc<SharedBodies>>),
+        (mesh, shared): (Mesh, Option<Arc<PairCouplings>>),
         plan: Plan,
         inertias: &Inertias,
         deflection_limit: f64,
@@ -107,7 +107,7 @@ pub struct EffectTerms {
     /// Teeth without errors, which give each tooth its number.
     pub perfect: FlankGaps,
     /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m].
-    pub planet_moment: f64,
+    pub planet_mass_moment: f64,
     /// Effects on bodies.
     pub body_effects: BodyEffects,
 }

@@ -50,10 +50,10 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         let mut offset = [[0.0; 2]; MAX_GROUPS];
         let mut wrapped = [0; MAX_GROUPS];
         for g in 0..teeth.layout.groups {
-            wrapped[g] = state.turns[teeth.layout.planet(g)];
+            wrapped[g] = state.whole_periods[teeth.layout.planet(g)];
             for s in 0..2 {
                 let spin = if s == 0 { wrapped[g] } else { -wrapped[g] };
-                offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
+                offset[g][s] = teeth.base_pitch * (state.whole_periods[LEFT + s] - spin) as f64;
             }
         }
         let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.effect_terms.body_effects), inputs, state);

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::effect_kinds::{FrictionState, Mode};
-use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, Inputs};
+use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs};
 
 /// What happens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,6 +62,18 @@ impl Event {
     /// Records what happens at `time` [s].
     pub fn record(&mut self, what: Happening, place: usize, time: f64) {
         *self = Self { what, place: place as u8, time, count: self.count.wrapping_add(1) };
+    }
+
+    /// Number of the side (1 left, 2 right) or of the group of planets at which it happened; 0 for teeth.
+    pub fn number(&self) -> i32 {
+        let place = usize::from(self.place);
+        let first = match self.what {
+            Happening::Nothing | Happening::ToothBreaks => return 0,
+            _ if place >= FRICTION_WHEELS => FRICTION_WHEELS,
+            _ if place >= FRICTION_PLANETS => FRICTION_PLANETS,
+            _ => 0,
+        };
+        (place - first) as i32 + 1
     }
 
     /// Records how friction changes at `time` [s]. Returns whether a surface begins or ceases to stick.

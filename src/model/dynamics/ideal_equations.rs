@@ -111,7 +111,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Energy of half-shafts and stuck friction [J].
-    fn stored(&self, at: &Point<MOST>) -> f64 {
+    fn stored_energy(&self, at: &Point<MOST>) -> f64 {
         let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&self.body_motion(at))).sum();
         bodies + self.friction_energy(at)
     }
@@ -166,7 +166,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
         let kinetic: f64 = (0..self.count()).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum();
-        [0.5 * kinetic, self.stored(at)]
+        [0.5 * kinetic, self.stored_energy(at)]
     }
 
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[LedgerRates; 3]) -> f64 {

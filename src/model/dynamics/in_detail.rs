@@ -173,7 +173,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
     pub(super) fn centrifugal(&self, at: &Point<N>, g: usize) -> [f64; 2] {
-        let per_speed = self.teeth.effect_terms.planet_moment * at.v[self.orbit(g)];
+        let per_speed = self.teeth.effect_terms.planet_mass_moment * at.v[self.orbit(g)];
         [per_speed * at.v[self.orbit(g)], 2.0 * per_speed]
     }
 

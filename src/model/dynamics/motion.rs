@@ -153,7 +153,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
-        [self.kinetic_energy(at), if WITH_EFFECTS { self.stored(at, true) } else { self.elastic_energy(at) }]
+        [self.kinetic_energy(at), if WITH_EFFECTS { self.stored_energy(at, true) } else { self.elastic_energy(at) }]
     }
 
     #[inline]
@@ -163,7 +163,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         } else {
             self.linearise_and_store(at, lin)
         };
-        let bodies = if WITH_EFFECTS { self.stored_in_bodies(at, true) } else { 0.0 };
+        let bodies = if WITH_EFFECTS { self.stored_energy_of_bodies(at, true) } else { 0.0 };
         [self.kinetic_energy(at), teeth + bodies]
     }
 

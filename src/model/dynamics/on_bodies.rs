@@ -3,7 +3,7 @@
 use super::Equations;
 use super::in_detail::Local;
 use super::ledger_rates::LedgerRates;
-use crate::contact::bodies::SharedBodies;
+use crate::contact::bodies::PairCouplings;
 use crate::contact::detailed::{DetailedLoad, PairName, SharedTeeth};
 use crate::contact::impact::Force;
 use crate::contact::mesh::{MeshForce, MeshState};
@@ -26,7 +26,7 @@ macro_rules! with_teeth {
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// The bodies that pairs share, where they are elastic.
     #[inline]
-    pub(in crate::model) fn bodies_of_gears(&self) -> Option<&SharedBodies> {
+    pub(in crate::model) fn bodies_of_gears(&self) -> Option<&PairCouplings> {
         // a constant where no effect acts, so that plain scenes do not even ask
         if WITH_EFFECTS { self.teeth.shared.as_deref() } else { None }
     }
@@ -50,20 +50,25 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     #[inline]
-    fn meshes<'b>(&'b self, bodies: &'b SharedBodies, g: usize) -> SharedMeshes<'b> {
+    fn meshes<'b>(&'b self, bodies: &'b PairCouplings, g: usize) -> SharedMeshes<'b> {
         let opposite = self.teeth.effect_terms.perfect.opposite(self.teeth.plan.group(g).planet);
         SharedMeshes { mesh: &self.teeth.mesh, bodies, opposite, wrapped: [0, 1].map(|s| self.wrapped(g, s)) }
     }
 
     /// Forces of both plain meshes of group `g` on `bodies`, with derivatives and energy.
     #[inline]
-    pub(super) fn linearised_on_bodies(&self, bodies: &SharedBodies, states: &[MeshState; 2], g: usize) -> SharedForce {
+    pub(super) fn linearised_on_bodies(
+        &self,
+        bodies: &PairCouplings,
+        states: &[MeshState; 2],
+        g: usize,
+    ) -> SharedForce {
         with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).linearise(law, states), SharedForce::default())
     }
 
     /// Forces of both plain meshes of group `g` on `bodies`.
     #[inline]
-    pub(super) fn forces_on_bodies(&self, bodies: &SharedBodies, at: &Point<N>, g: usize) -> [MeshForce; 2] {
+    pub(super) fn forces_on_bodies(&self, bodies: &PairCouplings, at: &Point<N>, g: usize) -> [MeshForce; 2] {
         let states = &self.mesh_states(at, g);
         with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).force(law, states), Default::default())
     }
@@ -78,7 +83,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// The same on `bodies`, with the left mesh at one point and the right mesh at another.
     #[inline]
-    pub(super) fn energy_on_bodies(&self, bodies: &SharedBodies, at: [&Point<N>; 2], g: usize) -> f64 {
+    pub(super) fn energy_on_bodies(&self, bodies: &PairCouplings, at: [&Point<N>; 2], g: usize) -> f64 {
         if WITH_EFFECTS && self.in_detail() {
             let states = [0, 1].map(|s| self.detailed_state(at[s], g, s));
             return self
@@ -110,7 +115,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// By how much pairs of group `g` are moved by others.
-    pub(super) fn moved_pairs(&self, bodies: &SharedBodies, at: &Point<N>, g: usize) -> Moved {
+    pub(super) fn moved_pairs(&self, bodies: &PairCouplings, at: &Point<N>, g: usize) -> Moved {
         if self.in_detail() {
             return self.with_shared_teeth(bodies, g, |teeth| {
                 self.teeth.effect_terms.detailed.moved(teeth, &self.detailed_states(at, g))
@@ -123,7 +128,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Calls `act` with the teeth of both meshes of group `g` on `bodies`.
     pub(super) fn with_shared_teeth<R>(
         &self,
-        bodies: &SharedBodies,
+        bodies: &PairCouplings,
         g: usize,
         act: impl FnOnce(&SharedTeeth) -> R,
     ) -> R {
@@ -176,7 +181,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     #[inline]
     pub(super) fn add_shared_forces(
         &self,
-        bodies: &SharedBodies,
+        bodies: &PairCouplings,
         at: &Point<N>,
         sum: &mut [f64; N],
         [by_position, by_rate]: [&mut Matrix<N>; 2],

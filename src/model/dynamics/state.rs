@@ -15,7 +15,7 @@ use crate::model::scene::{
 use crate::model::setup::HEATS;
 
 /// Number of periods above which a double no longer resolves a single period.
-const MOST_TURNS: u64 = 1 << 53;
+const MOST_PERIODS: u64 = 1 << 53;
 
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +26,7 @@ pub struct State {
     /// Velocities [rad/s; seats m/s].
     pub v: [f64; MAX_DOF],
     /// Number of whole periods taken out of each position: tooth pitches, for the carrier turns.
-    pub turns: [i64; MAX_DOF],
+    pub whole_periods: [i64; MAX_DOF],
     /// Step-size control.
     pub control: Control,
     /// Solver statistics.
@@ -68,7 +68,7 @@ impl State {
             time,
             q: [0.0; MAX_DOF],
             v: [0.0; MAX_DOF],
-            turns: [0; MAX_DOF],
+            whole_periods: [0; MAX_DOF],
             control: Control::new(first_step),
             statistics: Statistics::default(),
             work: 0.0,
@@ -136,9 +136,11 @@ impl State {
 
     /// Whether all planets of `layout` move alike and only plain teeth act on them. Then `teeth`, with all planets in one group,
     /// gives the same motion.
-    pub fn is_together(&self, teeth: &Teeth, layout: &Layout) -> bool {
+    pub fn planets_move_alike(&self, teeth: &Teeth, layout: &Layout) -> bool {
         let alike = |i: usize| {
-            self.q[i] == self.q[PLANET] && self.v[i] == self.v[PLANET] && self.turns[i] == self.turns[PLANET]
+            self.q[i] == self.q[PLANET]
+                && self.v[i] == self.v[PLANET]
+                && self.whole_periods[i] == self.whole_periods[PLANET]
         };
         !teeth.effect_terms.body_effects.act_in(self) && (PLANET + 1..PLANET + layout.groups).all(alike)
     }
@@ -162,11 +164,11 @@ impl State {
             if self.q[i].abs() < *period {
                 continue;
             }
-            let turns = libm::rint(self.q[i] / period);
-            if turns != 0.0 {
-                self.q[i] -= turns * period;
-                self.turns[i] = self.turns[i].saturating_add(turns as i64);
-                self.move_anchors(i, turns * period, layout);
+            let count = libm::rint(self.q[i] / period);
+            if count != 0.0 {
+                self.q[i] -= count * period;
+                self.whole_periods[i] = self.whole_periods[i].saturating_add(count as i64);
+                self.move_anchors(i, count * period, layout);
             }
         }
     }
@@ -187,8 +189,8 @@ impl State {
 
     /// Position `i` with its whole periods.
     pub fn position(&self, i: usize, periods: &[f64; MAX_DOF]) -> f64 {
-        let turns = self.turns[i];
-        if turns == 0 { self.q[i] } else { self.q[i] + turns as f64 * periods[i] }
+        let count = self.whole_periods[i];
+        if count == 0 { self.q[i] } else { self.q[i] + count as f64 * periods[i] }
     }
 
     /// Whether the motion of ideal gears is finite: side gears, carrier, first planet and work.
@@ -200,12 +202,12 @@ impl State {
 
     /// Whether a simulation can continue from this state: all numbers finite and within their ranges, pending step included.
     pub fn is_valid(&self) -> bool {
-        self.is_sound() && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
+        self.is_valid_without_pending_step() && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
     }
 
     /// The same without the pending step, for the end of an integration. There the pending step is finite, because it has passed
     /// the error test.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid_without_pending_step(&self) -> bool {
         let numbers = [
             self.time,
             self.work,
@@ -221,7 +223,7 @@ impl State {
         let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
         (sum(&self.q) + sum(&self.v) + sum(&numbers) + sum(&self.heat) + anchors).is_finite()
             && input_derivatives
-            && self.turns.iter().all(|turns| turns.unsigned_abs() < MOST_TURNS)
+            && self.whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(&self.lock)
             && self.control.next > 0.0
             && self.control.next.is_finite()

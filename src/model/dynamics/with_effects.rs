@@ -101,7 +101,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Forces of meshes, pins and seats at rest and their derivatives by positions, for the static equilibrium.
-    pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
+    pub(in crate::model) fn static_forces(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         let j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut power = LedgerRates::default();
@@ -133,17 +133,17 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Elastic energy of meshes, pins and seats [J]; with `all` also of half-shafts and stuck friction.
-    pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
+    pub(in crate::model) fn stored_energy(&self, at: &Point<N>, all: bool) -> f64 {
         let teeth = if self.in_detail() {
             self.sum(|g| self.members(g) * self.planet_energy(at, g))
         } else {
             self.elastic_energy(at)
         };
-        teeth + self.stored_in_bodies(at, all)
+        teeth + self.stored_energy_of_bodies(at, all)
     }
 
     /// Elastic energy of pins and seats [J]; with `all` also of half-shafts and stuck friction.
-    pub(in crate::model) fn stored_in_bodies(&self, at: &Point<N>, all: bool) -> f64 {
+    pub(in crate::model) fn stored_energy_of_bodies(&self, at: &Point<N>, all: bool) -> f64 {
         let forces = &self.teeth.effect_terms.body_effects.forces;
         let motion = self.body_motion(at);
         let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&motion)).sum::<f64>();

@@ -53,10 +53,10 @@ impl Declare for HalfShaftSpec {
 
 impl Effect for HalfShaftSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
-        let twist = self.requests(setting).shafts;
+        let moving_ends = self.requests(setting).shafts;
         let drives = [setting.scene.left_drive, setting.scene.right_drive];
         for s in 0..2 {
-            if (twist[s] || drives[s] == SideDrive::Speed) && self.stiffness[s] <= 0.0 {
+            if (moving_ends[s] || drives[s] == SideDrive::Speed) && self.stiffness[s] <= 0.0 {
                 found.push(problem!(
                     ["half_shaft.left_stiffness", "half_shaft.right_stiffness"][s],
                     "{} N.m/rad: a half-shaft that twists needs a stiffness above 0",
@@ -74,7 +74,7 @@ impl Effect for HalfShaftSpec {
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let shafts = HalfShafts::new(self, plan);
-        plan.layout().ends().then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
+        plan.layout().ends().then(|| Box::new(ShaftTorques { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
     }
 
     fn read(&self, at: &Instant, out: &mut [f64]) {
@@ -127,12 +127,12 @@ impl HalfShafts {
 
 /// Torques of the half-shafts on side gears and ends.
 #[derive(Clone, Copy, Debug)]
-struct Twist {
+struct ShaftTorques {
     shafts: HalfShafts,
     heat: usize,
 }
 
-impl BodyEffect for Twist {
+impl BodyEffect for ShaftTorques {
     fn act(&self, at: &BodyMotion, out: &mut Action) {
         for s in 0..2 {
             let end = at.layout.end(s);

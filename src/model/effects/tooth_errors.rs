@@ -99,7 +99,7 @@ impl Effect for ToothErrorSpec {
     }
 
     fn warnings(&self, setting: &Setting) -> Vec<Problem> {
-        if self.accuracy_grade == 0 || (0..2).all(|i| pitch::Tolerances::are_valid(setting.pair, i)) {
+        if self.accuracy_grade == 0 || (0..2).all(|i| pitch::Tolerances::covers(setting.pair, i)) {
             return Vec::new();
         }
         vec![Problem::new(

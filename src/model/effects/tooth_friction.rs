@@ -1,7 +1,7 @@
 //! Friction along the flanks (`friction`), in the meshes slice by slice.
 
 use crate::contact::tooth_friction;
-use crate::declaration::units::{self, MPA_S, UM};
+use crate::declaration::units::{self, MILLI_PA_S, UM};
 use crate::declaration::{Parameter, Row, row};
 use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::{Declare, Effect, FlankFriction, Heat, Needs, Setting};
@@ -37,7 +37,7 @@ impl Declare for ToothFrictionSpec {
             ),
             row("tooth_friction.oil_viscosity", "Dynamic viscosity of the oil where it enters the mesh")
                 .when("tooth_friction.law != coulomb_stribeck")
-                .real((units::PA_S, MPA_S), (1e-5, 100.0), |p| &mut p.oil_viscosity),
+                .real((units::PA_S, MILLI_PA_S), (1e-5, 100.0), |p| &mut p.oil_viscosity),
             row("tooth_friction.lubricant_factor", "Lubricant factor X_L of ISO/TR 14179-2")
                 .when("tooth_friction.law = iso_14179")
                 .real(units::ONE, (0.1, 3.0), |p| &mut p.lubricant_factor),

@@ -27,7 +27,7 @@ impl Largest<'_> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
     pub(super) fn statics(&self, at: &Point<LARGEST>) -> ([f64; LARGEST], Matrix<LARGEST>) {
         if self.in_detail() || self.pins() {
-            return self.structure(at);
+            return self.static_forces(at);
         }
         let still = Point { q: at.q, v: [0.0; LARGEST] };
         let mut sum = [0.0; LARGEST];
@@ -48,7 +48,7 @@ impl Largest<'_> {
 
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<LARGEST>) -> f64 {
-        if self.in_detail() || self.pins() { self.stored(at, false) } else { self.elastic_energy(at) }
+        if self.in_detail() || self.pins() { self.stored_energy(at, false) } else { self.elastic_energy(at) }
     }
 }
 

@@ -7,7 +7,7 @@
 use super::events::{are_brakes_new, break_tooth, energy, update_friction};
 use super::progress::complete;
 use super::timeline::{breaks_tooth, next_change};
-use super::{Recorded, Records, Simulation, StepFailure, imposed};
+use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Gears;
 use crate::model::dynamics::sizes::with_equations;
@@ -162,8 +162,8 @@ impl Simulation {
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
             // periods without end are never counted
-            let turns = self.state.turns[i];
-            self.state.q[i] = if turns == 0 { q[i] } else { q[i] - turns as f64 * self.model.periods[i] };
+            let count = self.state.whole_periods[i];
+            self.state.q[i] = if count == 0 { q[i] } else { q[i] - count as f64 * self.model.periods[i] };
         }
         self.state.v = v;
         self.follow_commands();
@@ -196,12 +196,12 @@ impl Simulation {
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, power };
                 let State { work, heat, bias, .. } = state;
-                let outcome = equations.admit(&end);
+                let outcome = equations.check_deflection(&end);
                 if outcome.is_ok() {
                     equations.record(
                         model,
                         (&step, None),
-                        &mut Records { begin: from.time, work, heat, bias, watched },
+                        &mut LedgerSums { begin: from.time, work, heat, bias, watched },
                     );
                 }
                 let mut anchors = equations.acting().anchors();

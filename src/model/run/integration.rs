@@ -1,7 +1,7 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
 use super::failure::ExcessiveDeflection;
-use super::{Recorded, Records, StepFailure, hints};
+use super::{LedgerEquations, LedgerSums, StepFailure, hints};
 use crate::contact::Law;
 use crate::integrate::{
     self, AfterStep, Compared, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
@@ -81,7 +81,7 @@ pub fn integrate(
 ) -> Result<(), StepFailure> {
     match &model.gears {
         Gears::Ideal(ideal) => {
-            let equations: &mut dyn Recorded<MOST> = &mut IdealEquations::new(ideal, integration.inputs, state);
+            let equations: &mut dyn LedgerEquations<MOST> = &mut IdealEquations::new(ideal, integration.inputs, state);
             integrate_equations::<MOST, true, _>(equations, model, state, integration, budget)
         }
         Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
@@ -138,13 +138,13 @@ fn by_table<const N: usize, const G: usize>(
     integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn Recorded<N> = &mut Equations::<N, G, true>::new(teeth, integration.inputs, state);
+    let equations: &mut dyn LedgerEquations<N> = &mut Equations::<N, G, true>::new(teeth, integration.inputs, state);
     integrate_equations::<N, true, _>(equations, model, state, integration, budget)
 }
 
 /// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes, and steps of
 /// fixed size in the least of them alone: [`integrate_teeth`] knows.
-fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
+fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
     state: &mut State,
@@ -171,12 +171,12 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + 
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, .. } = state;
-        let mut records = Records { begin, work, heat, bias, watched: &mut *watched };
+        let mut sums = LedgerSums { begin, work, heat, bias, watched: &mut *watched };
         let mut observe = |step: Step<N, LedgerRates>, pending: Option<&Pending<N, LedgerRates>>| {
             if !is_shown {
-                equations.admit(step.end)?;
+                equations.check_deflection(step.end)?;
             }
-            equations.record(model, (&step, pending), &mut records);
+            equations.record(model, (&step, pending), &mut sums);
             equations.drag_anchors(step.end, &step.power[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })

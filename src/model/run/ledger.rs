@@ -14,7 +14,7 @@ use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 
 /// Sums that completed steps add to.
-pub struct Records<'a> {
+pub struct LedgerSums<'a> {
     /// Time at which the clock of the steps is zero [s].
     pub begin: f64,
     /// Work of all inputs [J].
@@ -28,17 +28,19 @@ pub struct Records<'a> {
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
-pub trait Recorded<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
+pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
     /// Fails if the deflection of a tooth exceeds the limit; the error names mesh and deflection.
-    fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
+    fn check_deflection(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
     /// Records a completed step. It comes with the pending step that it was before; fixed steps and steps of a host's solver are
     /// never pending.
-    fn record(&self, model: &Model, step: CompletedStep<N>, records: &mut Records);
+    fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
 }
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for Equations<'_, N, G, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N>
+    for Equations<'_, N, G, WITH_EFFECTS>
+{
     #[inline]
-    fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
+    fn check_deflection(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
         let (approach, g, side) = self.deepest(at);
         if approach > self.teeth.deflection_limit {
             return Err(ExcessiveDeflection { deflection: approach, planet: self.teeth.plan.group(g).planet, side });
@@ -47,30 +49,30 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for E
     }
 
     #[inline]
-    fn record(&self, model: &Model, (step, pending): CompletedStep<N>, records: &mut Records) {
-        add_to_ledger(step, records.work, records.heat, WITH_EFFECTS);
+    fn record(&self, model: &Model, (step, pending): CompletedStep<N>, sums: &mut LedgerSums) {
+        add_to_ledger(step, sums.work, sums.heat, WITH_EFFECTS);
         if !self.teeth.mesh.engagement.corner_contact() {
-            records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
+            sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
         if WITH_EFFECTS && self.ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
-            Cycle { pitch: model.periods[LEFT] }.add(records.bias, turned, step.h, torque);
+            Cycle { pitch: model.periods[LEFT] }.add(sums.bias, turned, step.h, torque);
         }
         if let (true, Some(watch)) = (WITH_EFFECTS, &model.watch) {
-            let passed = Passed::new(self, (step, pending), records.begin);
-            watch_step(&self.largest(), (model, watch), &passed, records.watched);
+            let passed = Passed::new(self, (step, pending), sums.begin);
+            watch_step(&self.largest(), (model, watch), &passed, sums.watched);
         }
     }
 }
 
-impl Recorded<MOST> for IdealEquations<'_> {
-    fn admit(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
+impl LedgerEquations<MOST> for IdealEquations<'_> {
+    fn check_deflection(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
         Ok(())
     }
 
-    fn record(&self, _: &Model, (step, _): CompletedStep<MOST>, records: &mut Records) {
-        add_to_ledger(step, records.work, records.heat, true);
+    fn record(&self, _: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
+        add_to_ledger(step, sums.work, sums.heat, true);
     }
 }
 
@@ -88,10 +90,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             for s in 0..2 {
                 let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [end[0] - start[0], end[1] - start[1]];
-                // in a very short step AT_ONCE of the step would be lost in rounding
-                let at_once = AT_ONCE.max(RESOLVED / change[1].abs());
+                // in a very short step JUMP_HALF_WIDTH of the step would be lost in rounding
+                let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
                 self.teeth.mesh.engagement.jumps(start, change, |t| {
-                    let [before, after] = [t - at_once, t + at_once].map(between);
+                    let [before, after] = [t - half_width, t + half_width].map(between);
                     energy += self.members(g) * self.energy_brought([&before, &after], g, s);
                 });
             }
@@ -101,6 +103,6 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 }
 
 /// Part of a step before and after the instant at which a pair enters or leaves. The energy is compared between both.
-const AT_ONCE: f64 = 1e-9;
+const JUMP_HALF_WIDTH: f64 = 1e-9;
 /// Least arc along the line of action that rounding resolves [rad].
-const RESOLVED: f64 = 1e-13;
+const LEAST_ARC: f64 = 1e-13;

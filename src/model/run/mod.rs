@@ -22,7 +22,7 @@ mod watching;
 
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
-pub use ledger::{Recorded, Records};
+pub use ledger::{LedgerEquations, LedgerSums};
 pub use readings::CostClass;
 pub use reports::Reported;
 pub use sensitivity::{Along, Direction, STENCIL};

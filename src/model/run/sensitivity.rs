@@ -160,7 +160,7 @@ impl Simulation {
     /// Derivatives of angles and speeds along `direction`.
     pub fn motion_slopes(&self, direction: &Direction) -> Motion {
         let mut along = self.moved(&direction.q, &direction.v);
-        along.state.turns = [0; MAX_DOF];
+        along.state.whole_periods = [0; MAX_DOF];
         let slopes = along.motion_of_state();
         let spin = self.model.ideal.plan.layout().planet(0);
         let sense = if self.state.v[spin] == 0.0 { 0.0 } else { (self.state.v[spin] * direction.v[spin]).signum() };

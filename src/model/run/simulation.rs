@@ -178,7 +178,7 @@ impl Simulation {
             begin_anew(model, inputs, (state, watched));
             outcome = progress::integrate(model, (inputs, state, watched), (until, way));
         }
-        if outcome.is_ok() && !state.is_sound() {
+        if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
             go_back((inputs, state, watched), &before, &saved);
         }

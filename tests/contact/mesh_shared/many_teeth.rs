@@ -1,6 +1,6 @@
 //! Bodies under many small teeth: all pairs that can touch give way together as one elastic body does.
 
-use bevel_differential::contact::bodies::{GearBody, Standing};
+use bevel_differential::contact::bodies::{GearBody, PairPlace};
 use bevel_differential::contact::pairs::Flank;
 use nalgebra::DMatrix;
 
@@ -21,27 +21,27 @@ const SETS: [([i32; 2], [f64; 2]); 8] = [
 const PAST: f64 = 0.25;
 
 /// Pairs on the drive flanks of both meshes of a planet at `x` [rad] that approach by `a` [rad].
-fn pairs(gears: &Gears, a: f64, x: f64) -> Vec<Standing> {
+fn pairs(gears: &Gears, a: f64, x: f64) -> Vec<PairPlace> {
     let mut found = Vec::new();
     for side in 0..2 {
         let q = -(gears.mesh.half_backlash() + a);
         gears.mesh.engagement.pairs([q, if side == 0 { x } else { -x }], |pair| {
             let tooth = if side == 0 { pair.number } else { gears.teeth.opposite(0) - pair.number };
-            found.push(Standing { side, flank: Flank::Drive, number: pair.number, tooth, s: pair.s });
+            found.push(PairPlace { side, flank: Flank::Drive, number: pair.number, tooth, s: pair.s });
         });
     }
     found
 }
 
 /// t of two pairs, as the bodies have it for loads within the ends of the path [1/Pa].
-fn between(gears: &Gears, a: &Standing, b: &Standing) -> f64 {
+fn between(gears: &Gears, a: &PairPlace, b: &PairPlace) -> f64 {
     let past = PAST * gears.pair.base_pitch;
     let [low, high] = [gears.stiffness.path[0] - past, gears.stiffness.path[1] + past];
     let teeth = &gears.on_bodies.teeth;
     let shared = if a.side == b.side { 2 } else { 1 };
     (0..shared)
         .map(|i| {
-            let load = |pair: &Standing| {
+            let load = |pair: &PairPlace| {
                 let roll = teeth.rolls(gears.pair.outer_cone * pair.s.clamp(low, high))[i];
                 let [across, along, moment] = gears.on_bodies.bodies[i].root.load(teeth.sections[i].load(roll).angle);
                 // the drive flank presses the planet toward lower numbers on the left

@@ -1,6 +1,6 @@
 //! Both meshes of a planet on the bodies of its gears, and random states.
 
-use bevel_differential::contact::bodies::{MeshOnBodies, SharedBodies, Support};
+use bevel_differential::contact::bodies::{MeshOnBodies, PairCouplings, Support};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
     Detailed, DetailedState, Face as CutFace, Gaps, MeshTeeth, Opening, PairName, SharedTeeth, Slice,
@@ -51,7 +51,7 @@ pub struct Gears {
     pub pair: Pair,
     pub on_bodies: MeshOnBodies,
     pub stiffness: PairStiffness,
-    pub bodies: SharedBodies,
+    pub bodies: PairCouplings,
     pub teeth: FlankGaps,
     pub mesh: Mesh,
     pub detailed: Detailed,
@@ -73,7 +73,7 @@ impl Gears {
         let on_bodies = MeshOnBodies::new(&pair, &sections, supports, PLANETS).expect("bodies");
         let stiffness =
             PairStiffness::of_gears(&pair, &sections, LINE_LOAD, |i, roll| on_bodies.gear(i, roll)).expect("teeth");
-        let bodies = SharedBodies::new(
+        let bodies = PairCouplings::new(
             &on_bodies,
             [stiffness.path, stiffness.range],
             (pair.centred_position(), pair.base_pitch),

@@ -83,7 +83,7 @@ impl Scene {
         if view == View::Shifted {
             // whole pitches are counted
             for (i, pitches) in [(0, 1), (1, -1)].into_iter().chain((0..layout.groups).map(|g| (layout.planet(g), 1))) {
-                image.turns[i] += pitches;
+                image.whole_periods[i] += pitches;
             }
             return Some(image);
         }

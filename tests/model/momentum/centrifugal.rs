@@ -84,7 +84,7 @@ fn masses_of_solids_are_those_of_the_program() {
         let (differential, found) = (Differential::of(&simulation), *simulation.inertias());
         let [planet, side] = differential.solids;
         for (found, wanted) in [
-            (found.planet_moment, planet.moment),
+            (found.planet_mass_moment, planet.moment),
             (found.planet, planet.axial),
             (found.planet_transverse, planet.transverse),
             (found.side[0], side.axial),

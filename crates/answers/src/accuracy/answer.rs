@@ -8,7 +8,7 @@ use super::bench::{Bench, Trial};
 use super::gears::Gears;
 use super::reference::{self, Richest};
 use super::search::{Found, is_within, search};
-use super::switches::{Standing, Switch, effects};
+use super::switches::{Status, Switch, effects};
 use super::want::{self, Want};
 use crate::problem::wrong;
 use crate::progress::Progress;
@@ -169,17 +169,17 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
         let single = found.effects.iter().find(|single| single.of.name() == switch.name());
         let refused = richest.refused.iter().find(|(name, _)| *name == switch.name());
         let in_rich = switch.is_on(&richest.scene.parameters);
-        let role = match (single.map(|single| &single.run), switch.standing(scene)) {
+        let role = match (single.map(|single| &single.run), switch.status(scene)) {
             (Some(Ok(run)), _) => match found.base {
                 Some(base) => acting(bench, &switch, [*run, base], chosen.is_some_and(|p| switch.is_on(&p)), within),
                 None => continue,
             },
             (Some(Err(why)), _) => Role::Kept(why.clone()),
-            (None, Standing::NotAsked) => Role::NotAsked,
+            (None, Status::NotAsked) => Role::NotAsked,
             (None, _) if in_rich => Role::NotKnown,
-            (None, Standing::SetOff) => Role::SetOff,
-            (None, Standing::NotThere) => Role::NotThere,
-            (None, Standing::On | Standing::Off) => Role::Refused(
+            (None, Status::SetOff) => Role::SetOff,
+            (None, Status::NotThere) => Role::NotThere,
+            (None, Status::On | Status::Off) => Role::Refused(
                 refused.map_or_else(|| format!("not with {}", richest.gears.text()), |(_, why)| why.clone()),
             ),
         };

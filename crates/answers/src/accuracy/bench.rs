@@ -21,7 +21,7 @@ pub struct Trial {
     /// The scene as it ran.
     pub scene: Scene,
     /// Reason for the run, in words.
-    pub what: String,
+    pub reason: String,
     /// Values of the wanted quantities.
     pub values: Vec<f64>,
     /// Errors of the wanted quantities against the reference, as parts of their scales.
@@ -90,7 +90,7 @@ impl<'a, 'w> Bench<'a, 'w> {
     }
 
     /// Runs `scene`, unless one with the same parameters has run. Returns the index of the run, or the reason of its failure.
-    pub fn run(&mut self, scene: &Scene, what: &str) -> Result<usize, String> {
+    pub fn run(&mut self, scene: &Scene, reason: &str) -> Result<usize, String> {
         let p = scene.parameters;
         if let Some(known) = self.trials.iter().position(|trial| trial.scene.parameters == p) {
             return Ok(known);
@@ -98,7 +98,7 @@ impl<'a, 'w> Bench<'a, 'w> {
         if let Some((_, why)) = self.failed.iter().find(|(other, _)| *other == p) {
             return Err(why.clone());
         }
-        self.progress.begin_task(self.spent / self.limit, what);
+        self.progress.begin_task(self.spent / self.limit, reason);
         let most = FREE.max(price::evaluations(&p, PATIENCE * self.reference.cost));
         let figures = Record::of(scene, self.from, most, self.progress).and_then(|record| {
             let cost = price::cost(&p, &record.effort);
@@ -114,7 +114,7 @@ impl<'a, 'w> Bench<'a, 'w> {
         };
         let error = |i: usize| Want::error(values[i], self.reference.values[i], self.scales[i]);
         let errors = (0..values.len()).map(error).collect();
-        self.trials.push(Trial { scene: scene.clone(), what: what.to_owned(), values, errors, effort, cost });
+        self.trials.push(Trial { scene: scene.clone(), reason: reason.to_owned(), values, errors, effort, cost });
         Ok(self.trials.len() - 1)
     }
 

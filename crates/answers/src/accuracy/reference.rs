@@ -9,7 +9,7 @@ use super::bench::{Trial, values};
 use super::gears::{self, Gears};
 use super::price;
 use super::record::{Record, in_one_line};
-use super::switches::{Standing, effects, settled};
+use super::switches::{Status, effects, settled};
 use super::want::Want;
 use crate::problem::wrong;
 use crate::progress::Progress;
@@ -40,17 +40,17 @@ pub fn richest(scene: &Scene) -> Result<Richest> {
     let mut base = scene.clone();
     // a method is chosen for its cost; the reference is adaptive
     base.parameters.solver.method = Method::Adaptive;
-    for switch in effects().filter(|switch| switch.standing(scene) == Standing::NotAsked) {
+    for switch in effects().filter(|switch| switch.status(scene) == Status::NotAsked) {
         switch.set(&mut base.parameters, false);
     }
     let first =
         gears.of_scene(&base).map_err(|found| wrong(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
     let mut refused: Vec<_> = first.without.iter().map(|&name| (name, format!("not with {}", gears.text()))).collect();
     let mut rich = first.scene;
-    let candidate = |standing| matches!(standing, Standing::Off) || standing == Standing::NotAsked;
-    for switch in effects().filter(|switch| candidate(switch.standing(scene))) {
+    let candidate = |status| matches!(status, Status::Off) || status == Status::NotAsked;
+    for switch in effects().filter(|switch| candidate(switch.status(scene))) {
         let known = switch.is_on(&rich.parameters) || refused.iter().any(|(name, _)| *name == switch.name());
-        if known || switch.is_bodies() || switch.standing(scene) == Standing::NotAsked {
+        if known || switch.is_bodies() || switch.status(scene) == Status::NotAsked {
             continue;
         }
         let more = switch.turned(&rich, true);
@@ -92,8 +92,8 @@ pub fn run(
         let record = Record::of(&scene, question.from, f64::INFINITY, progress)
             .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
         let (values, cost) = (values(wants, &record).map_err(wrong)?, price::cost(&scene.parameters, &record.effort));
-        let (what, effort) = ("the reference".into(), record.effort);
-        Ok::<_, anyhow::Error>((Trial { scene, what, values, errors: Vec::new(), effort, cost }, record))
+        let (reason, effort) = ("the reference".into(), record.effort);
+        Ok::<_, anyhow::Error>((Trial { scene, reason, values, errors: Vec::new(), effort, cost }, record))
     };
     let (mut last, _) = at(tolerance)?;
     let mut spent = last.cost;

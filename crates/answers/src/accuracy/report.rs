@@ -7,7 +7,7 @@ use super::bench::Trial;
 use super::gears::Gears;
 use super::knowledge;
 use super::switches::Switch;
-use super::words::{difference, percent, setting, three, two};
+use super::words::{difference, percent, setting, three_digits, two_digits};
 use crate::scene::units;
 use crate::text::table::labelled;
 
@@ -36,23 +36,28 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
         Some(chosen) => {
             lines.push(("Use", format!("{}.", setting(&chosen.scene.parameters))));
             let certain = if answer.is_uncertain() { " NOT CERTAIN, see the reference." } else { "" };
-            lines.push(("", format!("{}.{certain}", told(answer, chosen, 0))));
+            lines.push(("", format!("{}.{certain}", error_and_cost(answer, chosen, 0))));
             if let (Some(seconds), true) = (answer.seconds[0], chosen.effort.start > LONG_START * chosen.effort.seconds)
             {
-                let all = two((seconds + chosen.effort.start) * 1e3);
-                let start = two(chosen.effort.start * 1e3);
-                lines.push(("", format!("The start takes {start} of the {all} ms of a run, once for the same gears.")));
+                let all = two_digits((seconds + chosen.effort.start) * 1e3);
+                let start = two_digits(chosen.effort.start * 1e3);
+                lines.push((
+                    "",
+                    format!(
+                        "The start takes {start} of the {all} ms of a run; later starts with the same gears are faster."
+                    ),
+                ));
             }
             if let Some(by) = cancelled(answer, chosen) {
                 lines.push(("", by));
             }
         }
-        None => lines.push(("Use", "nothing that was tried comes to its end; see the reference.".into())),
+        None => lines.push(("Use", "no setting runs to its end; see the reference.".into())),
     }
     for (title, run, place) in [("Cheaper", answer.cheaper, 1), ("Richer", answer.richer, 2)] {
         if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
             let what = difference(&chosen.scene.parameters, &run.scene.parameters);
-            lines.push((title, format!("{what}: {}.", told(answer, run, place))));
+            lines.push((title, format!("{what}: {}.", error_and_cost(answer, run, place))));
         }
     }
     lines.push(("Reference", reference(answer)));
@@ -60,7 +65,7 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
     if answer.scene.parameters.scene.gear_contact == GearContact::Solid {
         lines.push((
             "",
-            "Solid teeth, which the scene asks for, are not judged: faceted flanks are a worse model than these."
+            "The solid teeth of the scene are not judged: faceted flanks are a worse model than the exact flanks above."
                 .into(),
         ));
     }
@@ -79,7 +84,7 @@ fn wanted(answer: &Answer) -> String {
         let values = answer.wants.iter().zip(&answer.reference.values).map(|(want, &value)| {
             let row = answer.scene.outputs[want.output];
             match want.statistic {
-                super::statistic::Statistic::TimeOfPeak => format!("{} s", three(value)),
+                super::statistic::Statistic::TimeOfPeak => format!("{} s", three_digits(value)),
                 _ => units::text(row, value),
             }
         });
@@ -95,7 +100,7 @@ fn wanted(answer: &Answer) -> String {
 }
 
 /// Error and cost of `run`; `place` is its index in [`Answer::seconds`].
-fn told(answer: &Answer, run: &Trial, place: usize) -> String {
+fn error_and_cost(answer: &Answer, run: &Trial, place: usize) -> String {
     let (want, error) = run.worst();
     let mut text = format!("error {}", percent(error));
     if answer.wants.len() > 1 && error > 0.0 {
@@ -103,14 +108,14 @@ fn told(answer: &Answer, run: &Trial, place: usize) -> String {
     }
     let per_millisecond = run.cost / (answer.scene.stop_time * 1e3);
     if let Some(seconds) = answer.seconds[place] {
-        text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
+        text.push_str(&format!("; {} x real time", two_digits(answer.scene.stop_time / seconds)));
     }
-    text.push_str(&format!("; costs {} plain evaluations per ms", two(per_millisecond)));
+    text.push_str(&format!("; costs {} plain evaluations per ms", two_digits(per_millisecond)));
     let ratio = answer.reference.cost / run.cost;
     let times = if ratio >= 1.0 {
-        format!("{} times cheaper", two(ratio))
+        format!("{} times cheaper", two_digits(ratio))
     } else {
-        format!("{} times dearer", two(1.0 / ratio))
+        format!("{} times dearer", two_digits(1.0 / ratio))
     };
     text.push_str(&format!("; {times} than the reference"));
     text
@@ -118,16 +123,20 @@ fn told(answer: &Answer, run: &Trial, place: usize) -> String {
 
 fn reference(answer: &Answer) -> String {
     let reference = &answer.reference;
-    let mut text = format!("{}; strays by {}", setting(&reference.scene.parameters), percent(reference.error()));
+    let mut text = format!(
+        "{}; strays by {} with the tolerance",
+        setting(&reference.scene.parameters),
+        percent(reference.error())
+    );
     if let Some(seconds) = answer.seconds[3] {
-        text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
+        text.push_str(&format!("; {} x real time", two_digits(answer.scene.stop_time / seconds)));
     }
     text.push('.');
     if answer.is_uncertain() {
         let name = answer.wants[reference.worst().0].text(&answer.scene);
         text.push_str(&format!(
             " NOT CERTAIN: {name} strays by more than a third of the accuracy when only the integrator's steps change, as in \
-             motions with blows. Nothing below twice that can be told: ask for a steadier statistic (mean, rms), a later \
+             motions with blows. Differences below twice this stray mean nothing. Ask for a steadier statistic (mean, rms), a later \
              --from, or less accuracy."
         ));
     }
@@ -159,7 +168,7 @@ fn gears(answer: &Answer) -> String {
         let own = Gears::of(&answer.reference.scene.parameters).text();
         return format!("{own} is set by the scene and part of the question.");
     }
-    format!("with all effects that go with them: {}.", errors.join(", "))
+    format!("with all their effects: {}.", errors.join(", "))
 }
 
 /// Why each effect is in or out of the setting; effects with the same reason share a line.
@@ -185,15 +194,15 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
         }
     };
     push("Needed", names(&acts(true, true)));
-    push("Kept", join("with the others, or as leaving it out saves nothing: ", names(&acts(true, false))));
+    push("Kept", prefixed("needed together, or no cheaper without: ", names(&acts(true, false))));
     push(
-        "Out, though",
-        join(
-            "it changes the richest model by more than wanted; what is chosen has been run and is accurate: ",
+        "Out",
+        prefixed(
+            "changes the richest model by more than the accuracy, but the chosen setting is accurate without: ",
             names(&acts(false, true)),
         ),
     );
-    push("Out", join("acts below the accuracy: ", names(&acts(false, false))));
+    push("Out", prefixed("acts below the accuracy: ", names(&acts(false, false))));
     for (switch, role) in &answer.effects {
         if let Role::Neutral { typical, by, now } = role {
             let values: Vec<String> =
@@ -206,14 +215,14 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
                 None => "were not tried".into(),
             };
             let acts = if *now > 0.0 {
-                format!("seems to act by {}, which is that of other steps", percent(*now))
+                format!("changes {} by other steps of the integrator alone", percent(*now))
             } else {
-                "acts on nothing".into()
+                "changes nothing".into()
             };
             push(
                 "Neutral",
                 format!(
-                    "{} {acts}, as the scene leaves its values at zero; typical ones, {}, {effect}",
+                    "{} {acts}: its values are zero in the scene; typical values, {}, {effect}",
                     switch.name(),
                     values.join(", ")
                 ),
@@ -221,11 +230,11 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
         }
     }
     let of = |is: fn(&Role) -> bool| names(&|switch, role| is(role).then(|| switch.name().into()));
-    push("Not in it", join("so not judged: ", of(|role| matches!(role, Role::NotThere))));
-    push("Set off", join("by the scene: ", of(|role| matches!(role, Role::SetOff))));
+    push("Not judged", prefixed("not in the scene: ", of(|role| matches!(role, Role::NotThere))));
+    push("Set off", prefixed("by the scene: ", of(|role| matches!(role, Role::SetOff))));
     push(
         "Not asked",
-        join("only add outputs, and none of them is wanted: ", of(|role| matches!(role, Role::NotAsked))),
+        prefixed("only add outputs, and none of them is wanted: ", of(|role| matches!(role, Role::NotAsked))),
     );
     push(
         "Kept",
@@ -244,6 +253,6 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     lines
 }
 
-fn join(before: &str, names: String) -> String {
+fn prefixed(before: &str, names: String) -> String {
     if names.is_empty() { names } else { format!("{before}{names}") }
 }

@@ -23,7 +23,7 @@ const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 2] =
 
 /// How a scene stands to an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum Status {
     /// On.
     On,
     /// Off, as it is unless switched on.
@@ -82,17 +82,17 @@ impl Switch {
     }
 
     /// How `scene` stands to it.
-    pub fn standing(&self, scene: &Scene) -> Standing {
+    pub fn status(&self, scene: &Scene) -> Status {
         if self.only_gives_outputs() && !self.is_asked_for(&scene.outputs) {
-            Standing::NotAsked
+            Status::NotAsked
         } else if self.is_on(&scene.parameters) {
-            Standing::On
+            Status::On
         } else if scene.settings.iter().any(|setting| setting.row.name == self.row.name) {
-            Standing::SetOff
+            Status::SetOff
         } else if PART_OF_THE_QUESTION.contains(&self.row.name) {
-            Standing::NotThere
+            Status::NotThere
         } else {
-            Standing::Off
+            Status::Off
         }
     }
 

@@ -44,7 +44,7 @@ pub fn rows(answer: &Answer) -> Vec<Row> {
 fn row(answer: &Answer, place: &'static str, trial: &Trial) -> Row {
     let (worst, error) = trial.worst();
     Row {
-        tried: trial.what.clone(),
+        tried: trial.reason.clone(),
         place,
         setting: setting(&trial.scene.parameters),
         error,

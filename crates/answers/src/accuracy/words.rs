@@ -25,7 +25,7 @@ pub fn percent(fraction: f64) -> String {
 }
 
 /// A number with about three digits.
-pub fn three(value: f64) -> String {
+pub fn three_digits(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.2e}");
     }
@@ -35,7 +35,7 @@ pub fn three(value: f64) -> String {
 }
 
 /// A ratio with two digits.
-pub fn two(value: f64) -> String {
+pub fn two_digits(value: f64) -> String {
     crate::text::numbers::significant(value, 2)
 }
 
@@ -55,7 +55,7 @@ pub fn setting(p: &Parameters) -> String {
 pub fn solver(p: &Parameters) -> String {
     match p.solver.method {
         Method::Adaptive => format!("tolerance {}", power(p.solver.relative_tolerance)),
-        Method::FixedStep => format!("fixed steps of {} s", three(p.solver.fixed_step)),
+        Method::FixedStep => format!("fixed steps of {} s", three_digits(p.solver.fixed_step)),
         other => format!("{}, tolerance {}", other.literal(), power(p.solver.relative_tolerance)),
     }
 }
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn percents_have_two_digits_and_ratios_three() {
         assert_eq!([0.0, 0.012_34, 1.5, 3e-9].map(percent), ["0 %", "1.2 %", "150 %", "3e-7 %"]);
-        assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
+        assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three_digits), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
     }
 
     #[test]

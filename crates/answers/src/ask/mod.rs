@@ -7,10 +7,10 @@
 //! assert!(answer["text"].as_str().unwrap().contains("4.0000"));
 //! ```
 
+mod accuracy_and_statistics;
 #[allow(unsafe_code)] // the one place that handles foreign pointers
 pub mod c;
 mod gears;
-mod judged;
 mod scenes;
 mod source;
 mod study;
@@ -39,17 +39,17 @@ pub enum Question {
     /// The force on each loaded tooth pair, written to a file.
     Loads(scenes::LoadsQuestion),
     /// The cheapest model that is accurate enough.
-    Accuracy(judged::AccuracyQuestion),
+    Accuracy(accuracy_and_statistics::AccuracyQuestion),
     /// Where flanks carry.
     Pattern(scenes::PatternQuestion),
     /// Dimensions, interference and curves of gears.
     Geometry(gears::GeometryQuestion),
-    /// The published study.
+    /// The study that the start values come from.
     Study(study::StudyQuestion),
     /// What a word for a statistic means.
-    Word(judged::WordQuestion),
+    Word(accuracy_and_statistics::StatisticNameQuestion),
     /// Figures of series over time.
-    Statistics(judged::StatisticsQuestion),
+    Statistics(accuracy_and_statistics::StatisticsQuestion),
 }
 
 /// Answers a question, with the `numbers` that come beside it. `progress` reports to the caller, who may stop the work.

@@ -1,4 +1,4 @@
-//! Questions about the published study.
+//! Questions about the study that the start values come from.
 
 use anyhow::Result;
 use bevel_differential::model::Parameters;

@@ -31,7 +31,7 @@ pub fn text(design: &Design) -> String {
 /// Sentence that names the parameters set by the user.
 fn set(design: &Design) -> String {
     if design.settings.is_empty() {
-        return "All parameters have the FMU's start values: the gears of the study.".into();
+        return "All parameters have the FMU's start values.".into();
     }
     let set: Vec<String> =
         design.settings.iter().map(|setting| format!("{} = {}", setting.row.name, setting.text())).collect();
@@ -83,8 +83,8 @@ fn planar(design: &Design) -> String {
         ]);
     }
     let title = wrapped(
-        "Tredgold's approximation by virtual spur gears on the back cones, which the study uses, beside the exact geometry \
-         on the sphere; lengths at the heel. A start of the active profile below 0 is undercut.",
+        "Tredgold's approximation (virtual spur gears on the back cones) and the exact geometry on the sphere. Lengths are at \
+         the heel. A negative start of the active profile means undercut.",
     );
     format!("{title}\n{}", table.terminal())
 }

@@ -112,8 +112,8 @@ fn thicknesses() -> DimensionGroup {
             };
         "tip_land_at_heel" "" Length None, "arc of the tip circle at R_e", land;
         "tip_land_at_toe" "" Length None, "arc of the tip circle at R_i", |d, i| land(d, i) * toe(d);
-        "tip_land_in_modules" "" Ratio None, "alike at heel and toe; pointed below 0.2", |d, i| land(d, i) / d.pair.module;
-        "angular_backlash" "" Angle None, "turn of this gear while the mate is held, 2 j_et / d_e",
+        "tip_land_in_modules" "" Ratio None, "the same at heel and toe; the FMU warns below 0.2", |d, i| land(d, i) / d.pair.module;
+        "angular_backlash" "" Angle None, "rotation of this gear with the mate held, 2 j_et / d_e",
             |d, i| 2.0 * d.spec.backlash / d.pair.outer_pitch_diameter(i);
     )
 }
@@ -123,7 +123,7 @@ fn flank() -> DimensionGroup {
         "arc_to_pitch_point_psi" "ψ" Angle None, "cos δ = cos δ_b cos ψ", |d, i| d.pair.pitch_arc[i];
         "arc_to_tip_psi_a" "ψ_a" Angle None, "cos δ_a = cos δ_b cos ψ_a", |d, i| d.pair.tip_arc[i];
         "arc_to_start_of_active_profile_psi_f" "ψ_f" Angle None, "where the mate's tip touches, negative if undercut", start_arc;
-        "start_of_active_profile_phi_f" "φ_f" Angle None, "its angle from the axis, at least δ_b",
+        "start_of_active_profile_phi_f" "φ_f" Angle None, "polar angle of the start of the active profile, at least δ_b",
             |d, i| d.pair.gears[i].polar_at(start_arc(d, i).max(0.0));
         "spherical_involute_at_pitch_point" "" Angle None, "inv δ = ψ / sin δ_b - arctan(tan ψ / sin δ_b)",
             |d, i| d.pair.gears[i].inv(d.pair.gears[i].pitch);
@@ -136,7 +136,7 @@ fn flank() -> DimensionGroup {
 }
 
 fn limits() -> DimensionGroup {
-    dimensions!("limits; a taller tip passes the mate's base circle, which undercuts the mate or jams in it", DimensionValue::Gear,
+    dimensions!("limits; a longer addendum passes the mate's base circle: it undercuts the mate or interferes", DimensionValue::Gear,
         "limit_face_angle" "" Angle None, "largest δ_a", |d, i| d.pair.limit_tip_angle(i);
         "limit_outer_addendum" "" Length None, "largest h_ae", |d, i| d.pair.limit_addendum(i);
         "limit_outer_addendum_in_modules" "" Ratio None, "largest h_ae / m_et",

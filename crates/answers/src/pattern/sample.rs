@@ -78,7 +78,7 @@ impl Engagement {
     pub fn new(scene: &Scene, progress: &mut Progress) -> Result<Self> {
         ensure!(
             scene.parameters.scene.gear_contact == GearContact::Solid,
-            "scene {}: patterns are seen on solid teeth alone: set scene.gear_contact = \"solid\"",
+            "scene {}: contact patterns need solid teeth: set scene.gear_contact = \"solid\"",
             scene.name
         );
         let mut run = SceneRun::start(scene, scene.step)?;
@@ -124,8 +124,8 @@ impl Engagement {
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
-            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries, whose pressure is",
-            "calculated with the radii at the end of the path and is more",
+            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries; its pressure is calculated",
+            "with the radii at the end of the path, and the real one is higher",
             "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
         ];
         let columns = "case,time,flank,planet_tooth,side_tooth,followed,corner,s,cone,width,planet_height,side_height,\

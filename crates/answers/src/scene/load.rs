@@ -182,7 +182,7 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
             if input_tables.iter().any(|table| table.row.name == name) {
                 let time = digits(event.time);
                 problems.push(format!(
-                    "[[at]] time = {time} s: {name} follows a table, which overrides a value; remove one"
+                    "[[at]] time = {time} s: {name} follows a table, which would override this value; remove the table or the value"
                 ));
             }
         }
@@ -204,11 +204,15 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     let values = numbers("value", &entry.value, &|value| real(row, value));
     let times = numbers("time", &entry.time, &seconds);
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
-        wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
+        wrong(format!(
+            "has {} times and {} values; give as many of both, at least one",
+            entry.time.len(),
+            entry.value.len()
+        ));
     }
     let rising = times.windows(2).all(|pair| pair[0] <= pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
     if !rising || !times.iter().all(|time| time.is_finite()) {
-        wrong("times must not fall, from 0 on".into());
+        wrong("times must be 0 or more and must not fall".into());
     }
     let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(wrong).ok()?;
     let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();

@@ -22,7 +22,7 @@ pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
     }
     match unit.display.iter().find(|shown| shown.name == name) {
         Some(shown) => Ok(number / shown.factor),
-        None if plain => Err(format!("has no unit, but \"{text}\" has {name}")),
+        None if plain => Err(format!("takes a number without a unit; \"{text}\" has the unit {name}")),
         None => Err(format!("unit {name} of \"{text}\" does not fit; units that do: {}", names(&unit).join(", "))),
     }
 }
@@ -33,7 +33,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     let unit = if name.is_empty() { "s" } else { name.as_str() };
     match TIMES.iter().find(|(known, _)| *known == unit) {
         Some((_, per_second)) => Ok(number / per_second),
-        None => Err(format!("unit {name} of \"{text}\" is none of time; known: {}", times().join(", "))),
+        None => Err(format!("unit {name} of \"{text}\" is not a unit of time; known: {}", times().join(", "))),
     }
 }
 

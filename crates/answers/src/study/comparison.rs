@@ -3,8 +3,8 @@
 use bevel_differential::model::Parameters;
 
 use super::evaluation::{Results, SETTLED_BAND, defaults};
-use super::published::{self, CARRIER_SPEED, FORCE, LOAD, PLANET_SPIN, RIPPLE, STRAIGHT_SPEEDS, TURNING_SPEEDS};
 use super::report::{Cell, ComparisonReport, ComparisonRow};
+use super::stated::{self, CARRIER_SPEED, FORCE, LOAD, PLANET_SPIN, RIPPLE, STRAIGHT_SPEEDS, TURNING_SPEEDS};
 use super::theory::{self, Theory};
 
 /// N/m^1.5 in N/mm^1.5.
@@ -40,7 +40,7 @@ fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
     use Note::{Energy, Force, Frequency, Inputs, Nothing, Ripple, Start, Stiffness};
     let [speed, load, stiffness] = defaults();
     let (straight, turning) = (&results.straight, &results.turning);
-    let carrier = published::VEHICLE_SPEED.map(|v| theory::carrier_speed(v, published::TYRE_RADIUS));
+    let carrier = stated::VEHICLE_SPEED.map(|v| theory::carrier_speed(v, stated::TYRE_RADIUS));
     let [ahead, turn] =
         [(CARRIER_SPEED[0], 0.0), (CARRIER_SPEED[1], PLANET_SPIN)].map(|(c, p)| theory.side_speeds(c, p));
     let sum = |speeds: [f64; 2]| speeds[0] + speeds[1];
@@ -54,13 +54,10 @@ fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
     let line = |frequency: Option<f64>| frequency.map_or(Text("none".into()), |f| Number(f, 3));
     let energy = |program| [Empty, Number(0.0, 0), Power(program)];
     let alone = |program, decimals| [Empty, Empty, Number(program, decimals)];
-    let stiffnesses = [published::STIFFNESS_PRINTED, per_mm15(theory.hertz_stiffness()), stiffness].map(Power);
+    let stiffnesses = [stated::STIFFNESS_PRINTED, per_mm15(theory.hertz_stiffness()), stiffness].map(Power);
     let start = [Text("spikes".into()), Empty, Number(straight.peak_tangential_force, 0)];
-    let mesh = [
-        Number(published::MESH_FREQUENCY, 1),
-        Number(theory.mesh_frequency(0.0), 3),
-        Number(straight.mesh_frequency, 3),
-    ];
+    let mesh =
+        [Number(stated::MESH_FREQUENCY, 1), Number(theory.mesh_frequency(0.0), 3), Number(straight.mesh_frequency, 3)];
     vec![
         row(Inputs, "input: carrier at 60 km/h, deg/s", input(CARRIER_SPEED[0], carrier[0], speed)),
         row(Inputs, "input: carrier at 20 km/h, deg/s", input(CARRIER_SPEED[1], carrier[1], turning.carrier_speed)),
@@ -95,11 +92,11 @@ fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
 fn notes(theory: &Theory, results: &Results) -> Vec<String> {
     let [speed, load, stiffness] = defaults();
     let hertz = per_mm15(theory.hertz_stiffness());
-    let carrier = published::VEHICLE_SPEED.map(|v| theory::carrier_speed(v, published::TYRE_RADIUS));
+    let carrier = stated::VEHICLE_SPEED.map(|v| theory::carrier_speed(v, stated::TYRE_RADIUS));
     let geometry = Parameters::default().geometry;
     let side = theory.pair().outer_pitch_diameter(1) * 1e3 / 2.0;
     let straight = &results.straight;
-    let [undercut, jams] = theory.standard_addenda_clip();
+    let [undercut, jams] = theory.standard_addenda_interfere();
     let what = match (undercut, jams) {
         (true, true) => "undercut the planet and jam in the side gear",
         (true, false) => "undercut the planet: the side gear's tips reach below its base circle",
@@ -115,46 +112,46 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
             carrier[0],
             carrier[1],
             theory::load_torque(),
-            published::CARRIER_SPEED[1]
+            stated::CARRIER_SPEED[1]
         ),
         format!(
             "K = 4/3 √R E* is {hertz:.4e} N/mm^1.5. The study prints {:.2e}, a factor ten off, and then uses {:.2e}, \
              {:+.1} %. The program's default is the value used, {stiffness:.2e}; contact.stiffness_from_hertz takes the \
              formula's.",
-            published::STIFFNESS_PRINTED,
-            published::STIFFNESS_USED,
-            (published::STIFFNESS_USED / hertz - 1.0) * 100.0
+            stated::STIFFNESS_PRINTED,
+            stated::STIFFNESS_USED,
+            (stated::STIFFNESS_USED / hertz - 1.0) * 100.0
         ),
         format!(
             "The study says ±{} % for all speeds. Settled, straight driving has no ripple, because no tooth rolls. In \
              the turn the exact tooth form gives no more than this with the study's contact law and constants.",
-            published::RIPPLE
+            stated::RIPPLE
         ),
         format!(
             "T/r_p with r_p = {side:.0} mm is the tangential force of all planets on one side gear, referred to its \
              outer pitch circle. Teeth carry it around the mean cone distance: with {} planets each mesh has F_t = \
              {:.0} N and F_n = {:.0} N.",
             geometry.planet_count,
-            theory.mean_tangential_force(published::LOAD),
-            theory.normal_force(published::LOAD)
+            theory.mean_tangential_force(stated::LOAD),
+            theory.normal_force(stated::LOAD)
         ),
         format!(
             "Started in mid-play, the load throws the side gears back until the teeth strike: the force peaks after \
              {:.0} µs at {:.2} times the static one, and speeds are within {:.0} % of theory after {:.2} ms. The study's \
              output every {:.0} ms cannot see this.",
             straight.peak_time * 1e6,
-            straight.peak_tangential_force / theory.outer_tangential_force(published::LOAD),
+            straight.peak_tangential_force / theory.outer_tangential_force(stated::LOAD),
             SETTLED_BAND * 100.0,
             straight.settled_after * 1e3,
-            published::INTERVAL * 1e3
+            stated::INTERVAL * 1e3
         ),
         format!(
             "Straight ahead planets and side gears do not roll on each other: the mesh frequency z_p |spin| / 360 is \
              {:.0} Hz, in the turn {:.3} Hz. The study's {} Hz is ten times the carrier's rotation ({:.2} Hz).",
             theory.mesh_frequency(0.0),
-            theory.mesh_frequency(published::PLANET_SPIN),
-            published::MESH_FREQUENCY,
-            f64::from(geometry.planet_teeth) * published::CARRIER_SPEED[0] / 360.0
+            theory.mesh_frequency(stated::PLANET_SPIN),
+            stated::MESH_FREQUENCY,
+            f64::from(geometry.planet_teeth) * stated::CARRIER_SPEED[0] / 360.0
         ),
         "Stored energy less work of the inputs plus heat, over the energy that went through in the same time; zero \
          for an exact solution."

@@ -4,7 +4,7 @@ use bevel_differential::model::{Inputs, Parameters, PlanetSpin, Start};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::study::published;
+use crate::study::stated;
 use crate::study::theory::Theory;
 
 /// Length of the record for the spectrum [s]; its window is the end of it, a whole number of mesh periods.
@@ -24,49 +24,49 @@ pub const SETTLED_BAND: f64 = 0.01;
 pub fn request(theory: &Theory) -> Value {
     // what to set, each with its unit, empty for that of the interface; and theory for the figures
     let case = |i: usize, spin: f64| {
-        let carrier = published::CARRIER_SPEED[i];
+        let carrier = stated::CARRIER_SPEED[i];
         json!({
             "start_values": {
                 "scene.start": [f64::from(Start::Rolling as i32), ""],
                 "carrier.speed_command": [carrier, "deg/s"],
-                "left.load_torque": [published::LOAD, ""],
-                "right.load_torque": [published::LOAD, ""],
+                "left.load_torque": [stated::LOAD, ""],
+                "right.load_torque": [stated::LOAD, ""],
             },
             // [km/h]
-            "vehicle_speed": published::VEHICLE_SPEED[i],
+            "vehicle_speed": stated::VEHICLE_SPEED[i],
             // [deg/s]
             "carrier_speed": carrier,
             // of left and right side gear [deg/s]
             "side_speeds": theory.side_speeds(carrier, spin),
             // at the outer pitch circle [N]
-            "tangential_force": theory.outer_tangential_force(published::LOAD),
+            "tangential_force": theory.outer_tangential_force(stated::LOAD),
             // of one mesh [N]
-            "normal_force": theory.normal_force(published::LOAD),
+            "normal_force": theory.normal_force(stated::LOAD),
             // [Hz]
             "mesh_frequency": theory.mesh_frequency(spin),
         })
     };
-    let (straight, mut turning) = (case(0, 0.0), case(1, published::PLANET_SPIN));
+    let (straight, mut turning) = (case(0, 0.0), case(1, stated::PLANET_SPIN));
     turning["start_values"]["scene.planet_spin"] = json!([f64::from(PlanetSpin::Imposed as i32), ""]);
-    turning["start_values"]["planet.spin_command"] = json!([published::PLANET_SPIN, "deg/s"]);
+    turning["start_values"]["planet.spin_command"] = json!([stated::PLANET_SPIN, "deg/s"]);
     json!({
         // length of the records for the spectra, of the study's own record, and its output interval [s]
         "record": RECORD,
-        "duration": published::DURATION,
-        "interval": published::INTERVAL,
+        "duration": stated::DURATION,
+        "interval": stated::INTERVAL,
         // length of the records of the starts, and their output interval [s]
         "start_record": START_RECORD,
         "start_interval": START_INTERVAL,
         // length of the window of the spectra [s]
-        "spectrum_window": SPECTRUM_PERIODS / theory.mesh_frequency(published::PLANET_SPIN),
+        "spectrum_window": SPECTRUM_PERIODS / theory.mesh_frequency(stated::PLANET_SPIN),
         // speeds within this fraction of theory count as settled
         "settled_band": SETTLED_BAND,
         // meshing frequency that the study claims for driving straight ahead [Hz]
-        "claimed_frequency": published::MESH_FREQUENCY,
+        "claimed_frequency": stated::MESH_FREQUENCY,
         // ripple of the speeds that the study shows, either way [%]
-        "claimed_ripple": published::RIPPLE,
+        "claimed_ripple": stated::RIPPLE,
         // on each half-shaft [N·m]
-        "load": published::LOAD,
+        "load": stated::LOAD,
         "planet_teeth": Parameters::default().geometry.planet_teeth,
         "straight": straight,
         "turning": turning,

@@ -2,6 +2,6 @@
 
 pub mod comparison;
 pub mod evaluation;
-pub mod published;
 pub mod report;
+pub mod stated;
 pub mod theory;

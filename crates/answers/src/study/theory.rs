@@ -4,7 +4,7 @@ use bevel_differential::contact::hertz;
 use bevel_differential::geometry::{AddendumSystem, Pair, Tredgold};
 use bevel_differential::model::Parameters;
 
-use crate::study::published;
+use crate::study::stated;
 
 /// 1 m/s [km/h].
 const KMH: f64 = 3.6;
@@ -16,7 +16,7 @@ pub fn carrier_speed(speed: f64, radius: f64) -> f64 {
 
 /// Load on one half-shaft at the limit of adhesion [N·m]: (weight on the axle · adhesion · tyre radius)/2.
 pub fn load_torque() -> f64 {
-    use published::{ADHESION, CAR_MASS, FRONT_SHARE, GRAVITY, TYRE_RADIUS};
+    use stated::{ADHESION, CAR_MASS, FRONT_SHARE, GRAVITY, TYRE_RADIUS};
     CAR_MASS * GRAVITY * FRONT_SHARE * ADHESION * TYRE_RADIUS / 2.0
 }
 
@@ -83,7 +83,7 @@ impl Theory {
     }
 
     /// Whether with standard addenda a mate's tip reaches below the base circle: the planet's, and the side gear's.
-    pub fn standard_addenda_clip(&self) -> [bool; 2] {
+    pub fn standard_addenda_interfere(&self) -> [bool; 2] {
         let spec = bevel_differential::geometry::GearSpec {
             addendum_system: AddendumSystem::Standard,
             ..self.parameters.geometry
@@ -118,7 +118,7 @@ mod tests {
         close(theory.mesh_frequency(200.0), 5.5556, 1e-5);
         assert_eq!(theory.side_speeds(954.0, 200.0), [1079.0, 829.0]);
         close(theory.addendum_limit(), 0.787, 1e-3);
-        assert_eq!(theory.standard_addenda_clip(), [true, false]);
+        assert_eq!(theory.standard_addenda_interfere(), [true, false]);
         close(theory.relative_face_width(), 0.471, 1e-3);
         close(theory.contact_ratios()[0], 1.4835, 1e-4);
         close(theory.contact_ratios()[1], 1.4818, 1e-4);

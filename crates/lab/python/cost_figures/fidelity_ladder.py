@@ -29,7 +29,7 @@ def fidelity_ladder(folder):
     ideal = next(row for row in rows if (row["scene"], row["rung"]) == ("turn", "ideal"))
     style.caption(figure, "Error of seven levels of fidelity against the most detailed one, the bottom row of each panel, which holds the "
                   "values. Colours: below 0.1 % (dark green), 1 %, 10 %, 50 %, above (red). Mean speeds and forces need no teeth, the "
-                  "peaks of a clunk need play, ripple needs tooth pairs, deflection their stiffness, heat friction. Time is that of ideal "
+                  "peaks of a clunk need backlash, ripple needs tooth pairs, deflection needs their stiffness, heat needs friction. Time is that of ideal "
                   f"gears times the figure; these take {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns for a communication step of 1 ms in the turn. Medians with "
                   f"quartiles. {machine}.")
     style.save(figure, folder / "fidelity_ladder.png")

@@ -42,9 +42,9 @@ def other_solvers(folder):
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=4)
     style.caption(figure, "Solvers that others wrote, on exactly the equations of this program: further down and further left is better. "
-                  "Each line runs from loose to tight tolerances; of a solver's settings the first is shown, with the exact "
-                  "Jacobian where it takes one. Names without scipy or scikit-SUNDAE are compiled; the others call the "
-                  "right-hand side from Python, which is most of their time. What comes before the first step is not counted.")
+                  "Each line runs from loose to tight tolerances; each solver is shown with its first setting, with the exact "
+                  "Jacobian if it accepts one. Names without scipy or scikit-SUNDAE are compiled; the others call the "
+                  "right-hand side from Python, which is most of their time. Set-up before the first step is not counted.")
     style.save(figure, folder / "other_solvers.png")
 
 

@@ -50,8 +50,8 @@ def against_time(folder, column, name, what):
     style.caption(figure, f"What accuracy costs: error in the {what} (largest at any compared time, relative) against time on the processor; "
                   "further down and further left is better. Tolerances run from loose (left) to tight (right); the ring marks the "
                   "default, adaptive at 1e-6, whose time is 1 in every panel. Crosses at the top: settings that fail. Grey band: "
-                  f"smaller than the error of the reference. {sources(rows)}Results are compared every 10 ms (turn), or 1 ms and "
-                  f"more (blows), so that the host does not dictate the steps. Median of {times} runs in turn, quartiles as bars. "
+                  f"smaller than the error of the reference. {sources(rows)}Results are compared every 10 ms (turn), or every 0.25 "
+                  f"to 2 ms (others), so that the host does not dictate the steps. Median of {times} runs in turn, quartiles as bars. "
                   f"{machine}.")
     style.save(figure, folder / f"{name}.png")
 
@@ -76,10 +76,10 @@ def counts(folder):
     finish(figure, axes, "number", "error in speed of the side gears")
     legend = handles(axes[0][1])
     figure.legend(legend.values(), legend.keys(), loc="outside upper center", ncols=5, fontsize=style.SMALL)
-    style.caption(figure, "The same in numbers that hold on any machine: error in the speed of the side gears against evaluations of "
+    style.caption(figure, "Counts that hold on any machine: error in the speed of the side gears against evaluations of "
                   "the forces (three columns) and against Jacobians (right column; dormand_prince has none). In the turns the "
                   "explicit method takes the same number of evaluations at any tolerance, because the stiffness of loaded teeth "
-                  "limits its steps and not accuracy. In the clunk the teeth are apart most of the time, and it keeps up. Ring: the "
+                  "limits its steps and not accuracy. In the clunk the teeth are apart most of the time, and dormand_prince keeps up. Ring: the "
                   f"default. *: the reference is this program's own. {machine}.")
     style.save(figure, folder / "work_precision_counts.png")
 

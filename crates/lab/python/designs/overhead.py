@@ -1,4 +1,4 @@
-"""What the Python package costs over the FMU's calls, and what designs cost on workers.
+"""Overhead of the Python package over the FMU's C calls, and cost of designs on workers.
 
     python crates/lab/python/designs/overhead.py [--runs N] [--designs N]
 
@@ -25,14 +25,14 @@ TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "car
         "scene.start": "rolling"}
 STOP = 0.5
 # limits: time with the package over time of the calls in C; for the Monte Carlo wall time [s]
-LIMIT_FINAL, LIMIT_RECORD, LIMIT_DRAWN, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0
+LIMIT_FINAL, LIMIT_RECORD, LIMIT_RANDOM, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0
 LOADS = {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_torque": "normal(835 N.m, 40 N.m)",
          "geometry.backlash": "uniform(0.05 mm, 0.15 mm)", "tooth_friction.coefficient": "uniform(0.03, 0.08)"}
 FRICTION = {"friction off": {}, "friction on": {"effects.tooth_friction": True},
             "friction on, tolerance 1e-4": {"effects.tooth_friction": True, "solver.relative_tolerance": 1e-4}}
-DRAWN = {"drawn tooth errors": ({"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7},
-                                {"tooth_errors.seed": "seed", "tooth_errors.crowning": "uniform(2 um, 10 um)"}),
-         "drawn geometry": ({}, {"geometry.face_width": "normal(20 mm, 0.05 mm)", "geometry.module": "normal(4.5 mm, 0.01 mm)"})}
+RANDOM = {"random tooth errors": ({"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7},
+                                 {"tooth_errors.seed": "seed", "tooth_errors.crowning": "uniform(2 um, 10 um)"}),
+          "random geometry": ({}, {"geometry.face_width": "normal(20 mm, 0.05 mm)", "geometry.module": "normal(4.5 mm, 0.01 mm)"})}
 
 
 def timed(action, *arguments):
@@ -59,9 +59,9 @@ def overhead(calls, fmu, runs):
 def row(what, package, bare, unit, limit):
     """A row of the table. If `bare` is None, the limit holds for the package's time itself."""
     ratio = package / bare if bare else None
-    kept = (ratio if bare else package) <= limit
+    met = (ratio if bare else package) <= limit
     return (what, f"{package:.3f} {unit}", f"{bare:.3f} {unit}" if bare else "-", f"{ratio:.2f}" if bare else "-",
-            f"{limit:g}" if bare else f"{limit:g} {unit}", "yes" if kept else "no")
+            f"{limit:g}" if bare else f"{limit:g} {unit}", "yes" if met else "no")
 
 
 def monte_carlo(fmu, designs, workers):
@@ -76,18 +76,19 @@ def monte_carlo(fmu, designs, workers):
             yield row(f"10 000 turns, {workers} workers, {what}", taken, None, "s", LIMIT_MONTE_CARLO)
 
 
-def drawn(fmu, designs, workers):
+def random_designs(fmu, designs, workers):
     """Rows of designs with random tooth errors or geometry: wall time on workers, and time of the bare calls over the workers."""
-    for what, (values, vary) in DRAWN.items():
+    for what, (values, vary) in RANDOM.items():
         with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene, Farm(workers) as farm:
             task = Task(scene, ["left.speed", "right.speed", "efficiency"])
             plan = Plan.parse(Space.parse(fmu, vary), "random", designs, 1).designs()
             farm.evaluate(task, plan[:50])
             taken = timed(farm.evaluate, task, plan)
-        yield row(f"{designs} designs, {what}", taken, bare_designs(fmu, {**TURN, **values}, plan) / workers, "s", LIMIT_DRAWN)
+        calls = seconds_of_calls(fmu, {**TURN, **values}, plan) / workers
+        yield row(f"{designs} designs, {what}", taken, calls, "s", LIMIT_RANDOM)
 
 
-def bare_designs(fmu, values, plan):
+def seconds_of_calls(fmu, values, plan):
     """Seconds of the bare calls for all designs in sequence, through `Instance` with arrays made before."""
     from bevel_differential.batches import Batches
     from bevel_differential.instance import Instance
@@ -129,10 +130,10 @@ def main():
     fmu, workers = Fmu.of(), min(2, usual_workers())
     with tempfile.TemporaryDirectory() as folder:
         calls = Calls(folder)
-        rows = [("what", "package", "calls", "ratio", "limit", "kept"), *overhead(calls, fmu, given.runs),
-                *monte_carlo(fmu, given.designs, workers), *drawn(fmu, max(50, given.designs // 10), workers)]
+        rows = [("case", "package", "C calls", "ratio", "limit", "met"), *overhead(calls, fmu, given.runs),
+                *monte_carlo(fmu, given.designs, workers), *random_designs(fmu, max(50, given.designs // 10), workers)]
         print("\n".join(aligned(rows, left=1)), "\n")
-        by_workers = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
+        by_workers = [("workers", "designs/s", "times one process"), *scaling(fmu, max(50, given.designs // 10))]
         print("\n".join(aligned(by_workers, left=1)))
 
 

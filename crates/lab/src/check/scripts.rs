@@ -10,7 +10,7 @@ use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
 use super::platforms;
-use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number};
+use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number};
 
 /// The wheel on a machine without Rust.
 pub const WHEEL: Script = Script {
@@ -23,7 +23,7 @@ pub const WHEEL: Script = Script {
     file: "crates/lab/python/wheel.py",
     doing: "making a fresh Python environment",
     given: &[Given::Made(wheel), Given::Target("wheel")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 fn wheel(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
@@ -55,7 +55,7 @@ pub const ZERO_COST: Script = Script {
     doing: "counting",
     given: &[Given::Target(BUILD), Given::Made(effects_on)],
     sections: &[("docs/effects.md", "off", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 /// The folder in which both build the program that steps.
 const BUILD: &str = "off";
@@ -73,7 +73,7 @@ pub const REAL_TIME: Script = Script {
     doing: "counting",
     given: &[Given::Target("real-time"), Given::Target(BUILD)],
     sections: &[("docs/cost.md", "real-time", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// Changes of the source that no test notices: drawn by a seed from the rooms with the physics, built in at once, tried one by one.
@@ -93,7 +93,7 @@ pub const MUTANTS: Script = Script {
     folder: Some("mutants/{seed}-{count}"),
     given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
     sections: &[("docs/architecture.md", "mutants", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// The packaged FMU in other hosts: each host on each scene, all compared with fmpy.
@@ -113,7 +113,7 @@ pub const HOSTS: Script = Script {
     folder: Some("hosts"),
     given: &[Given::Fmu, Given::PlainFmu, Given::Folder, Given::Named("require"), Given::Named("with-fmi-sim")],
     sections: &[("docs/fmi.md", "hosts", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// The same scenes with the library for each platform, Windows under wine: the bits of all outputs, and the time.
@@ -126,5 +126,5 @@ pub const PLATFORMS: Script = Script {
     doing: "comparing",
     given: &[Given::Made(platforms::built)],
     sections: &[("docs/fmi.md", "platforms", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };

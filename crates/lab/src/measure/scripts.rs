@@ -7,17 +7,17 @@ use anyhow::{Result, ensure};
 use clap::ArgMatches;
 use fmu_build::tools::progress::Progress;
 
-use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number, path};
+use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number, path};
 
 /// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by
 /// quantity, contact laws, and levels of gear contact.
 pub const COST: Script = Script {
     name: "cost",
-    about: "Measures what accuracy costs: methods, fidelities, settings and communication steps",
+    about: "Measures what accuracy costs: methods, levels of gear contact, settings and communication steps",
     options: || {
         vec![
             flag("quick", "Take under a minute: fewer tolerances, steps and runs"),
-            flag("decisions", "Make only the table of decisions and that of the laws").conflicts_with("quick"),
+            flag("decisions", "Make only the tables of decisions and laws").conflicts_with("quick"),
             flag("write", "Also renew docs/cost.md and its figures"),
             path("out", "DIR", "Folder for figures and CSV [default: target/cost]"),
         ]
@@ -27,7 +27,7 @@ pub const COST: Script = Script {
     given: &[Given::Fmu, Given::Folder, Given::Named("quick"), Given::Named("decisions")],
     sections: &[("docs/cost.md", "decisions", "decisions.md"), ("docs/cost.md", "cost", "summary.md")],
     has_pictures: true,
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// Error and time of faceted solid teeth against exact teeth, in the study's turn.
@@ -47,7 +47,7 @@ pub const SOLIDS: Script = Script {
     given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
     sections: &[("docs/cost.md", "solids", ""), ("docs/study.md", "solids", "study.md")],
     has_pictures: true,
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// Check of the command `accuracy`. For random scenes each chosen setting runs in the packaged FMU and is compared with another
@@ -59,12 +59,9 @@ pub const SURVEY: Script = Script {
         vec![
             number("scenes", "SCENES", "60", "Number of scenes").value_parser(clap::value_parser!(u64).range(1..)),
             number("seed", "SEED", "1", "Seed of the scenes"),
-            flag(
-                "shipped",
-                "Answer for the shipped scenes instead, all outputs of each to 1 %, and say how long that takes",
-            ),
+            flag("shipped", "Answer for the shipped scenes instead (all outputs to 1 %), and time the answers"),
             flag("write", "Also renew the section in docs/accuracy.md"),
-            path("out", "DIR", "Folder for the cases and the table of all [default: target/survey]"),
+            path("out", "DIR", "Folder for the cases and their table [default: target/survey]"),
         ]
     },
     file: "crates/lab/python/survey.py",
@@ -72,7 +69,7 @@ pub const SURVEY: Script = Script {
     folder: Some("survey"),
     given: &[Given::Fmu, Given::Folder, Given::Value("scenes"), Given::Value("seed"), Given::Named("shipped")],
     sections: &[("docs/accuracy.md", "survey", "survey.md"), ("docs/accuracy.md", "shipped", "shipped.md")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// This program against other simulators, on the study's two cases.
@@ -88,7 +85,7 @@ pub const SIMULATORS: Script = Script {
     given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
     sections: &[("docs/compare.md", "peers", "")],
     has_pictures: true,
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// This program's methods against solvers of other authors, on the same equations.
@@ -103,14 +100,14 @@ pub const SOLVERS: Script = Script {
     folder: Some("cost"),
     given: &[Given::Equations, Given::Folder, Given::Named("quick")],
     sections: &[("docs/compare.md", "foreign", "")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// A drivetrain coupled from FMUs against one system with all its equations. The FMU has integers in the place of enumerations,
 /// because libcosim cannot set enumerations.
 pub const DRIVETRAIN: Script = Script {
     name: "drivetrain",
-    about: "Couples a whole drivetrain from FMUs and compares it with all its equations at once (many minutes)",
+    about: "Couples a drivetrain of FMUs and compares it with one integration of all equations (many minutes)",
     options: || {
         vec![
             flag("quick", "Ideal gears only, in a minute and a half").conflicts_with("write"),
@@ -124,13 +121,13 @@ pub const DRIVETRAIN: Script = Script {
     given: &[Given::PlainFmu, Given::Equations, Given::Folder, Given::Named("quick")],
     sections: &[("docs/coupling.md", "drivetrain", "")],
     has_pictures: true,
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// The contact patterns of the documentation, by the command `pattern` of the Python package.
 pub const PATTERNS: Script = Script {
     name: "patterns",
-    about: "Shows the contact patterns of docs/geometry.md: aligned teeth, and one thing out of place at a time",
+    about: "Shows the contact patterns of docs/geometry.md: aligned teeth, and one deviation at a time",
     options: || vec![flag("write", "Also renew docs/geometry.md and its figures")],
     file: "bevel_differential",
     doing: "simulating",
@@ -144,20 +141,20 @@ pub const PATTERNS: Script = Script {
     ],
     sections: &[("docs/geometry.md", "pattern", "findings.md")],
     has_pictures: true,
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 /// Times of levels, laws and effects: each alone, each pair, all together; or the ratios of the times of two builds. The command
 /// `accuracy` and the page use the prices of each alone.
 pub const PRICES: Script = Script {
     name: "prices",
-    about: "Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some minutes)",
+    about: "Times levels, laws and effects, or compares the FMUs of two builds (an idle machine, some minutes)",
     options: || {
         vec![
             path("against", "FMU", "The FMU of another build: prints the ratios of this build's times to its own")
                 .conflicts_with("write"),
             flag("quick", "Three runs of each instead of nine, and no pairs").conflicts_with("write"),
-            flag("write", "Also renew the tables in docs/cost.md and the prices by which `accuracy` counts"),
+            flag("write", "Also renew the tables in docs/cost.md and the prices that `accuracy` uses"),
         ]
     },
     file: "crates/lab/python/prices.py",
@@ -165,7 +162,7 @@ pub const PRICES: Script = Script {
     folder: Some("prices"),
     given: &[Given::Made(other_build), Given::Fmu, Given::Folder, Given::Named("quick")],
     sections: &[("docs/cost.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
-    ..SCRIPT
+    ..DEFAULTS
 };
 
 fn other_build(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {

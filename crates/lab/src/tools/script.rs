@@ -44,7 +44,7 @@ pub struct Script {
 }
 
 /// Defaults of a script.
-pub const SCRIPT: Script = Script {
+pub const DEFAULTS: Script = Script {
     name: "",
     alias: None,
     about: "",

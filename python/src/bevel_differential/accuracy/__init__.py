@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..answers import Progress, about, ask
-from ..extras import needed
+from ..extras import require
 from ..scene import Scene
 from ..values import FileName, Value
 
@@ -87,7 +87,7 @@ class Accuracy:
 
     def plot(self, file: FileName | None = None) -> "Figure":
         """Draws the error of all runs against their cost."""
-        needed("matplotlib", "plot")
+        require("matplotlib", "plot")
         from .. import style
 
         with style.styled():
@@ -145,8 +145,8 @@ def _drawn(style, found, file):
             axes.plot(*zip(*of_kind), marker, color=style.CYCLE[number % len(style.CYCLE)], ms=6, alpha=0.75,
                       label=text.replace(" +", " + gear bodies"))
     if others:
-        axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="another method, judged by its time")
-    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference, drawn at what it strays")
+        axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="another method (cost from its time)")
+    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its stray with the tolerance)")
     front, best = [], float("inf")
     for x, y in sorted(point(run) for run in tried):
         if y < best:
@@ -167,7 +167,7 @@ def _drawn(style, found, file):
     told = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
     style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects or tolerance, compared with "
                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
-                  f"cheapest for each accuracy. Below the dashed line is accurate enough; {told}.")
+                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {told}.")
     if file is not None:
         style.save(picture, file)
     return picture

@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     add_scene(parser)
     parser.add_argument("--want", metavar="OUTPUT[:STATISTIC]", action="append", default=[],
-                        help="a quantity, such as left.speed:mean; may be repeated (start value: all outputs of the scene)")
+                        help="a quantity, such as left.speed:mean; may be repeated (default: all outputs of the scene)")
     parser.add_argument("--within", metavar="PERCENT", required=True, help="the accuracy that it needs, such as 1%%")
     parser.add_argument("--from", metavar="TIME", dest="from_", help="judge outputs from this time on, such as 10ms")
     parser.add_argument("--csv", metavar="FILE", help="write a table of all that was tried")
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Answers, prints and writes files. Returns 0."""
-    from ..extras import needed
+    from ..extras import require
     from ..output_file import checked, checked_picture
     from ..progress import shown
     from ..values import DifferentialError
@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.write and Path(arguments.write).exists():
         raise DifferentialError(f"{arguments.write} is there already: remove it, or name another with --write FILE")
     if checked_picture(arguments.plot):
-        needed("matplotlib", "plot")
+        require("matplotlib", "plot")
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=once("--set", arguments.set),

@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from ..extras import needed
+from ..extras import require
 from ..values import FileName
 
 GEARS = ("planet", "side_gear")
@@ -24,7 +24,7 @@ def available() -> bool:
 
 def step(shape: dict[str, Any], part: str = "assembly") -> bytes:
     """The solid of a gear, or all gears and pins of the differential, as STEP in millimetres."""
-    needed("OCP.gp", EXTRA)
+    require("OCP.gp", EXTRA)
     from .step_file import step
 
     return step(shape, part)
@@ -33,7 +33,7 @@ def step(shape: dict[str, Any], part: str = "assembly") -> bytes:
 def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> bytes:
     """The same as facets; STL and 3MF in millimetres, GLB in metres."""
     for module in ("trimesh", "lxml", "networkx") if kind == "3mf" else ("trimesh",):
-        needed(module, EXTRA)
+        require(module, EXTRA)
     from .mesh_file import mesh
 
     return mesh(shape, part, kind)
@@ -41,7 +41,7 @@ def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> by
 
 def drawing(shape: dict[str, Any], part: str) -> bytes:
     """Outlines at heel and toe as curves in space, and the section of a gear with its dimensions, as DXF in millimetres."""
-    needed("ezdxf", EXTRA)
+    require("ezdxf", EXTRA)
     from .dxf_file import drawing
 
     return drawing(shape, part)

@@ -32,7 +32,8 @@ COMMANDS = {
                   "what manufacturing tolerances do: spread of figures, yield, and which tolerance is worth its money"),
     "spectrum": (".spectrum.command", "design",
                  "damage and life of the gears over a duty cycle: events with counts, torque and speeds"),
-    "study": (".study.command", "report", "simulate the published study's two cases and compare them with it and with theory"),
+    "study": (".study.command", "report", "simulate the two cases of the study and compare the results with the study and with theory"),
+    "verify": (".verify.command", None, "run an FMU against the evidence that it carries: experiments, results and their tolerances"),
     "examples": (".command.examples", None, "copy the example files of designs, tolerances, duty cycles and cars into a folder"),
     "page": (".command.page", None, "open the differential live in a browser"),
 }

@@ -35,7 +35,7 @@ def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **befor
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:
     """The FMU to use."""
-    parser.add_argument("--fmu", metavar="FILE", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
+    parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
 
 
 def add_set(parser: argparse.ArgumentParser) -> None:
@@ -52,7 +52,7 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
 
 def add_farm(parser: argparse.ArgumentParser) -> None:
     """Who evaluates many designs."""
-    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (start value: one per core; 0: this process)")
+    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (default: one per core; 0: this process)")
     parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
 

@@ -12,7 +12,7 @@ FOLDERS = {"design": ("*.toml", "*.csv"), "vehicle": ("*.py",)}
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("--out", metavar="FOLDER", default="examples", help="where to copy them (start value: examples)")
+    parser.add_argument("--out", metavar="FOLDER", default="examples", help="where to copy them (default: examples)")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -15,9 +15,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for kind in KINDS:
         parser.add_argument(f"--{kind}", action="append_const", dest="kinds", const=kind, help=f"write {_WHAT[kind]} (extra cad)")
     parser.add_argument("--part", action="append", choices=PARTS, help="write these of this part alone (may be repeated)")
-    parser.add_argument("--facets", metavar="N", type=int, default=32, help="pieces of a flank's curve, and facets of meshes (start value: 32)")
+    parser.add_argument("--facets", metavar="N", type=int, default=32, help="pieces of a flank's curve, and facets of meshes (default: 32)")
     parser.add_argument("--thicken", metavar="LENGTH", help="check for interference with teeth thicker by this length, such as 0.15mm")
-    parser.add_argument("--out", metavar="FOLDER", default="geometry", help="folder of the files (start value: geometry)")
+    parser.add_argument("--out", metavar="FOLDER", default="geometry", help="folder of the files (default: geometry)")
     add_progress(parser)
 
 

@@ -8,7 +8,7 @@ from .arguments import add_progress, add_scene, once
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     add_scene(parser)
-    parser.add_argument("--every", metavar="TIME", help="time between records, such as 0.1ms (start value: the scene's "
+    parser.add_argument("--every", metavar="TIME", help="time between records, such as 0.1ms (default: the scene's "
                                                         "communication step)")
     parser.add_argument("--out", metavar="FILE", required=True, help="the CSV file to write")
     add_progress(parser)

@@ -18,9 +18,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), "
                              "triangular(A, PEAK, B), lognormal(MEDIAN, FACTOR) or seed")
     add_set(parser)
-    parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (start value: random)")
+    parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (default: random)")
     parser.add_argument("--runs", type=int, metavar="N", help="how many; not for a grid, and Sobol takes a power of two")
-    parser.add_argument("--seed", type=int, metavar="N", help="what all draws follow from (start value: 0)")
+    parser.add_argument("--seed", type=int, metavar="N", help="what all draws follow from (default: 0)")
     parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
                         help="a figure to record, such as left.speed:mean; the final value without a statistic")
     parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING
 
-from ..extras import needed
+from ..extras import require
 from ..values import DifferentialError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ SETTINGS = {
 @contextmanager
 def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iterator[Client]":
     """A dask client: of the scheduler at an address, or of an own cluster with one thread per worker."""
-    dask, distributed = needed("dask", "sweep"), needed("distributed", "sweep")
+    dask, distributed = require("dask", "sweep"), require("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
                                 "if __name__ == \"__main__\":")

@@ -11,7 +11,7 @@ from concurrent.futures import CancelledError
 from contextlib import closing
 from typing import Any, Self
 
-from ..extras import needed
+from ..extras import require
 from ..values import DifferentialError, Number
 from . import cluster
 from .task import Row, Task
@@ -143,7 +143,7 @@ class _Run:
 def _with_bar(rows, total):
     # who stops early closes what is returned, and with it the rows: designs under way are cancelled
     with closing(rows):
-        yield from needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+        yield from require("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
 
 
 # on a worker, of this thread, as an instance belongs to one: the last task, and how it was packed

@@ -85,8 +85,8 @@ class Store:
         self.finished: pa.Table | None = None
         checked(self.file)
         if self.file.suffix.lower() == ".csv":
-            raise DifferentialError(f"{file}: results that can be gone on with are Parquet; name it {self.file.stem}.parquet (a table "
-                                    "besides: --csv)")
+            raise DifferentialError(f"{file}: results that can be resumed are stored as Parquet; name the file {self.file.stem}.parquet "
+                                    "(--csv writes a table as well)")
         if force:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
@@ -145,10 +145,10 @@ class Store:
         except (OSError, pa.ArrowException):
             found = {}
         if found.get("hash") != self.metadata["hash"]:
-            raise DifferentialError(f"{self.file}: it is there and holds something else; name another file, or overwrite it with "
+            raise DifferentialError(f"{self.file}: the file exists and holds other results; name another file, or overwrite it with "
                                     "--force (force=True)")
         if not resume:
-            raise DifferentialError(f"{self.file}: it is there and holds the results of this plan; --resume (resume=True) shows "
+            raise DifferentialError(f"{self.file}: the file exists and holds the results of this plan; --resume (resume=True) shows "
                                     "them, --force (force=True) starts over")
         return table
 

@@ -13,11 +13,11 @@ QUICK = {"population": 32, "generations": 12, "starts": 1}
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("problem", type=Path, help="problem file (TOML), such as study_gears.toml of `bevel-differential examples`")
-    parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")
+    parser.add_argument("--out", type=Path, help="folder of the results (default: target/optimise/NAME)")
     parser.add_argument("--population", type=int, help="designs of a generation")
     parser.add_argument("--generations", type=int, help="how many generations")
-    parser.add_argument("--starts", type=int, help="how many searches begin anew; one more goes on from the best of all")
-    parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
+    parser.add_argument("--starts", type=int, help="independent searches; with several, a last one starts from the best designs of all")
+    parser.add_argument("--seed", type=int, help="seed of all random numbers; the same seed gives the same front")
     parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     add_farm(parser)
@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _optimise(arguments, problem, out, store, workers):
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
-    from .report import LETTERS, choice_table, picture, scene_text, standing, to_csv, write_gears
+    from .report import LETTERS, choice_table, compared_with_front, picture, scene_text, to_csv, write_gears
     from .search import search
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
@@ -69,8 +69,8 @@ def _optimise(arguments, problem, out, store, workers):
     confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, workers)}
     to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
-    told = [standing(name, row, best, problem) for name, row in compared.items()]
-    told += _held(confirmed.values(), problem)
+    told = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
+    told += _confirmation(confirmed.values(), problem)
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *told]))
@@ -80,7 +80,7 @@ def _optimise(arguments, problem, out, store, workers):
         print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
 
 
-def _held(confirmed, problem):
+def _confirmation(confirmed, problem):
     """A line for each richer model: how many designs still meet all conditions, and by how much objectives change."""
     for model in problem.confirm:
         ran = [each for each in confirmed if model in each.models]
@@ -90,5 +90,5 @@ def _held(confirmed, problem):
             changes = [100.0 * each.difference(model, str(objective.want)) for each in ran]
             if not all(abs(change) < 0.05 for change in changes):
                 spans.append(f"{str(objective.want).removesuffix(':final')} by {min(changes):+.1f} to {max(changes):+.1f} %")
-        yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
+        yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; this model changes "
                f"{', '.join(spans) or 'nothing'}")

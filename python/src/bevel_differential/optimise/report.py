@@ -47,7 +47,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     return f"{head}\n{body}\n\n{reasons}\n"
 
 
-def standing(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Problem) -> str:
+def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Problem) -> str:
     """Where a compared design stands against a front."""
     checks = f"; refused by: {'; '.join(row.refused)}" if row.refused else "; it meets all conditions"
     if not all(str(each.want) in row.figures for each in problem.objectives):

@@ -8,10 +8,10 @@ from ..command.arguments import add_progress, add_set, once
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (start value: the study's "
+    parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (default: the study's "
                                                                    "turn, aligned and with one thing out of place at a time)")
     add_set(parser)
-    parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (start value: pattern)")
+    parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
     add_progress(parser)
 
 

@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     # as it was called before
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
     add_set(parser)
-    parser.add_argument("--out", metavar="FILE", help="the page to write (start value: report-NAME.html)")
+    parser.add_argument("--out", metavar="FILE", help="the page to write (default: report-NAME.html)")
     parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are "
                                                              "off")
     add_fmu(parser)

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..optimise.pair import Gear, Pair
-from . import style, words
+from . import svg_style, words
 from .simulated import Simulated
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MM = 1e3
-PLANET, SIDE = style.OCHRE, style.BLUE
+PLANET, SIDE = svg_style.OCHRE, svg_style.BLUE
 NODES = 24
 # teeth that are drawn on either side of the middle, and half the width of the picture in pitches
 NEIGHBOURS, SHOWN = 3, 2.3
 
 
-@style.drawn("section", 6.0)
+@svg_style.drawn("section", 6.0)
 def draw_section(picture: "Figure", pair: Pair) -> None:
     """The section in the plane of the carrier's axis (across the page) and the planets' axes (upright)."""
     axes = picture.subplots()
@@ -32,9 +32,9 @@ def draw_section(picture: "Figure", pair: Pair) -> None:
     reach, tilt = MM * pair.outer_cone, pair.gears[1].pitch
     along, up = (reach * math.cos(pair.gears[i].root) + 4.0 for i in (1, 0))
     for begin, end in (((-along, 0.0), (along, 0.0)), ((0.0, -up), (0.0, up))):
-        axes.plot(*zip(begin, end), color=style.INK, lw=0.8, ls="-.", alpha=0.7)
+        axes.plot(*zip(begin, end), color=svg_style.TEXT_COLOUR, lw=0.8, ls="-.", alpha=0.7)
     for turn in (tilt, math.pi - tilt, math.pi + tilt, -tilt):
-        axes.plot([0.0, reach * math.cos(turn)], [0.0, reach * math.sin(turn)], color=style.INK, lw=0.8, ls="--", alpha=0.7)
+        axes.plot([0.0, reach * math.cos(turn)], [0.0, reach * math.sin(turn)], color=svg_style.TEXT_COLOUR, lw=0.8, ls="--", alpha=0.7)
     _dimensions(axes, pair)
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -79,7 +79,7 @@ def _dimensions(axes, pair):
     radius = 0.55 * MM * pair.inner_cone
     for begin, end, gear in ((0.0, side.pitch, side), (side.pitch, 0.5 * math.pi, planet)):
         turn = np.linspace(begin, end, 40)
-        axes.plot(radius * np.cos(turn), radius * np.sin(turn), color=style.INK, lw=0.8)
+        axes.plot(radius * np.cos(turn), radius * np.sin(turn), color=svg_style.TEXT_COLOUR, lw=0.8)
         middle = 0.5 * (begin + end)
         axes.text((radius + 0.8) * math.cos(middle), (radius + 0.8) * math.sin(middle), f"{math.degrees(gear.pitch):.1f}°",
                   fontsize=8.5, ha="left", va="bottom")
@@ -95,9 +95,9 @@ def _dimensions(axes, pair):
 def _between(axes, begin, end, offset, text, place=0.5):
     """A dimension from point to point, moved aside, with its extension lines and its text at a place between."""
     for point in (begin, end):
-        axes.plot(*zip(point, point + 1.04 * offset), color=style.INK, lw=0.5, alpha=0.6)
+        axes.plot(*zip(point, point + 1.04 * offset), color=svg_style.TEXT_COLOUR, lw=0.5, alpha=0.6)
     first, last = begin + offset, end + offset
-    axes.annotate("", first, last, arrowprops={"arrowstyle": "<->", "color": style.INK, "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
+    axes.annotate("", first, last, arrowprops={"arrowstyle": "<->", "color": svg_style.TEXT_COLOUR, "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
     turned = math.degrees(math.atan2(*(last - first)[::-1]))
     # letters stand upright, or read from below
     turned = 90.0 - (90.0 - turned) % 180.0
@@ -105,7 +105,7 @@ def _between(axes, begin, end, offset, text, place=0.5):
               fontsize=8.5)
 
 
-@style.drawn("teeth", 4.3)
+@svg_style.drawn("teeth", 4.3)
 def draw_teeth(picture: "Figure", run: Simulated, pair: Pair) -> None:
     """Planet 1 and the left side gear as they stand at the end of the run, in the carrier's frame."""
     last = run.record[-1]
@@ -114,8 +114,8 @@ def draw_teeth(picture: "Figure", run: Simulated, pair: Pair) -> None:
     planet, side = pair.gears
     axes = picture.subplots()
     # the planet's tooth 0 faces the left side gear, which has a gap there
-    _teeth(axes, pair, planet, 0.0, lambda polar, azimuth: _planet(polar, azimuth - planet_turn), style.OCHRE, "planet 1")
-    _teeth(axes, pair, side, math.pi / side.teeth, lambda polar, azimuth: _side(polar, azimuth + side_turn), style.BLUE,
+    _teeth(axes, pair, planet, 0.0, lambda polar, azimuth: _planet(polar, azimuth - planet_turn), svg_style.OCHRE, "planet 1")
+    _teeth(axes, pair, side, math.pi / side.teeth, lambda polar, azimuth: _side(polar, azimuth + side_turn), svg_style.BLUE,
           "left side gear")
     _action(axes, pair)
     half = SHOWN * math.pi * pair.module * MM
@@ -185,5 +185,5 @@ def _action(axes, pair):
     planet, side = pair.gears
     ends = [MM * pair.outer_cone * planet.arc(planet.pitch), -MM * pair.outer_cone * side.arc(side.pitch)]
     slope = np.array([math.cos(pair.pressure_angle), math.sin(pair.pressure_angle)])
-    axes.plot(*np.outer(slope, ends), color=style.RED, ls="--", lw=1.1, label="line of action")
-    axes.plot(0.0, 0.0, "o", color=style.RED, ms=4)
+    axes.plot(*np.outer(slope, ends), color=svg_style.RED, ls="--", lw=1.1, label="line of action")
+    axes.plot(0.0, 0.0, "o", color=svg_style.RED, ms=4)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section
 from .head import energy_balance
 from .simulated import Simulated
@@ -28,11 +28,11 @@ def section(run: Simulated) -> Section:
     return found
 
 
-@style.drawn("bias", 4.0)
+@svg_style.drawn("bias", 4.0)
 def _draw_bias(picture, run, left, right):
     traces, plane = picture.subplots(1, 2, width_ratios=[1.4, 1])
-    traces.plot(run.time, left, color=style.BLUE, label="left half-shaft", lw=2.2)
-    traces.plot(run.time, right, color=style.RED, label="right half-shaft")
+    traces.plot(run.time, left, color=svg_style.BLUE, label="left half-shaft", lw=2.2)
+    traces.plot(run.time, right, color=svg_style.RED, label="right half-shaft")
     traces.set(xlabel="time, s", ylabel="torque, N·m", title="over time")
     traces.legend(loc="best")
     reach = 1.08 * max(float(np.max(np.abs(left))), float(np.max(np.abs(right))))
@@ -40,11 +40,11 @@ def _draw_bias(picture, run, left, right):
     for ratio in (1.0, *RATIOS):
         for slope in {ratio, 1.0 / ratio}:
             ends = np.array([max(low, low / slope), min(reach, reach / slope)])
-            plane.plot(ends, slope * ends, color=style.GREY, lw=1.0 if ratio == 1.0 else 0.6, ls="-" if ratio == 1.0 else "--")
+            plane.plot(ends, slope * ends, color=svg_style.GREY, lw=1.0 if ratio == 1.0 else 0.6, ls="-" if ratio == 1.0 else "--")
             place = min(reach, reach / slope) * 0.96
-            plane.text(place, slope * place, words.number(ratio), color=style.GREY, fontsize=8, ha="right", va="bottom")
-    plane.plot(left, right, color=style.VIOLET, marker=".", ms=3, lw=0.8)
-    plane.plot(left[-1], right[-1], "o", color=style.VIOLET, ms=6)
+            plane.text(place, slope * place, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
+    plane.plot(left, right, color=svg_style.VIOLET, marker=".", ms=3, lw=0.8)
+    plane.plot(left[-1], right[-1], "o", color=svg_style.VIOLET, ms=6)
     plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="plane of torques", xlim=(low, reach),
               ylim=(low, reach))
     plane.set_aspect("equal")
@@ -69,22 +69,22 @@ def _heats(run):
     return [name for name in names if abs(run.record[name][-1]) > NO_HEAT]
 
 
-@style.drawn("power")
+@svg_style.drawn("power")
 def _draw_power(picture, run):
     heats = _heats(run)
     picture.set_figheight(5.6 if heats else 4.0)
     panels = picture.subplots(3 if heats else 2, 1, sharex=True, height_ratios=[1.3, 1, 1] if heats else [1.3, 1])
-    scale, unit = style.kilo([run.series(name) for name in ("power.in", "power.out")])
-    for name, colour, label in (("power.in", style.BLUE, "in"), ("power.out", style.GREEN, "out to the wheels"),
-                                ("power.loss", style.RED, "loss")):
+    scale, unit = svg_style.unit_prefix([run.series(name) for name in ("power.in", "power.out")])
+    for name, colour, label in (("power.in", svg_style.BLUE, "in"), ("power.out", svg_style.GREEN, "out to the wheels"),
+                                ("power.loss", svg_style.RED, "loss")):
         panels[0].plot(run.time, run.series(name) / scale, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
     panels[0].set(ylabel=f"power, {unit}W")
     if heats:
         series = [np.maximum(run.series(name), 0.0) for name in heats]
         panels[1].stackplot(run.time, *series, labels=[name.removeprefix("heat.").replace("_", " ") for name in heats],
-                            colors=style.CYCLE[1:1 + len(heats)], alpha=0.75)
+                            colors=svg_style.CYCLE[1:1 + len(heats)], alpha=0.75)
         panels[1].set(ylabel="heat so far, J")
-    panels[-1].plot(run.time, run.series("solver.energy_residual"), color=style.GREY, label="energy residual")
+    panels[-1].plot(run.time, run.series("solver.energy_residual"), color=svg_style.GREY, label="energy residual")
     panels[-1].set(xlabel="time, s", ylabel="residual, J")
     for panel in panels:
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..values import DifferentialError
 from ..want import COARSEST, figures
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
 
@@ -37,16 +37,16 @@ def _name(planet, side):
     return f"planet[{planet}].{side}_normal_force"
 
 
-@style.drawn("forces")
+@svg_style.drawn("forces")
 def _draw(picture, run, planets):
     picture.set_figheight(PANEL * 2 * len(planets) + 0.6)
-    scale, unit = style.kilo([run.series(_name(planet, side)) for planet in planets for side in SIDES])
+    scale, unit = svg_style.unit_prefix([run.series(_name(planet, side)) for planet in planets for side in SIDES])
     axes = picture.subplots(2 * len(planets), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for panel, (planet, side) in zip(axes, [(planet, side) for planet in planets for side in SIDES]):
         force = run.series(_name(planet, side))
         for begin, end in bands(run.time, force):
-            panel.axvspan(begin, end, color=style.OCHRE, alpha=0.25, lw=0)
-        panel.plot(run.time, force / scale, color=style.BLUE if side == "left" else style.RED)
+            panel.axvspan(begin, end, color=svg_style.OCHRE, alpha=0.25, lw=0)
+        panel.plot(run.time, force / scale, color=svg_style.BLUE if side == "left" else svg_style.RED)
         panel.set(title=f"planet {planet} with the {side} side gear", ylabel=f"normal force, {unit}N")
     axes[0].set_xlim(run.time[0], run.time[-1])
     axes[-1].set_xlabel("time, s")
@@ -131,15 +131,15 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
     return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
 
 
-@style.drawn("error")
+@svg_style.drawn("error")
 def _draw_error(picture, run, part, orders, sizes):
     picture.set_figheight(2.6 if orders is None else 3.0)
     panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
-    panels[0].plot(run.time, UM * run.series(SIGNAL), color=style.BLUE)
+    panels[0].plot(run.time, UM * run.series(SIGNAL), color=svg_style.BLUE)
     panels[0].set(xlabel="time, s", ylabel="transmission error, µm", title="planet 1 with the left side gear")
     if orders is not None:
-        panels[0].axvspan(run.time[part][0], run.time[part][-1], color=style.GREEN, alpha=0.12, lw=0)
-        panels[1].bar(orders, UM * sizes, color=style.BLUE, width=0.5)
+        panels[0].axvspan(run.time[part][0], run.time[part][-1], color=svg_style.GREEN, alpha=0.12, lw=0)
+        panels[1].bar(orders, UM * sizes, color=svg_style.BLUE, width=0.5)
         panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
         # a logarithmic axis within a decade has no round numbers to tell
         if sizes.max() > 10.0 * sizes.min():

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..extras import version
-from . import strength, style, words
+from . import strength, svg_style, words
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
@@ -128,8 +128,8 @@ def _inputs(run, names):
     return Picture("inputs", _draw(run, names), f"Inputs that change: {'; '.join(changes)}. All others are constant.")
 
 
-@style.drawn("inputs")
+@svg_style.drawn("inputs")
 def _draw(picture, run, names):
     # the FMU holds an input between communication points
-    for panel in style.over_time(picture, run, names, PANEL, held=True):
+    for panel in svg_style.over_time(picture, run, names, PANEL, held=True):
         panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))

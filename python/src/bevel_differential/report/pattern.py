@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..optimise.pair import Pair
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section
 from .gears import pair_of
 from .simulated import Simulated
@@ -113,7 +113,7 @@ def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longes
     return largest
 
 
-@style.drawn("pattern")
+@svg_style.drawn("pattern")
 def _draw(picture, run, pair: Pair, loaded):
     planet = pair.gears[0]
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
@@ -131,20 +131,20 @@ def _draw(picture, run, pair: Pair, loaded):
                                 cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
         ends = MM * cones[[0, -1]]
         for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):
-            flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=style.GREY, ls=dash, lw=1.2)
+            flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=svg_style.GREY, ls=dash, lw=1.2)
         for end in (0, -1):
-            flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
-        flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
-        flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
-        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="bottom")
+            flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=svg_style.GREY, lw=1.2)
+        flank.text(ends[1] + 0.3, 0.0, "pitch line", color=svg_style.GREY, fontsize=8, va="center")
+        flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=svg_style.GREY, fontsize=8, va="center")
+        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=svg_style.GREY, fontsize=8, va="bottom")
         flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
                   xlim=(ends[0] - 1.0, ends[1] + 3.0))
         flank.set_aspect("equal")
         flank.grid(False)
         bar = picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither")
         bar.set_label("largest pressure, MPa")
-        scale, unit = style.kilo([contacts.force])
-        loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
+        scale, unit = svg_style.unit_prefix([contacts.force])
+        loads.plot(contacts.force / scale, MM * contacts.height, ".", color=svg_style.BLUE, ms=4)
         loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
                                                                              "mm", ylim=(MM * root, MM * tip))
         loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)

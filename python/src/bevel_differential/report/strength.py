@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..spectrum.damage import pushed_along
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import Simulated
 
 MPA = 1e6
-LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", style.BLUE),
-          "stress.root_planet_max": ("roots of the planets", style.OCHRE),
-          "stress.root_side_max": ("roots of the side gears", style.RED)}
+LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", svg_style.BLUE),
+          "stress.root_planet_max": ("roots of the planets", svg_style.OCHRE),
+          "stress.root_side_max": ("roots of the side gears", svg_style.RED)}
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
@@ -79,7 +79,7 @@ def section(run: Simulated) -> Section:
     return found
 
 
-@style.drawn("stress", 4.0)
+@svg_style.drawn("stress", 4.0)
 def _draw(picture, run, stresses: tuple[Limited, ...]):
     upper, lower = picture.subplots(2, 1, sharex=True)
     for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):

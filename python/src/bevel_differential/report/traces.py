@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..want import figures as figures_of
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import SPEEDS, TORQUES, Simulated
 
@@ -23,13 +23,13 @@ def section(run: Simulated) -> Section:
     found = Section("traces", "Traces")
     for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds),
                                    ("torques", TORQUES, _torques)):
-        found.add(Picture(name, style.drawn(name)(_draw)(run, outputs), caption(run)))
+        found.add(Picture(name, svg_style.drawn(name)(_draw)(run, outputs), caption(run)))
     return found
 
 
 def _draw(picture, run, names):
     """Outputs over time. The range of a curve that is constant but for rounding, which would be drawn as noise, is widened."""
-    axes = style.over_time(picture, run, names, PANEL)
+    axes = svg_style.over_time(picture, run, names, PANEL)
     if len(axes) == 1:
         picture.set_figheight(1.6 * PANEL + 0.6)
     for panel in axes:

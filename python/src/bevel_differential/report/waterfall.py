@@ -9,7 +9,7 @@ import numpy as np
 from ..answers import Progress
 from ..progress import silent
 from ..values import DifferentialError
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .runup import ANGLE, FASTEST, MULTIPLES, RING, SIGNAL, SLOWEST, RunUp, run_up, theory
 from .simulated import Simulated, reason_of
@@ -93,7 +93,7 @@ def _how(up: RunUp):
             "shows every change of stiffness. It is resampled over the planet's angle, so that orders stand upright.")
 
 
-@style.drawn("waterfall", 5.2)
+@svg_style.drawn("waterfall", 5.2)
 def _draw(picture, run, spectra: Waterfall, expected):
     from matplotlib.colors import LogNorm
 
@@ -108,13 +108,13 @@ def _draw(picture, run, spectra: Waterfall, expected):
     bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
     bar.set_label("amplitude, µm")
     mean = UM * spectra.mean
-    lower.semilogy(spectra.orders, mean, color=style.BLUE)
+    lower.semilogy(spectra.orders, mean, color=svg_style.BLUE)
     teeth = float(run.value("geometry.planet_teeth"))
     marks = upper.secondary_xaxis("top")
     marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"
                                                for name, order in expected.items()], fontsize=8.5)
     for name, order in expected.items():
-        lower.axvline(order, color=style.GREEN if name.startswith(RING) else style.RED, lw=0.9, ls="--")
+        lower.axvline(order, color=svg_style.GREEN if name.startswith(RING) else svg_style.RED, lw=0.9, ls="--")
     lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, spectra.orders[-1]),
               ylim=(10.0 ** -(DECADES + 0.5) * mean.max(), 2.0 * mean.max()))
 

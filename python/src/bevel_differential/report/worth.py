@@ -9,7 +9,7 @@ import numpy as np
 from ..answers import Progress
 from ..progress import silent
 from ..values import DifferentialError, Number
-from . import style, words
+from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
 from .traces import main_outputs
@@ -129,14 +129,14 @@ def _named(run, switches, off):
         "something, as where teeth strike again and again, changes of this size by an effect tell nothing.")
 
 
-@style.drawn("worth")
+@svg_style.drawn("worth")
 def _draw(picture, tried):
     rows = [one for one in tried if not one.refused]
     outputs = list(rows[0].mean)
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
 
     # clear in the middle, so that the page's colour shows
-    scale = [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)]
+    scale = [to_rgba(svg_style.BLUE, 0.7), to_rgba(svg_style.GREY, 0.0), to_rgba(svg_style.RED, 0.7)]
     colours = LinearSegmentedColormap.from_list("change", scale)
     picture.set_figheight(0.34 * len(outputs) + 1.9)
     panels = picture.subplots(1, 2, sharey=True)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..answers import Progress
-from ..extras import needed
+from ..extras import require
 from ..output_file import write_whole
 from ..progress import part, silent
 from ..scene import Scene
@@ -26,7 +26,7 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     `quick` leaves out the run-up and the effects that are off, which need other runs. Raises `DifferentialError` with the FMU's
     message where it refuses the scene."""
     for module in ("matplotlib", "jinja2"):
-        needed(module, "report")
+        require(module, "report")
     progress(0.0, "the scene")
     run = Simulated.of(scene)
     progress(PICTURES, "pictures")
@@ -44,7 +44,7 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
 
 def page(run: Simulated, sections: Sequence[Section]) -> str:
     """The page as text."""
-    jinja2 = needed("jinja2", "report")
+    jinja2 = require("jinja2", "report")
     # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
     environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)

@@ -105,7 +105,7 @@ def _driven(vehicle, given, gears):
     values = {name: value for name, value in given.items() if name not in OWN and name not in QUANTITIES and name != "time"}
     for name, value in inputs_of(vehicle, *gears).items():
         if name in values:
-            raise DifferentialError(f"{name}: speed, torque or turn of the vehicle give it as well; remove one of both")
+            raise DifferentialError(f"{name}: it also follows from speed, torque or turn of the vehicle; remove one of both")
         values[name] = value
     return values
 
@@ -168,9 +168,9 @@ def _variable(name, fmu, causalities):
         raise DifferentialError(f"{name}: there is no such column{suggestion(name, [*OWN, *QUANTITIES, *fmu.variables])}")
     variable = fmu.variables[name]
     if variable.causality not in causalities:
-        raise DifferentialError(f"{name}: it is none of the {' and '.join(each + 's' for each in causalities)} of the FMU")
+        raise DifferentialError(f"{name}: it is not an {' or '.join(causalities)} of the FMU")
     if name.startswith(WHOLE):
-        raise DifferentialError(f"{name}: it holds for the whole cycle; give it as a parameter, not as a column")
+        raise DifferentialError(f"{name}: it is the same in the whole cycle; give it as a parameter, not as a column")
     return variable
 
 

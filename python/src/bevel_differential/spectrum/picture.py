@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..extras import needed
+from ..extras import require
 from ..values import FileName
 from .slow import SnCurve
 
@@ -17,7 +17,7 @@ MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 def draw(result: Any, file: FileName) -> Path:
     """Draws a `SpectrumResult` into `file`; returns its path."""
-    needed("matplotlib", "plot")
+    require("matplotlib", "plot")
     from .. import style
 
     with style.styled():
@@ -53,8 +53,8 @@ def _draw_spectrum(axes, result, colours):
     """Stress over the cycles that reach it in one life, with the S–N curves."""
     lives = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
     of_rolling, of_standing = curves(result)
-    parts = [("of teeth that roll", colours[0], rolling_spectrum(result), of_rolling),
-             ("of teeth that stand in mesh", colours[1], standing_spectrum(result), of_standing)]
+    parts = [("of rolling teeth", colours[0], rolling_spectrum(result), of_rolling),
+             ("of standing teeth", colours[1], standing_spectrum(result), of_standing)]
     parts = [part for part in parts if len(part[2][0])]
     highest = max((part[2][0].max() for part in parts), default=1e9)
     stresses = np.linspace(0.02, 1.3, 300) * highest
@@ -81,7 +81,7 @@ def _caption(result):
     km = f" or {result.life_km:.3g} km" if np.isfinite(result.life_km) else ""
     return (f"Miner sum of the {result.critical_name}: {1.0 / result.cycles_to_failure:.3g} per duty cycle, "
             f"life {result.life_hours:.3g} h{km}. \"{worst['event']}\" does {worst['share']:.0%} of the damage. "
-            "The step of a spectrum that comes nearest to its S–N curve does the most.")
+            "The stress nearest to its S–N curve does most of the damage.")
 
 
 def curves(result: Any) -> tuple[SnCurve, SnCurve]:

@@ -18,7 +18,7 @@ from typing import Self
 
 import numpy as np
 
-from ..extras import needed
+from ..extras import require
 from ..values import DifferentialError
 
 ORDERS = ("unknown", "written")
@@ -143,7 +143,7 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
 
 def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
     """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
-    rainflow = needed("rainflow", "design")
+    rainflow = require("rainflow", "design")
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
     for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):

@@ -1,1 +1,1 @@
-"""The published study that this program replaces: its two cases, beside it and beside theory."""
+"""The two cases of the study, simulated and compared with the study and with theory."""

@@ -13,7 +13,7 @@ SIMULATING = 0.3
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (start value: study)")
+    parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (default: study)")
     add_fmu(parser)
     add_progress(parser)
 
@@ -25,13 +25,13 @@ def run(arguments: argparse.Namespace) -> int:
     from ..progress import part, shown
     from ..report.write import write
     from ..scene import Scene
-    from .simulation import simulated
+    from .simulation import simulate_cases
 
     folder = Path(arguments.out)
     folder.mkdir(parents=True, exist_ok=True)
     style.apply()
     with shown(arguments.progress) as progress:
-        results = simulated(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING))
+        results = simulate_cases(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING))
         for place, name in enumerate(SCENES):
             share = (1.0 - SIMULATING) / len(SCENES)
             begin = SIMULATING + place * share

@@ -29,7 +29,7 @@ LINE_FLOOR = 1e-6
 FIGURES_SHARE = 0.15
 
 
-def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
+def simulate_cases(order: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
     """Simulates both cases, writes their records and pictures into `folder`, and returns the evaluated figures by case.
 
     `order`: cases and times as the library of answers gives them."""
@@ -38,9 +38,9 @@ def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progres
         progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
         with Differential(fmu=fmu) as differential:
             begin = time.perf_counter()
-            record = simulate(differential, order, case, order["record"], order["interval"])
+            record = simulate_case(differential, order, case, order["record"], order["interval"])
             seconds = time.perf_counter() - begin
-            start = simulate(differential, order, case, order["start_record"], order["start_interval"])
+            start = simulate_case(differential, order, case, order["start_record"], order["start_interval"])
             variables = differential.fmu.variables
         runs[case] = {"record": record, "start": start, "spectrum": force_spectra(record, order)}
         runs[case]["results"] = evaluate(runs[case], order, case) | {"seconds_per_second": seconds / order["record"]}
@@ -54,7 +54,7 @@ def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progres
     return {case: run["results"] for case, run in runs.items()}
 
 
-def simulate(differential, order, case, duration, interval):
+def simulate_case(differential, order, case, duration, interval):
     """A record of a case, sampled at every communication point."""
     values = {name: (value, unit) if unit else value for name, (value, unit) in order[case]["start_values"].items()}
     try:

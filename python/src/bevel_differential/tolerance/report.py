@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..extras import needed
+from ..extras import require
 from ..readable import in_words
 from ..records import write
 from ..text import aligned
@@ -135,7 +135,7 @@ def _table(lines):
 
 def draw(plan: Plan, result: Result, file: FileName) -> Path:
     """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
-    needed("matplotlib", "plot")
+    require("matplotlib", "plot")
     from .. import style
 
     found = verdicts(plan.study, result)

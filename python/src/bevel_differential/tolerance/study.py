@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..designs import Row
-from ..extras import needed
+from ..extras import require
 from ..values import DifferentialError
 from ..want import Condition, Want
 from .factor import Factor
@@ -156,7 +156,7 @@ def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
     AB_i is A with the share of factor i from B. A and B are points of one scrambled Sobol sequence."""
     if not factors:
         return np.empty((runs, 0))
-    sobol = needed("SALib.sample.sobol", "design")
+    sobol = require("SALib.sample.sobol", "design")
     problem = _problem(factors)
     return sobol.sample(problem, check_runs(runs) // 2, calc_second_order=False, seed=seed)
 
@@ -173,7 +173,7 @@ def _problem(factors):
 
 def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> Indices:
     """Sobol indices of figures at `crossed`, shape (rows,)."""
-    sobol = needed("SALib.analyze.sobol", "design")
+    sobol = require("SALib.analyze.sobol", "design")
     # SALib takes a seed of 0 for none
     found = sobol.analyze(_problem(factors), figures, calc_second_order=False, num_resamples=500, conf_level=level, seed=seed + 1)
     return Indices(*(np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")))

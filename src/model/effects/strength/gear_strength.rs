@@ -22,13 +22,13 @@ pub struct GearStrength {
 impl GearStrength {
     /// Strength of the gears of `setting`, or why they cannot be rated.
     pub fn new(spec: &StrengthSpec, setting: &Setting) -> Result<Self, Problem> {
-        let material = spec.material();
+        let strength = spec.tooth_strength();
         let elastic = (setting.material.young_modulus, setting.material.poisson_ratio);
-        let rating = Rating::new(setting.pair, elastic, &material, spec.tool_radius);
+        let rating = Rating::new(setting.pair, elastic, &strength, spec.tool_radius);
         let Some(rating) = rating else {
             return Err(problem!(
                 "strength.tool_radius",
-                "{} m_n: a tooth cut with this tool has no sound root section; choose a smaller radius or more teeth",
+                "{} m_n: a tooth cut with this tool has no valid root section; choose a smaller radius or more teeth",
                 spec.tool_radius
             ));
         };

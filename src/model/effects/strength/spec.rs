@@ -4,7 +4,7 @@ use crate::declaration::units::{self, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
-use crate::strength::{Material, SnCurve};
+use crate::strength::{SnCurve, ToothStrength};
 
 spec! {
     /// Strength of the gears.
@@ -34,8 +34,8 @@ spec! {
 
 impl StrengthSpec {
     /// S–N curves of the material.
-    pub fn material(&self) -> Material {
-        Material {
+    pub fn tooth_strength(&self) -> ToothStrength {
+        ToothStrength {
             bending: SnCurve::through(self.bending_strength, self.bending_cycles, self.bending_life_factor, 1e3),
             pitting: SnCurve::through(self.contact_strength, self.contact_cycles, self.contact_life_factor, 1e5),
             idler_factor: self.idler_factor,

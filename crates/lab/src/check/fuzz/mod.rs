@@ -24,7 +24,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use fmu_build::command_line::LABORATORY;
 
-use crate::tools::script::{SCRIPT, Script};
+use crate::tools::script::{DEFAULTS, Script};
 
 /// Number of calls by default.
 const MANY: usize = 1_000_000;
@@ -52,7 +52,7 @@ impl FuzzCommand {
         let program = env::current_exe().context("the path of this program is unknown")?;
         let numbers = [self.calls.div_ceil(CALLS) as u64, CALLS as u64, self.seed].map(|number| number.to_string());
         let words = [program.into()].into_iter().chain(numbers.map(Into::into)).chain([LABORATORY.into()]);
-        let script = Script { file: "crates/lab/python/fuzz.py", doing: "calling", ..SCRIPT };
+        let script = Script { file: "crates/lab/python/fuzz.py", doing: "calling", ..DEFAULTS };
         script.follow(None, |_| Ok(words.collect())).map(drop)
     }
 }

@@ -67,11 +67,11 @@ struct FigureQuestion {
 /// Asks for the canonical name of a statistic and for the angle by which an order is counted.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct WordQuestion {
+pub struct StatisticNameQuestion {
     statistic: String,
 }
 
-impl WordQuestion {
+impl StatisticNameQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let statistic = Statistic::parse(&self.statistic).map_err(wrong)?;
         let angle = match statistic {
@@ -150,8 +150,8 @@ impl StatisticsQuestion {
         let points = self.points.max(1);
         let series: Vec<Vec<f64>> = numbers.chunks_exact(points).map(<[f64]>::to_vec).collect();
         if self.points == 0 || numbers.len() != points * series.len() || series.is_empty() {
-            let told = "come beside the question: the times, then each series, all of as many points";
-            let message = format!("points = {}: {} numbers do not fit; they {told}", self.points, numbers.len());
+            let wanted = "send the times and then each series, `points` numbers each, at least one";
+            let message = format!("points = {}: {} numbers do not fit; {wanted}", self.points, numbers.len());
             return Err(Problems::from(Problem::of("points", self.points.to_string(), message)).into());
         }
         let mut record = Record { times: series[0].clone(), values: series[1..].to_vec(), ..Record::default() };
@@ -160,8 +160,9 @@ impl StatisticsQuestion {
             let values = |i: usize| record.values.get(i).with_context(|| format!("there is no series {i}"));
             values(figure.series)?;
             if let Statistic::Order { of, .. } = statistic {
-                let phase =
-                    figure.phase.with_context(|| format!("{statistic}: an order needs what it is counted by"))?;
+                let phase = figure.phase.with_context(|| {
+                    format!("{statistic}: an order needs `phase`, the index of the series with its angle")
+                })?;
                 let phase = values(phase)?.clone();
                 record.phases[usize::from(of == Rotation::Shaft)] = phase;
             }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..extras import needed
+from ..extras import require
 from ..plot import by_unit, draw_panel
 
 if TYPE_CHECKING:
@@ -21,13 +21,13 @@ CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d08cb0"]
 # width of a picture, inches
 WIDTH = 10.0
 # placeholder for the colour of the page's text: `_svg` writes `currentColor` in its place
-INK = "#0a0b0d"
+TEXT_COLOUR = "#0a0b0d"
 # beginning of the ids of artists that show data, by which tests find empty pictures
 MARK = "mark"
 
 
 STYLE = {
-    "text.color": INK, "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "grid.color": INK,
+    **dict.fromkeys(("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color", "grid.color"), TEXT_COLOUR),
     "grid.alpha": 0.14, "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False,
     "axes.facecolor": "none", "figure.facecolor": "none", "savefig.facecolor": "none", "legend.frameon": False, "font.size": 9.5,
     "axes.titlesize": 10.0, "axes.titleweight": "bold", "axes.titlelocation": "left", "legend.fontsize": 9.0,
@@ -42,7 +42,7 @@ def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Cal
     def decorated(draw):
         @wraps(draw)
         def written(*arguments):
-            matplotlib = needed("matplotlib", "report")
+            matplotlib = require("matplotlib", "report")
             from cycler import cycler
             from matplotlib.figure import Figure
 
@@ -54,7 +54,7 @@ def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Cal
     return decorated
 
 
-def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
+def unit_prefix(values: Sequence[np.ndarray]) -> tuple[float, str]:
     """Divisor of shown values and prefix of their unit: (1000, "k") where the largest magnitude is 1000 or more, else (1, "")."""
     largest = max(float(np.max(np.abs(each), initial=0.0)) for each in values)
     return (1e3, "k") if largest >= 1e3 else (1.0, "")
@@ -90,5 +90,5 @@ def _svg(picture: "Figure", name: str) -> str:
     text = re.sub(r'(?<=\bid=")|(?<=url\(#)|(?<=href="#)', f"{name}-", text)
     # further fonts for machines without DejaVu Sans
     text = text.replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
-    return text.replace(INK, "currentColor").strip()
+    return text.replace(TEXT_COLOUR, "currentColor").strip()
 

@@ -1,0 +1,113 @@
+"""One experiment: its files read, and the FMU run through it by fmpy."""
+
+import io
+from contextlib import redirect_stdout
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from fmpy import simulate_fmu
+
+from .files import Broken, parameter_set, table, tolerances_of
+
+
+@dataclass(frozen=True)
+class Unit:
+    """An extracted FMU: its `file`, the `folder` with its content, and the model `description` as fmpy reads it."""
+
+    file: Path
+    folder: Path
+    description: Any
+
+    @property
+    def variables(self) -> dict[str, Any]:
+        """Variables by name."""
+        return {variable.name: variable for variable in self.description.modelVariables}
+
+    def shown(self, path: Path) -> str:
+        """A file of the FMU, for messages."""
+        return f"{self.file}, {path.relative_to(self.folder).as_posix()}"
+
+
+@dataclass
+class Experiment:
+    """What a manifest says of an experiment, and what its files say; files are relative to `folder`.
+
+    `kind`: "smoke test", "validation", or "default experiment" of a result that stands alone. Times in s; None: those of the
+    default experiment. `faults`: what is wrong in it and takes nothing from the comparison."""
+
+    name: str
+    folder: Path
+    kind: str = "validation"
+    description: str = ""
+    parameters: str | None = None
+    inputs: str | None = None
+    result: str | None = None
+    tolerances: str | None = None
+    start: float | None = None
+    stop: float | None = None
+    step: float | None = None
+    faults: list[str] = field(default_factory=list)
+    values: dict[str, Any] = field(default_factory=dict)
+    signals: np.ndarray | None = None
+    expected: np.ndarray | None = None
+    allowed: dict[str, float] = field(default_factory=dict)
+    units: dict[str, str] = field(default_factory=dict)
+
+    def read(self, unit: Unit) -> "Experiment":
+        """Reads the files. Raises `Broken`, naming what is wrong in which file."""
+        variables = unit.variables
+        if not self.result:
+            raise Broken("it names no result")
+        self.expected = table(*self._found(self.result, unit), variables, self.faults)
+        if self.parameters:
+            self.values = parameter_set(*self._found(self.parameters, unit), variables)
+        if self.inputs:
+            self.signals = table(*self._found(self.inputs, unit), variables, self.faults)
+        if self.tolerances:
+            self.allowed = tolerances_of(*self._found(self.tolerances, unit), self.name, self.columns)
+        self.units = {name: variables[name].unit or "" for name in self.columns}
+        return self
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The variables of the result."""
+        return self.expected.dtype.names[1:]
+
+    def run(self, unit: Unit) -> np.ndarray:
+        """The FMU's record of the experiment, by fmpy. Raises `Broken`."""
+        said: list[str] = []
+        default = unit.description.defaultExperiment
+        stop = self.stop if self.stop is not None else getattr(default, "stopTime", None)
+        step = self.step if self.step is not None else getattr(default, "stepSize", None)
+        try:
+            # fmpy prints inputs that have no signal, and what the FMU says
+            with redirect_stdout(io.StringIO()):
+                return simulate_fmu(
+                    str(unit.folder), model_description=unit.description, start_values=self.values, start_time=self.start,
+                    stop_time=float(self.expected["time"][-1]) if stop is None else float(stop),
+                    output_interval=self._spacing() if step is None else float(step), input=self.signals,
+                    output=list(self.columns), logger=lambda *words: said.append(_text(words[-1])))
+        except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
+            raise Broken(f"the unit fails: {'; '.join([*said, str(error)])}") from None
+
+    def _spacing(self):
+        rising = np.diff(self.expected["time"])
+        rising = rising[rising > 0.0]
+        return float(rising.min()) if len(rising) else None
+
+    def _found(self, name, unit):
+        """The name for messages, and the path: beside the manifest, else elsewhere in the FMU, which is a fault."""
+        path = (self.folder / name).resolve()
+        if path.is_file() and path.is_relative_to(unit.folder.resolve()):
+            return name, path
+        others = sorted(unit.folder.rglob(Path(name).name))
+        if not others:
+            raise Broken(f"{name}: it is not in the FMU")
+        self.faults.append(f"{name}: it is not beside the manifest; {others[0].relative_to(unit.folder).as_posix()} is taken")
+        return name, others[0]
+
+
+def _text(word):
+    return word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)

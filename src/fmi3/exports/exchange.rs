@@ -1,0 +1,124 @@
+//! Events, and model exchange.
+
+use super::*;
+use crate::instance::EVENT_INDICATORS;
+use crate::model::STATES;
+
+macro_rules! getters {
+    ($($function:ident $call:ident $method:ident;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
+            call!(c, $call, |instance, host| {
+                // SAFETY: the host's promise, see the module
+                let values = unsafe { host.output("the array", values, count) }?;
+                instance.$method(values)
+            })
+        }
+    )+};
+}
+
+getters! {
+    fmi3GetContinuousStateDerivatives GetContinuousStateDerivatives get_derivatives;
+    fmi3GetEventIndicators GetEventIndicators get_event_indicators;
+    fmi3GetContinuousStates GetContinuousStates get_continuous_states;
+    fmi3GetNominalsOfContinuousStates GetNominals get_nominals;
+}
+
+plain! {
+    fmi3EnterEventMode EnterEventMode enter_event_mode_of_any;
+    fmi3EnterStepMode EnterStepMode enter_step_mode;
+    fmi3EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode_of_exchange;
+    fmi3EvaluateDiscreteStates EvaluateDiscreteStates evaluate_discrete_states;
+}
+
+macro_rules! counts {
+    ($($function:ident $call:ident $count:expr;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer, count: *mut usize) -> Status {
+            call!(c, $call, |_, host| {
+                // SAFETY: the host's promise, see the module
+                unsafe { host.output_value("the number", count) }?.write($count);
+                Ok(())
+            })
+        }
+    )+};
+}
+
+counts! {
+    fmi3GetNumberOfEventIndicators GetNumberOfEventIndicators EVENT_INDICATORS;
+    fmi3GetNumberOfContinuousStates GetNumberOfContinuousStates STATES;
+}
+
+/// fmi3UpdateDiscreteStates. One iteration is always enough.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
+    c: ComponentPointer,
+    needs_update: *mut Boolean,
+    terminate: *mut Boolean,
+    nominals_changed: *mut Boolean,
+    states_changed: *mut Boolean,
+    next_event_defined: *mut Boolean,
+    next_event: *mut f64,
+) -> Status {
+    call!(c, UpdateDiscreteStates, |instance, host| {
+        // SAFETY: the host's promise, see the module
+        let flags = unsafe {
+            [
+                host.output_value("discreteStatesNeedUpdate", needs_update)?,
+                host.output_value("terminateSimulation", terminate)?,
+                host.output_value("nominalsOfContinuousStatesChanged", nominals_changed)?,
+                host.output_value("valuesOfContinuousStatesChanged", states_changed)?,
+                host.output_value("nextEventTimeDefined", next_event_defined)?,
+            ]
+        };
+        // SAFETY: as above
+        let time = unsafe { host.output_value("nextEventTime", next_event)? };
+        let update = instance.update_discrete_states()?;
+        let values = [false, false, false, update.states_changed, update.next.is_some()];
+        for (flag, value) in flags.into_iter().zip(values) {
+            flag.write(Boolean::from(value));
+        }
+        time.write(update.next.unwrap_or(0.0));
+        Ok(())
+    })
+}
+
+/// fmi3CompletedIntegratorStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
+    c: ComponentPointer,
+    _never_back: Boolean,
+    enter_event_mode: *mut Boolean,
+    terminate: *mut Boolean,
+) -> Status {
+    call!(c, CompletedIntegratorStep, |instance, host| {
+        // SAFETY: the host's promise, see the module
+        let (event, end) = unsafe {
+            (
+                host.output_value("enterEventMode", enter_event_mode)?,
+                host.output_value("terminateSimulation", terminate)?,
+            )
+        };
+        event.write(Boolean::from(instance.completed_integrator_step()?));
+        end.write(0);
+        Ok(())
+    })
+}
+
+/// fmi3SetTime.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3SetTime(c: ComponentPointer, time: f64) -> Status {
+    call!(c, SetTime, |instance, _| instance.set_time(time))
+}
+
+/// fmi3SetContinuousStates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
+    call!(c, SetContinuousStates, |instance, host| {
+        // SAFETY: the host's promise, see the module
+        let states = unsafe { host.input("continuousStates", states, count) }?;
+        instance.set_continuous_states(states)
+    })
+}

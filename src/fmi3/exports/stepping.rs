@@ -1,0 +1,108 @@
+//! Steps of a co-simulation.
+
+use super::*;
+use crate::instance::{Ended, Phase};
+
+/// fmi3DoStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3DoStep(
+    c: ComponentPointer,
+    point: f64,
+    size: f64,
+    _never_back: Boolean,
+    event_needed: *mut Boolean,
+    terminate: *mut Boolean,
+    early_return: *mut Boolean,
+    last_time: *mut f64,
+) -> Status {
+    let (mut begin, until) = (point, point + size);
+    loop {
+        // SAFETY: the host's promise, see the module
+        let (status, part) =
+            unsafe { part(c, [begin, until - begin], [event_needed, terminate, early_return], last_time) };
+        let Some(Part { ended, update, environment, may_return }) = part else { return status };
+        let is_last = ended.is_done;
+        let may_return = may_return && !is_last;
+        let (mut wants_return, mut return_time) = (0, ended.time);
+        // SAFETY: the host's function, which it keeps valid; the instance takes calls while it runs
+        unsafe {
+            update(
+                environment,
+                ended.time,
+                Boolean::from(!is_last),
+                1,
+                Boolean::from(!is_last),
+                Boolean::from(may_return),
+                &mut wants_return,
+                &mut return_time,
+            );
+        }
+        let returns = wants_return != 0 && may_return;
+        // SAFETY: the host's promise, see the module
+        let status = unsafe { end_update(c, returns, early_return) };
+        if status != Status::Ok || is_last || returns {
+            return status;
+        }
+        begin = ended.time;
+    }
+}
+
+/// A part of a step after which the host is called back.
+struct Part {
+    ended: Ended,
+    update: IntermediateUpdate,
+    environment: *mut c_void,
+    may_return: bool,
+}
+
+/// Moves on by a part of a step; writes how the step would end here. Without a function to call back the part is the whole.
+unsafe fn part(
+    c: ComponentPointer,
+    [point, size]: [f64; 2],
+    flags: [*mut Boolean; 3],
+    last_time: *mut f64,
+) -> (Status, Option<Part>) {
+    let mut part = None;
+    let status = call!(c, DoStep, |instance, host| {
+        // SAFETY: the host's promise, see the module
+        let [event, terminate, early] = unsafe {
+            [
+                host.output_value("eventHandlingNeeded", flags[0])?,
+                host.output_value("terminateSimulation", flags[1])?,
+                host.output_value("earlyReturn", flags[2])?,
+            ]
+        };
+        // SAFETY: as above
+        let last = unsafe { host.output_value("lastSuccessfulTime", last_time)? };
+        terminate.write(0);
+        (event.write(0), early.write(0));
+        last.write(instance.now.simulation.as_ref().map_or(point, |simulation| simulation.time()));
+        let [update, environment] = instance.allowed.update;
+        let ended =
+            if update != 0 { instance.step_to_solver(point, size)? } else { instance.step_to_event(point, size)? };
+        event.write(Boolean::from(ended.event));
+        early.write(Boolean::from(ended.early));
+        last.write(ended.time);
+        if update != 0 {
+            instance.now.phase = Phase::IntermediateUpdate;
+            // SAFETY: the address of the host's function, from fmi3InstantiateCoSimulation
+            let update = unsafe { std::mem::transmute::<usize, IntermediateUpdate>(update) };
+            let may_return = instance.allowed.early_return;
+            part = Some(Part { ended, update, environment: environment as *mut c_void, may_return });
+        }
+        Ok(())
+    });
+    (status, part)
+}
+
+/// Ends the host's update within a step.
+unsafe fn end_update(c: ComponentPointer, returns: bool, early_return: *mut Boolean) -> Status {
+    call!(c, EndIntermediateUpdate, |instance, host| {
+        instance.now.phase = Phase::StepComplete;
+        if returns {
+            // SAFETY: the host's promise, see the module
+            unsafe { host.output_value("earlyReturn", early_return) }?.write(1);
+        }
+        Ok(())
+    })
+}

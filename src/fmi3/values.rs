@@ -1,0 +1,283 @@
+//! Values by the types of FMI 3.0: rows of the table, arrays over them, and the variables that 3.0 has besides.
+
+use std::cell::Cell;
+use std::ffi::CStr;
+
+use super::variables::{HAPPENINGS, Item, held, item, planet_count};
+use crate::instance::values::{row, wrong_type};
+use crate::instance::{CallError, CallResult, InputArray, Instance, Output, OutputArray, Phase};
+use crate::variables::{Access, table};
+
+/// The variable of a value reference.
+fn known(reference: u32) -> CallResult<Item> {
+    item(reference).ok_or_else(|| CallError::error(format!("there is no variable with value reference {reference}")))
+}
+
+/// Refuses a count of values that the references do not have.
+pub fn check_count(needed: usize, given: usize) -> CallResult {
+    if needed == given {
+        return Ok(());
+    }
+    Err(CallError::error(format!("the variables have {needed} values, and the host has room for {given}")))
+}
+
+fn other_type(reference: u32, wanted: &str) -> CallError {
+    let name = name(reference);
+    CallError::error(format!("{name} is no {wanted}"))
+}
+
+/// Name of a variable.
+fn name(reference: u32) -> String {
+    let rows = &table().rows;
+    let index = reference as usize;
+    match rows.get(index) {
+        Some(row) => row.name.to_owned(),
+        None => super::variables::added().get(index - rows.len()).map_or_else(String::new, |added| added.name.clone()),
+    }
+}
+
+/// fmi3GetFloat64.
+pub fn get_float64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
+    let rows = table().rows.len() as u32;
+    let is_plain = |reference: u32| reference < rows && held(&table().rows[reference as usize]).is_none();
+    if references.iter().all(is_plain) {
+        check_count(references.len(), values.len())?;
+        return instance.get_real(references.iter(), values.iter());
+    }
+    let items =
+        references.iter().map(|reference| Ok((reference, known(reference)?))).collect::<CallResult<Vec<_>>>()?;
+    let size = |item: &Item| {
+        if matches!(item, Item::Planets(_) | Item::Pairs(_)) { item.rows(&instance.now.parameters).len() } else { 1 }
+    };
+    check_count(items.iter().map(|(_, item)| size(item)).sum(), values.len())?;
+    let mut places = values.iter();
+    // rows together, so that they share what they need
+    let (mut wanted, mut room): (Vec<u32>, Vec<Output<f64>>) = (Vec::new(), Vec::new());
+    for (reference, item) in &items {
+        let mut one = || places.next().ok_or_else(|| CallError::error("there is no room for a value"));
+        match item {
+            Item::Row(index) if held(&table().rows[*index]).is_some() => {
+                let k = held(&table().rows[*index]).unwrap_or(0);
+                one()?.write(instance.discrete()?.held[k]);
+            }
+            Item::Row(_) | Item::Planets(_) | Item::Pairs(_) => {
+                for &index in item.rows(&instance.now.parameters) {
+                    wanted.push(index as u32);
+                    room.push(one()?);
+                }
+            }
+            Item::Time => one()?.write(time(instance)),
+            Item::EventTime => one()?.write(instance.discrete()?.event.time),
+            Item::Indicator(k) => one()?.write(instance.simulation()?.indicators()[*k]),
+            _ => return Err(other_type(*reference, "Float64")),
+        }
+    }
+    instance.get_real(wanted.into_iter(), room.into_iter())
+}
+
+fn time(instance: &Instance) -> f64 {
+    instance.now.simulation.as_ref().map_or(instance.now.start_time, |simulation| simulation.time())
+}
+
+/// fmi3SetFloat64.
+pub fn set_float64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
+    for reference in references.iter() {
+        settable(reference, "Float64")?;
+    }
+    check_count(references.len(), values.len())?;
+    if instance.now.phase == Phase::IntermediateUpdate {
+        for reference in references.iter() {
+            if !matches!(row(reference)?.access, Access::Input(_)) {
+                let name = name(reference);
+                return Err(CallError::error(format!("{name} is no input: within a step only inputs may be set")));
+            }
+        }
+    }
+    instance.set_real(references, values)
+}
+
+fn settable(reference: u32, wanted: &str) -> CallResult {
+    match known(reference)? {
+        Item::Row(_) => Ok(()),
+        _ => Err(CallError::error(format!("{} is calculated and cannot be set as {wanted}", name(reference)))),
+    }
+}
+
+/// fmi3GetInt32.
+pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for (reference, value) in references.iter().zip(values.iter()) {
+        value.write(match known(reference)? {
+            Item::EventPlace => instance.discrete()?.event.number(),
+            Item::Row(_) if is_int32(reference)? => instance.get_integer(reference)?,
+            _ => return Err(other_type(reference, "Int32")),
+        });
+    }
+    Ok(())
+}
+
+/// Whether a row is an Int32: an integer that no array depends on.
+fn is_int32(reference: u32) -> CallResult<bool> {
+    Ok(matches!(row(reference)?.access, Access::Integer(_)) && reference != planet_count())
+}
+
+/// fmi3SetInt32.
+pub fn set_int32(instance: &mut Instance, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for reference in references.iter() {
+        settable(reference, "Int32")?;
+        if !is_int32(reference)? {
+            return Err(wrong_type(row(reference)?));
+        }
+    }
+    instance.set_integer(references.iter().zip(values.iter()))
+}
+
+/// fmi3GetInt64: enumerations.
+pub fn get_int64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i64>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for (reference, value) in references.iter().zip(values.iter()) {
+        value.write(match known(reference)? {
+            Item::EventKind => i64::from(instance.discrete()?.event.what as u8),
+            Item::Row(_) if is_enumeration(reference)? => i64::from(instance.get_integer(reference)?),
+            _ => return Err(other_type(reference, "enumeration")),
+        });
+    }
+    Ok(())
+}
+
+fn is_enumeration(reference: u32) -> CallResult<bool> {
+    Ok(matches!(row(reference)?.access, Access::Enumeration(..)))
+}
+
+/// fmi3SetInt64: enumerations.
+pub fn set_int64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<i64>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for reference in references.iter() {
+        settable(reference, "enumeration")?;
+        if !is_enumeration(reference)? {
+            return Err(wrong_type(row(reference)?));
+        }
+    }
+    // a number beyond those of an Int32 is no choice of any enumeration
+    let choices = values.iter().map(|value| i32::try_from(value).unwrap_or(i32::MIN));
+    instance.set_integer(references.iter().zip(choices))
+}
+
+/// fmi3GetUInt64: the number of planets.
+pub fn get_uint64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u64>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for (reference, value) in references.iter().zip(values.iter()) {
+        check_structural(reference)?;
+        value.write(u64::try_from(instance.get_integer(reference)?).unwrap_or(0));
+    }
+    Ok(())
+}
+
+/// fmi3SetUInt64: the number of planets, in configuration mode alone, since sizes of arrays depend on it.
+pub fn set_uint64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<u64>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for reference in references.iter() {
+        check_structural(reference)?;
+        if instance.now.phase != Phase::Configuration {
+            let name = name(reference);
+            return Err(CallError::error(format!(
+                "{name} is a structural parameter: set it between fmi3EnterConfigurationMode and fmi3ExitConfigurationMode"
+            )));
+        }
+    }
+    let numbers = values.iter().map(|value| i32::try_from(value).unwrap_or(i32::MAX));
+    instance.set_integer(references.iter().zip(numbers))
+}
+
+fn check_structural(reference: u32) -> CallResult {
+    known(reference)?;
+    if reference == planet_count() { Ok(()) } else { Err(other_type(reference, "UInt64")) }
+}
+
+/// fmi3GetBoolean.
+pub fn get_boolean(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u8>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for (reference, value) in references.iter().zip(values.iter()) {
+        settable(reference, "Boolean").map_err(|_| other_type(reference, "Boolean"))?;
+        value.write(u8::from(instance.get_boolean(reference)?));
+    }
+    Ok(())
+}
+
+/// fmi3SetBoolean.
+pub fn set_boolean(instance: &mut Instance, references: InputArray<u32>, values: InputArray<u8>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    for reference in references.iter() {
+        settable(reference, "Boolean")?;
+    }
+    instance.set_boolean(references.iter().zip(values.iter().map(|value| value != 0)))
+}
+
+/// Text of the last event.
+pub fn event_text(instance: &mut Instance, reference: u32) -> CallResult<&'static CStr> {
+    match known(reference)? {
+        Item::EventText => Ok(HAPPENINGS[instance.discrete()?.event.what as usize].1),
+        _ => Err(other_type(reference, "String")),
+    }
+}
+
+/// Refuses every reference: there are no variables of the type `wanted`.
+pub fn none_of(references: InputArray<u32>, wanted: &str) -> CallResult {
+    references.iter().next().map_or(Ok(()), |reference| {
+        known(reference)?;
+        Err(other_type(reference, wanted))
+    })
+}
+
+/// Rows of the table that variables show, all of them in their order.
+fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u32>> {
+    let mut rows = Vec::with_capacity(references.len());
+    for reference in references.iter() {
+        let item = known(reference)?;
+        let shown = item.rows(&instance.now.parameters);
+        if shown.is_empty() {
+            let name = name(reference);
+            return Err(CallError::error(format!("{name} has no derivatives")));
+        }
+        rows.extend(shown.iter().map(|&index| index as u32));
+    }
+    Ok(rows)
+}
+
+/// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.
+pub fn directional_derivative(
+    instance: &mut Instance,
+    [unknowns, knowns]: [InputArray<u32>; 2],
+    seed: InputArray<f64>,
+    sensitivity: OutputArray<f64>,
+) -> CallResult {
+    let [unknown, known] = [rows_of(instance, unknowns)?, rows_of(instance, knowns)?];
+    check_count(known.len(), seed.len())?;
+    check_count(unknown.len(), sensitivity.len())?;
+    let directed = known.into_iter().zip(seed.iter()).collect::<Vec<_>>();
+    instance.get_directional_derivative(unknown.into_iter(), directed.into_iter(), sensitivity.iter())
+}
+
+/// fmi3GetAdjointDerivative: for each known the sum over unknowns of `seed` times their derivative by it.
+pub fn adjoint_derivative(
+    instance: &mut Instance,
+    [unknowns, knowns]: [InputArray<u32>; 2],
+    seed: InputArray<f64>,
+    sensitivity: OutputArray<f64>,
+) -> CallResult {
+    let [unknown, known] = [rows_of(instance, unknowns)?, rows_of(instance, knowns)?];
+    check_count(unknown.len(), seed.len())?;
+    check_count(known.len(), sensitivity.len())?;
+    if let Some(bad) = seed.iter().find(|x| !x.is_finite()) {
+        return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
+    }
+    // a column of derivatives at a time
+    let column: Vec<Cell<f64>> = vec![Cell::new(0.0); unknown.len()];
+    for (known, sum) in known.into_iter().zip(sensitivity.iter()) {
+        let direction = std::iter::once((known, 1.0));
+        instance.get_directional_derivative(unknown.iter().copied(), direction, column.iter().map(Output::of))?;
+        sum.write(column.iter().zip(seed.iter()).map(|(slope, seed)| slope.get() * seed).sum());
+    }
+    Ok(())
+}

@@ -1,0 +1,143 @@
+//! The variables of FMI 3.0: the rows of the table by their value references, and behind them those that 3.0 has besides.
+
+use std::ffi::CStr;
+use std::sync::OnceLock;
+
+use crate::instance::EVENT_INDICATORS;
+use crate::model::{Happening, MAX_PLANETS, Parameters};
+use crate::variables::{Access, Variable, table};
+
+/// Prefix of the variables of the first planet, and of its loaded tooth pairs with the left side gear.
+const FIRST: &str = "planet[1].";
+const PAIR: &str = "planet[1].left_pair[";
+
+/// Where a variable has its value.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// A row of the table.
+    Row(usize),
+    /// The time, the independent variable.
+    Time,
+    /// What the last event was, as a number of [`Happening`].
+    EventKind,
+    /// Where it happened: the number of the side, planet or group, from 1.
+    EventPlace,
+    /// Its time.
+    EventTime,
+    /// The last event in words.
+    EventText,
+    /// An event indicator.
+    Indicator(usize),
+    /// One row of the table for each planet of the scene.
+    Planets(Vec<usize>),
+    /// One row of the table for each loaded tooth pair.
+    Pairs(Vec<usize>),
+}
+
+/// A variable that FMI 2.0 does not have.
+#[derive(Clone, Debug)]
+pub struct Added {
+    /// Dotted name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// Where its value is.
+    pub item: Item,
+}
+
+/// Names of [`Happening`], by their numbers, with what they say.
+pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
+    ("nothing", c"nothing has happened yet", Happening::Nothing),
+    ("wheel_stops", c"a wheel comes to rest and its brake holds it", Happening::WheelStops),
+    ("wheel_breaks_loose", c"a wheel begins to turn against its brake", Happening::WheelBreaksLoose),
+    ("clutch_sticks", c"a clutch, a washer or the lock begins to stick", Happening::ClutchSticks),
+    ("clutch_slips", c"a clutch, a washer or the lock begins to slip", Happening::ClutchSlips),
+    ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
+];
+
+/// Value reference of the number of planets, on which sizes of arrays depend.
+pub fn planet_count() -> u32 {
+    static PLACE: OnceLock<u32> = OnceLock::new();
+    *PLACE.get_or_init(|| {
+        table().rows.iter().position(|row| row.name == "geometry.planet_count").map_or(u32::MAX, |i| i as u32)
+    })
+}
+
+/// Whether a row changes at events alone.
+pub fn held(row: &Variable) -> Option<usize> {
+    ["held.sides", "held.planets", "held.wheels"].iter().position(|name| *name == row.name)
+}
+
+/// What FMI 3.0 has besides the rows of the table; value references follow those of the rows.
+pub fn added() -> &'static [Added] {
+    static ADDED: OnceLock<Vec<Added>> = OnceLock::new();
+    ADDED.get_or_init(|| {
+        let own =
+            |name: &str, description: &str, item| Added { name: name.into(), description: description.into(), item };
+        let mut added = vec![
+            own("time", "Simulation time", Item::Time),
+            own("event.kind", "What the last event was", Item::EventKind),
+            own(
+                "event.place",
+                "Side (1 left, 2 right) or group of planets at which it happened; 0 = none",
+                Item::EventPlace,
+            ),
+            own("event.time", "Time of the last event", Item::EventTime),
+            own("event.text", "The last event in words", Item::EventText),
+        ];
+        added.extend((0..EVENT_INDICATORS).map(|k| Added {
+            name: format!("event.indicator[{}]", k + 1),
+            description: "Changes its sign at an event: flanks touch or part, dry friction sticks or slips".into(),
+            item: Item::Indicator(k),
+        }));
+        added.extend(arrays());
+        added
+    })
+}
+
+/// Arrays over planets, and over the loaded tooth pairs of the first planet.
+fn arrays() -> Vec<Added> {
+    let rows = &table().rows;
+    let place = |name: &str| rows.iter().position(|row| row.name == name);
+    let outputs = rows.iter().filter(|row| matches!(row.access, Access::Output(_)));
+    let mut arrays = Vec::new();
+    for row in outputs {
+        if let Some(pair) = row.name.strip_prefix(PAIR).and_then(|rest| rest.strip_prefix("1].")) {
+            let members = (1..).map_while(|k| place(&format!("{PAIR}{k}].{pair}"))).collect();
+            let description = format!("{}, for each loaded pair", row.description);
+            arrays.push(Added {
+                name: format!("planet[1].left_pairs_{pair}"),
+                description,
+                item: Item::Pairs(members),
+            });
+        } else if let Some(quantity) = row.name.strip_prefix(FIRST).filter(|rest| !rest.contains('[')) {
+            let members: Vec<usize> =
+                (1..=MAX_PLANETS).filter_map(|k| place(&format!("planet[{k}].{quantity}"))).collect();
+            if members.len() == MAX_PLANETS {
+                let description = format!("{}, for each planet", row.description);
+                arrays.push(Added { name: format!("planets.{quantity}"), description, item: Item::Planets(members) });
+            }
+        }
+    }
+    arrays
+}
+
+/// The variable of a value reference.
+pub fn item(reference: u32) -> Option<Item> {
+    let (index, rows) = (reference as usize, table().rows.len());
+    if index < rows { Some(Item::Row(index)) } else { added().get(index - rows).map(|added| added.item.clone()) }
+}
+
+impl Item {
+    /// Rows of the table that the variable shows, where it shows such; sizes are those of the `parameters`.
+    pub fn rows<'a>(&'a self, parameters: &Parameters) -> &'a [usize] {
+        match self {
+            Self::Row(index) => std::slice::from_ref(index),
+            Self::Pairs(rows) => rows,
+            Self::Planets(rows) => {
+                &rows[..usize::try_from(parameters.geometry.planet_count).unwrap_or(0).min(rows.len())]
+            }
+            _ => &[],
+        }
+    }
+}

@@ -1,0 +1,247 @@
+"""The evidence that the FMU carries, and the command that holds a unit to it."""
+
+import csv
+import os
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from lxml import etree
+
+from bevel_differential import DifferentialError, Scene
+from bevel_differential.command import main
+from bevel_differential.scene_file import shipped_scenes
+from bevel_differential.verify import verify
+from bevel_differential.verify.evidence import FOLDER, MANIFEST, NAMESPACE
+
+ROOT = Path(__file__).resolve().parents[2]
+KEPT = ROOT / "modelDescription" / "evidence"
+LARGEST = 1_000_000  # bytes of all files
+ROWS = 300
+
+
+@pytest.fixture(scope="module")
+def content(fmu_file):
+    """Files of the packaged FMU by name."""
+    with zipfile.ZipFile(fmu_file) as archive:
+        return {name: archive.read(name) for name in archive.namelist() if not name.startswith("documentation/")}
+
+
+@pytest.fixture
+def unit(content, tmp_path):
+    """unit({file of the evidence: content or function of the present one, or None for none}): an FMU with other evidence."""
+
+    def made(changes):
+        files = dict(content)
+        for name, change in changes.items():
+            path = f"{FOLDER}/{name}"
+            new = change(files[path].decode()) if callable(change) else change
+            files.pop(path, None)
+            if new is not None:
+                files[path] = new
+        with zipfile.ZipFile(tmp_path / "unit.fmu", "w") as archive:
+            for name, data in files.items():
+                archive.writestr(name, data)
+        return str(tmp_path / "unit.fmu")
+
+    return made
+
+
+def alone(text, attributes=""):
+    """A manifest with this content."""
+    names = ' '.join(f'fmi-ls:fmi-ls-{key}="{value}"' for key, value in
+                     (("name", "org.fmi-standard.fmi-ls-ref"), ("version", "1.0.0-alpha.1"), ("description", "a result")))
+    return f'<fmiLayeredStandardManifest xmlns:fmi-ls="{NAMESPACE}" {attributes or names}>{text}</fmiLayeredStandardManifest>'
+
+
+# of the unit's default experiment, which is the study straight ahead from an equilibrium
+def default_result(fmu_file):
+    record = fmpy.simulate_fmu(fmu_file, output=["left.speed", "left.shaft_torque"], logger=lambda *_: None)
+    return "".join(f"{','.join(map(repr, row))}\n" for row in [record.dtype.names, *record.tolist()]).replace("'", "")
+
+
+def test_the_shipped_unit_passes_all_its_experiments(fmu_file, capsys):
+    assert main(["verify", fmu_file]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == f"{2 * len(shipped_scenes())} experiments, {2 * len(shipped_scenes())} passed"
+    for name in shipped_scenes():
+        for ending, kind in (("", "validation"), ("_smoke", "smoke test")):
+            assert any(re.match(rf"{name}{ending} +{kind} .* passed$", line) for line in lines), name
+    assert not any(line.startswith("fault") for line in lines)
+
+
+def test_quick_runs_smoke_tests_alone_and_the_table_has_every_variable(fmu_file, tmp_path, capsys):
+    file = tmp_path / "table.csv"
+    assert main(["verify", fmu_file, "--quick", "--csv", str(file)]) == 0
+    assert f"{len(shipped_scenes())} experiments" in capsys.readouterr().out
+    rows = list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
+    assert {row["kind"] for row in rows} == {"smoke test"}
+    for name in shipped_scenes():
+        outputs = Scene.load(name).outputs
+        assert sorted(row["variable"] for row in rows if row["experiment"] == f"{name}_smoke") == sorted(outputs)
+    assert all(abs(float(row["value"]) - float(row["expected"])) <= float(row["tolerance"]) for row in rows)
+
+
+@pytest.mark.parametrize("scene, name, variable", [
+    ("clunk", "half_shaft.left_stiffness", "left.twist"),
+    ("study_turning", "left.load_torque", "left.tangential_force"),
+    ("one_wheel_on_ice", "inertia.left_end", "left.wheel_speed"),
+    ("rattle", "carrier.speed_command", None),
+])
+def test_other_physics_is_noticed_with_scene_variable_time_and_by_how_much(unit, capsys, scene, name, variable):
+    def changed(text):
+        parameter = re.compile(rf'(name="{re.escape(name)}".*?value=")([^"]+)(")', re.DOTALL)
+        return parameter.sub(lambda found: f"{found[1]}{1.02 * float(found[2]) + (variable is None) * 0.01}{found[3]}", text, count=1)
+
+    # the scene rattle follows a table from 0 s on, so that a start value changes nothing
+    file = f"parameters/{scene}.ssv" if variable else f"inputs/{scene}.csv"
+    change = changed if variable else (lambda text: text.replace("3.49", "3.56"))
+    assert main(["verify", unit({file: change})]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    said = [line for line in lines if line.startswith(f"{scene}, validation: {variable or ''}")]
+    found = re.search(r": (\S+) at (\S+) s is (\S+) .*expected (\S+) .*within (\S+): off by (\S+), (\S+) times the tolerance$", said[0])
+    assert found and 0.0 <= float(found[2]) <= Scene.load(scene).stop
+    value, expected, tolerance, off, ratio = map(float, found.groups()[2:])
+    assert abs(value - expected) == pytest.approx(off, rel=0.02, abs=1e-8 * abs(value)) and off > tolerance
+    assert ratio == pytest.approx(off / tolerance, rel=0.06) and ratio > 10.0
+    # the other scenes still pass
+    verdicts = {line.split()[0]: line.split()[-1] for line in lines[1:2 * len(shipped_scenes()) + 1]}
+    assert {each for each, verdict in verdicts.items() if verdict == "failed"} <= {scene, f"{scene}_smoke"}
+    assert verdicts[scene] == "failed"
+
+
+@pytest.mark.parametrize("changes, parts", [
+    ({"results/hil.csv": None}, ["hil, validation", "results/hil.csv", "not in the FMU"]),
+    ({"results/hil.csv": lambda text: text.replace("left.twist", "left.twits")}, ["results/hil.csv, line 1", "left.twits", "did you mean left.twist"]),
+    ({"results/hil.csv": lambda text: text.replace("\n0.05,", "\n0.05,x", 1)}, ["results/hil.csv, line 3", "column carrier.speed", "'x"]),
+    ({"results/hil.csv": lambda text: text.replace("\n0.05,", "\n0.05,1,", 1)}, ["results/hil.csv, line 3", "8 cells", "has 7"]),
+    ({"results/hil.csv": lambda text: text.replace("\n0.05,", "\n-0.05,", 1)}, ["results/hil.csv", "times fall"]),
+    ({"results/hil.csv": b""}, ["results/hil.csv", "it is empty"]),
+    ({"results/hil.csv": lambda text: text.replace("time,", "speed,", 1)}, ["results/hil.csv, line 1", "'speed'", "must be time"]),
+    ({"results/hil.csv": lambda text: text.replace("\n10,", "\n20,", 1)}, ["hil, validation", "ends at 10 s", "20 s"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('"scene.left_drive"', '"scene.left_driv"')},
+     ["parameters/hil.ssv", "scene.left_driv", "did you mean scene.left_drive"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('value="ideal"', 'value="idel"')}, ["parameters/hil.ssv", "scene.gear_contact", "'idel'", "ideal"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="ten"', 1)}, ["parameters/hil.ssv", "'ten'", "no number"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('unit="N.m"', 'unit="lbf.ft"', 1)}, ["parameters/hil.ssv", "lbf.ft", "N.m"]),
+    ({"parameters/hil.ssv": b"<"}, ["parameters/hil.ssv", "no valid XML"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="-10.0"', 1)}, ["hil, validation", "the unit fails", "half_shaft"]),
+    ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "hil,right.twits")}, ["tolerances.csv", "left.twist", "hil"]),
+    ({"tolerances.csv": lambda text: re.sub(r"(hil,left.twist,rad),\S+", r"\1,0", text)}, ["tolerances.csv, line", "value 0", "above 0"]),
+    ({"tolerances.csv": b"experiment,variable\n"}, ["tolerances.csv", "no column tolerance"]),
+])
+def test_broken_evidence_is_reported_by_name(unit, capsys, changes, parts):
+    assert main(["verify", unit(changes)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    said = [line for line in lines if line.startswith("hil, validation: ")]
+    assert len(said) == 1 and all(part in said[0] for part in parts), said
+    assert any(re.match(r"hil +validation +broken$", line) for line in lines)
+    assert sum(line.endswith(" passed") for line in lines) >= len(shipped_scenes())
+
+
+@pytest.mark.parametrize("manifest, fault", [
+    (alone('<Result file="results/default.csv"/>'), None),
+    (alone("", f'fmi-ls:fmi-ls-name="org.fmi-standard.fmi-ls-ref" result="results/default.csv"'), "fmi-ls-version is missing"),
+    (alone("", 'fmi-ls-name="org.fmi-standard.fmi-ls-ref" result="results/default.csv"'), "fmi-ls-name is not in the namespace"),
+    (alone('<Result file="default.csv"/>'), "results/default.csv is taken"),
+    (alone('<Result file="results/default.csv"/>').replace(f'xmlns:fmi-ls="{NAMESPACE}"', ""), "no valid XML"),
+    (alone('<Result file="results/default.csv"/>').replace("alpha.1", "alpha.9"), "'1.0.0-alpha.9'"),
+])
+def test_a_result_alone_is_held_to_the_default_experiment_and_faults_are_told(unit, fmu_file, capsys, manifest, fault):
+    file = unit({MANIFEST: manifest, "results/default.csv": default_result(fmu_file)})
+    assert main(["verify", file]) == 0
+    said = capsys.readouterr().out
+    assert "default experiment" in said and "1 experiments, 1 passed" in said and "is assumed" in said
+    assert fault is None or any(line.startswith("fault: ") and fault in line for line in said.splitlines()), said
+
+
+def test_a_result_alone_that_differs_fails(unit, fmu_file, capsys):
+    result = default_result(fmu_file)
+    row = result.splitlines()[7].split(",")
+    row[1] = repr(1.01 * float(row[1]))
+    changed = result.replace(result.splitlines()[7], ",".join(row))
+    assert main(["verify", unit({MANIFEST: alone('<Result file="results/a.csv"/>'), "results/a.csv": changed})]) == 1
+    assert f"left.speed at {float(row[0]):.6g} s is" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("changes, parts", [
+    ({MANIFEST: None}, [FOLDER, MANIFEST, "no evidence"]),
+    ({MANIFEST: alone("")}, [MANIFEST, "no experiment and no result"]),
+    ({MANIFEST: b"no XML"}, [MANIFEST, "nothing in it can be read"]),
+])
+def test_a_unit_without_evidence_is_refused(unit, changes, parts):
+    with pytest.raises(DifferentialError) as refused:
+        verify(unit(changes))
+    assert all(part in str(refused.value) for part in parts), refused.value
+
+
+def test_the_manifest_has_the_attributes_of_the_standard_s_schema(content):
+    schema = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3LayeredStandardManifest.xsd")))
+    root = etree.fromstring(content[f"{FOLDER}/{MANIFEST}"])
+    # the schema leaves what is in the root element to the layered standard
+    bare = etree.Element(root.tag, dict(root.attrib))
+    schema.assertValid(bare)
+    del bare.attrib[f"{{{NAMESPACE}}}fmi-ls-version"]
+    assert not schema.validate(bare)
+
+
+def test_parameter_sets_are_valid_by_the_standard_s_schema():
+    schema = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureParameterValues.xsd")))
+    files = sorted((KEPT / "parameters").glob("*.ssv"))
+    assert [file.stem for file in files] == shipped_scenes()
+    for file in files:
+        schema.assertValid(etree.parse(str(file)))
+
+
+def test_the_unit_carries_what_the_repository_keeps_and_that_is_small(content):
+    kept = {file.relative_to(KEPT).as_posix(): file.read_bytes() for file in KEPT.rglob("*") if file.is_file()}
+    assert {f"{FOLDER}/{name}": data for name, data in kept.items()} == {name: data for name, data in content.items() if name.startswith(FOLDER)}
+    assert sum(map(len, kept.values())) < LARGEST
+    assert all(data.count(b"\n") <= ROWS for name, data in kept.items() if name.startswith("results/"))
+
+
+@pytest.fixture(scope="module")
+def made(fmu_file, tmp_path_factory):
+    """What the command makes now."""
+    import evidence
+
+    folder = tmp_path_factory.mktemp("evidence") / "made"
+    evidence.main(fmu_file, folder)
+    return folder
+
+
+def test_the_repository_keeps_what_the_command_makes(made):
+    names = sorted(file.relative_to(made).as_posix() for file in made.rglob("*") if file.is_file())
+    assert names == sorted(file.relative_to(KEPT).as_posix() for file in KEPT.rglob("*") if file.is_file())
+    for name in names:
+        if not name.startswith(("results/", "tolerances")):
+            assert (made / name).read_bytes() == (KEPT / name).read_bytes(), f"{name} is out of date; renew it: cargo run --release -- evidence"
+    kept, new = ({(row["experiment"], row["variable"]): float(row["tolerance"]) for row in csv.DictReader((folder / "tolerances.csv").open())}
+                 for folder in (KEPT, made))
+    assert kept.keys() == new.keys()
+    for key, tolerance in kept.items():
+        assert new[key] == pytest.approx(tolerance, rel=0.5), key
+    for experiment in {experiment for experiment, _ in kept}:
+        old, now = (np.genfromtxt(folder / "results" / f"{experiment}.csv", delimiter=",", names=True, deletechars="", replace_space=" ")
+                    for folder in (KEPT, made))
+        assert old.dtype.names == now.dtype.names and np.array_equal(old["time"], now["time"])
+        for name in old.dtype.names[1:]:
+            assert np.abs(old[name] - now[name]).max() <= kept[experiment, name], (experiment, name)
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_results_are_those_of_the_scenes(fmu_file, name):
+    """The package's own way to simulate a scene, with its own reader of inputs, gives the results too."""
+    with Scene.load(name, fmu=fmu_file) as scene:
+        record = scene.run()
+    result = np.genfromtxt(KEPT / "results" / f"{name}.csv", delimiter=",", names=True, deletechars="", replace_space=" ")
+    allowed = {row["variable"]: float(row["tolerance"]) for row in csv.DictReader((KEPT / "tolerances.csv").open()) if row["experiment"] == name}
+    places = np.array([int(np.argmin(np.abs(record["time"] - time))) for time in result["time"]])
+    assert np.allclose(record["time"][places], result["time"], rtol=1e-9, atol=1e-12)
+    assert sorted(result.dtype.names[1:]) == sorted(scene.outputs) == sorted(allowed)
+    for output in scene.outputs:
+        assert np.abs(record[output][places] - result[output]).max() <= allowed[output], output
