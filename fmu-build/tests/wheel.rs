@@ -38,7 +38,7 @@ fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
         wheels.push(wheel::write(&libraries, &environment, &folder.join(name))?);
     }
     assert!(fs::read(&wheels[0])? == fs::read(&wheels[1])?);
-    assert_eq!(listed(&sources)?, before, "the wheel is built elsewhere");
+    assert_eq!(listed(&sources)?, before, "the build of the wheel has changed the folder python");
     let version = env!("CARGO_PKG_VERSION");
     let name = wheels[0].file_name().context("a file")?;
     assert_eq!(name.to_string_lossy(), format!("bevel_differential-{version}-py3-none-any.whl"));

@@ -66,9 +66,10 @@ impl Runout {
     /// Replaces the azimuths by those of `gears`, one entry per gear. Refuses values that are not finite.
     pub fn set_azimuths(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         let [planets, sides] = &mut self.direction;
-        for (azimuth, gear) in sides.iter_mut().chain(planets.iter_mut()).zip(gears) {
+        for (number, (azimuth, gear)) in sides.iter_mut().chain(planets.iter_mut()).zip(gears).enumerate() {
             if !gear.azimuth.is_finite() {
-                return Err(Problem::new("tooth_errors.planet_runout", "an azimuth that is given is not finite"));
+                let name = if number < 2 { "tooth_errors.side_runout" } else { "tooth_errors.planet_runout" };
+                return Err(Problem::new(name, "a given azimuth is not finite"));
             }
             *azimuth = gear.azimuth;
         }

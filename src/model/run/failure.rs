@@ -30,7 +30,9 @@ impl StepFailure {
 
 impl fmt::Display for StepFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at t = {} s: {}", self.time, self.message)
+        // six significant digits: more say nothing to a user
+        let time = format!("{:.5e}", self.time).parse().unwrap_or(self.time);
+        write!(f, "at t = {time:?} s: {}", self.message)
     }
 }
 
@@ -68,4 +70,16 @@ impl ExcessiveDeflection {
 /// What limits the deflection of teeth.
 pub fn limit_name(model: &Model) -> &'static str {
     if model.pair.working_depth() <= 0.5 * model.pair.base_pitch { "the working depth" } else { "half the base pitch" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_says_its_time_in_six_digits() {
+        for (time, told) in [(0.000_003_716_875_526_471_57, "3.71688e-6"), (0.1, "0.1"), (1.234_567_89, "1.23457")] {
+            assert!(StepFailure::not_finite(time).to_string().starts_with(&format!("at t = {told} s: ")));
+        }
+    }
 }
