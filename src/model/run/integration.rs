@@ -32,7 +32,7 @@ pub const LONGEST_INTERVAL: f64 = 1.0;
 /// Longest step [s].
 const LONGEST: f64 = LONGEST_INTERVAL;
 /// What a double can resolve of times up to the length of a stretch [s].
-const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
+pub const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
 
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::events::{break_tooth, update_friction};
+use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
 use super::{StepFailure, imposed, start, start_report, timeline};
 use crate::model::assembly::{Gears, Given, Model};
@@ -201,8 +202,10 @@ impl Simulation {
         if let (true, Some(end)) = (holds, end(&self.state)) {
             return Ok(Some(end));
         }
-        // the least way on begins the step
-        self.advance_by(self.state.time().next_up(), Way { is_part: true, ..Way::default() })?;
+        // the least way on that the solver can tell from none begins the step
+        let time = self.state.time();
+        let until = time.next_up().max(time + 2.0 * RESOLUTION);
+        self.advance_by(until, Way { is_part: true, ..Way::default() })?;
         Ok(end(&self.state))
     }
 

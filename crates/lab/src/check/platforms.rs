@@ -28,7 +28,7 @@ pub fn built(_: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
     let mut arguments: Vec<OsString> = vec![paths::scenes().into(), windows.programs().join("wine64").into()];
     for (index, (name, library)) in named.into_iter().enumerate() {
         let fmu = paths::target().join("platforms").join(format!("{index}.fmu"));
-        package::write_archive(&[library], None, Packing::Quick, &fmu)?;
+        package::write_archive(package::Version::Two, &[library], None, Packing::Quick, &fmu)?;
         let mut pair = OsString::from(format!("{name}="));
         pair.push(fmu);
         arguments.push(pair);

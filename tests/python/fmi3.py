@@ -1,0 +1,100 @@
+"""A unit of FMI 3.0 driven by fmpy, call by call, with names for value references."""
+
+from ctypes import byref, c_bool, c_double, c_int32, c_int64, c_size_t, c_uint, c_uint64
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi3 import FMU3Model, FMU3Slave, fmi3Binary  # noqa: F401
+
+KINDS = {"Float64": c_double, "Int32": c_int32, "Enumeration": c_int64, "UInt64": c_uint64, "Boolean": c_bool}
+CALLS = {"Float64": "Float64", "Int32": "Int32", "Enumeration": "Int64", "UInt64": "UInt64", "Boolean": "Boolean"}
+
+
+class Unit3:
+    """One instance. `variables` by name; values are SI, numbers of literals, bool."""
+
+    def __init__(self, file, kind="CoSimulation", **options):
+        self.folder = extract(str(file))
+        self.description = read_model_description(self.folder)
+        self.variables = {variable.name: variable for variable in self.description.modelVariables}
+        self.messages = []
+        make = {"CoSimulation": FMU3Slave, "ModelExchange": FMU3Model}[kind]
+        element = self.description.coSimulation if kind == "CoSimulation" else self.description.modelExchange
+        self.raw = make(guid=self.description.guid, unzipDirectory=self.folder, instanceName="three",
+                        modelIdentifier=element.modelIdentifier)
+        self.raw.instantiate(logMessage=self._log, **options)
+
+    def _log(self, _environment, status, _category, message):
+        self.messages.append((status, message.decode()))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.raw.freeInstance()
+
+    def set(self, values):
+        for name, value in values.items():
+            variable = self.variables[name]
+            kind = KINDS[variable.type]
+            references, numbers = (c_uint * 1)(variable.valueReference), (kind * 1)(value)
+            getattr(self.raw, f"fmi3Set{CALLS[variable.type]}")(self.raw.component, references, 1, numbers, 1)
+
+    def read(self, names):
+        """Values in their order; of arrays lists."""
+        return [self._get(self.variables[name]) for name in names]
+
+    def _get(self, variable):
+        size = int(np.prod([self._extent(dimension) for dimension in variable.dimensions or []]))
+        numbers = (KINDS[variable.type] * size)()
+        getattr(self.raw, f"fmi3Get{CALLS[variable.type]}")(self.raw.component, (c_uint * 1)(variable.valueReference), 1,
+                                                             numbers, size)
+        return list(numbers) if variable.dimensions else numbers[0]
+
+    def _extent(self, dimension):
+        return dimension.start if dimension.start is not None else self._get(dimension.variable)
+
+    def reals(self, names):
+        """Scalar Float64 variables in one call, as an array."""
+        references = (c_uint * len(names))(*(self.variables[name].valueReference for name in names))
+        values = np.empty(len(names))
+        self.raw.fmi3GetFloat64(self.raw.component, references, len(names),
+                                values.ctypes.data_as(self.raw.fmi3GetFloat64.__annotations__["values"]), len(names))
+        return values
+
+    def initialise(self, values, stop=None):
+        count = values.get("geometry.planet_count")
+        if count is not None:
+            self.raw.fmi3EnterConfigurationMode(self.raw.component)
+            self.set({"geometry.planet_count": int(count)})
+            self.raw.fmi3ExitConfigurationMode(self.raw.component)
+        self.set({name: value for name, value in values.items() if name != "geometry.planet_count"})
+        self.raw.enterInitializationMode(startTime=0.0, stopTime=stop)
+        self.raw.exitInitializationMode()
+
+    def step(self, time, size):
+        """(event handling needed, terminate, early return, last successful time)."""
+        return self.raw.doStep(time, size)
+
+    def handle_event(self):
+        """Event mode and back; whether continuous states changed and the next event."""
+        self.raw.enterEventMode()
+        found = self.raw.updateDiscreteStates()
+        self.raw.enterStepMode()
+        return found
+
+    def sensitivity(self, unknowns, knowns, seed, adjoint=False):
+        """Directional derivative, or its adjoint."""
+        u, k = ((c_uint * len(names))(*(self.variables[name].valueReference for name in names)) for names in (unknowns, knowns))
+        seeds, found = (c_double * len(seed))(*seed), (c_double * len(knowns if adjoint else unknowns))()
+        call = self.raw.fmi3GetAdjointDerivative if adjoint else self.raw.fmi3GetDirectionalDerivative
+        call(self.raw.component, u, len(unknowns), k, len(knowns), seeds, len(seed), found, len(found))
+        return np.array(found)
+
+    def save(self):
+        return self.raw.getFMUState()
+
+    def number_of(self, what):
+        count = c_size_t()
+        getattr(self.raw, f"fmi3GetNumberOf{what}")(self.raw.component, byref(count))
+        return count.value
