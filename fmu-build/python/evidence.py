@@ -21,8 +21,9 @@ from evidence_files import manifest, requirements, write_table
 
 SOLVER = "solver.relative_tolerance"
 TIGHT = 1e-9
-# a tolerance by the difference between both runs, so that other platforms have room
-MARGIN = 2.0
+# a tolerance by the difference between both runs: other platforms, and hosts that place communication points otherwise, have other
+# differences of the same size
+MARGIN = 5.0
 # parts of the largest magnitude: what the digits of the files cost, and a difference that shows another motion
 ROUNDING, LOST = 1e-9, 1e-3
 # rows of a result, and the part of a scene that a smoke test runs

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::instance::check_step;
 use super::{CallError, CallResult, Instance, Kind, Phase};
-use crate::model::{Event, StepFailure, Update, Way};
+use crate::model::{Event, StepFailure, Update, Way, six_digits};
 
 /// What the host of a co-simulation allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,8 +98,10 @@ impl Instance {
         self.now.phase = Phase::StepFailed;
         let last = self.now.simulation.as_ref().map_or(f64::NAN, crate::model::Simulation::time);
         CallError::discard(format!(
-            "{failure}; values are those of the last successful time {last} s; continue with {} or {}",
-            self.face.set_state, self.face.reset
+            "{failure}; values are those of the last successful time {:?} s; continue with {} or {}",
+            six_digits(last),
+            self.face.set_state,
+            self.face.reset
         ))
     }
 

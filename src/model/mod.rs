@@ -36,6 +36,7 @@ pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
     Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
+    six_digits,
 };
 pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;

@@ -30,10 +30,13 @@ impl StepFailure {
 
 impl fmt::Display for StepFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // six significant digits: more say nothing to a user
-        let time = format!("{:.5e}", self.time).parse().unwrap_or(self.time);
-        write!(f, "at t = {time:?} s: {}", self.message)
+        write!(f, "at t = {:?} s: {}", six_digits(self.time), self.message)
     }
+}
+
+/// A number to six significant digits: more say nothing to a user.
+pub fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// A tooth bent beyond the limit.

@@ -21,7 +21,7 @@ mod timeline;
 mod watching;
 
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
-pub use failure::StepFailure;
+pub use failure::{StepFailure, six_digits};
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use readings::CostClass;
 pub use reports::Reported;

@@ -90,7 +90,7 @@ class Experiment:
                     output_interval=self._spacing() if step is None else float(step), input=self.signals,
                     output=list(self.columns), logger=lambda *words: said.append(_text(words[-1])))
         except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
-            raise Broken(f"the unit fails: {'; '.join([*said, str(error)])}") from None
+            raise Broken(f"the unit fails: {' '.join('; '.join([*said, str(error)]).split())}") from None
 
     def _spacing(self):
         rising = np.diff(self.expected["time"])
@@ -102,7 +102,9 @@ class Experiment:
         path = (self.folder / name).resolve()
         if path.is_file() and path.is_relative_to(unit.folder.resolve()):
             return name, path
-        others = sorted(unit.folder.rglob(Path(name).name))
+        # a name with its folder is that of no file in another folder
+        parent = Path(name).parent.name
+        others = sorted(each for each in unit.folder.rglob(Path(name).name) if parent in ("", each.parent.name))
         if not others:
             raise Broken(f"{name}: it is not in the FMU")
         self.faults.append(f"{name}: it is not beside the manifest; {others[0].relative_to(unit.folder).as_posix()} is taken")
