@@ -59,6 +59,11 @@ impl<'a, T> OutputArray<'a, T> {
     pub fn len(self) -> usize {
         self.0.len()
     }
+
+    /// Whether there are no elements.
+    pub fn is_empty(self) -> bool {
+        self.0.is_empty()
+    }
 }
 
 impl<'a, T> Output<'a, T> {

@@ -260,3 +260,37 @@ def test_an_instance_of_one_version_is_refused_by_the_other(fmu3, fmu):
         library.fmi2Reset.argtypes, library.fmi2Reset.restype = [ctypes.c_void_p], ctypes.c_int
         assert library.fmi2Reset(unit.raw.component) == 3
         assert "made by a function of FMI 3.0" in unit.messages[-1][1]
+
+
+def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps(fmu3):
+    """It releases the brake of a wheel that stops: by early return, and by looking every 10 us."""
+    end, names = 0.1, ["left.wheel_speed", "right.wheel_speed", "carrier.angle"]
+
+    def release(unit, held):
+        unit.set({f"{side}.brake_torque": 0.0 for bit, side in ((1, "left"), (2, "right")) if int(held) & bit})
+
+    with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
+        unit.initialise(BRAKING)
+        unit.raw.updateDiscreteStates()
+        unit.raw.enterStepMode()
+        time, few = 0.0, 0
+        while time < end - 1e-12:
+            event, _, _, time = unit.step(time, min(5e-3, end - time))
+            few += 1
+            if event:
+                unit.raw.enterEventMode()
+                unit.raw.updateDiscreteStates()
+                if unit.read(["event.kind"]) == [1]:
+                    release(unit, unit.reals(["held.wheels"])[0])
+                unit.raw.enterStepMode()
+        by_events = unit.reals(names)
+    with Unit3(fmu3) as unit:
+        unit.initialise(BRAKING)
+        many = round(end / 1e-5)
+        for k in range(many):
+            unit.step(k * 1e-5, (k + 1) * 1e-5 - k * 1e-5)
+            release(unit, unit.reals(["held.wheels"])[0])
+        by_looking = unit.reals(names)
+    assert 20 * few <= many
+    # a look is late by 10 us at most, in which a brake changes speeds by some 1000 rad/s² and moves teeth through their lash
+    assert by_events == pytest.approx(by_looking, abs=0.05)

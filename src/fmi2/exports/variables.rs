@@ -26,10 +26,16 @@ macro_rules! accesses {
 accesses! {
     fmi2GetReal GetReal *mut f64, output, |instance, vr, values| instance.get_real(vr.iter(), values.iter());
     fmi2GetInteger GetInteger *mut c_int, output, |instance, vr, values| {
-        vr.iter().zip(values.iter()).try_for_each(|(vr, value)| Ok(value.write(instance.get_integer(vr)?)))
+        for (vr, value) in vr.iter().zip(values.iter()) {
+            value.write(instance.get_integer(vr)?);
+        }
+        Ok(())
     };
     fmi2GetBoolean GetBoolean *mut Boolean, output, |instance, vr, values| {
-        vr.iter().zip(values.iter()).try_for_each(|(vr, value)| Ok(value.write(instance.get_boolean(vr)?.into())))
+        for (vr, value) in vr.iter().zip(values.iter()) {
+            value.write(instance.get_boolean(vr)?.into());
+        }
+        Ok(())
     };
     fmi2SetReal SetReal *const f64, input, |instance, vr, values| instance.set_real(vr, values);
     fmi2SetInteger SetInteger *const c_int, input, |instance, vr, values| {

@@ -75,7 +75,8 @@ unsafe fn part(
         // SAFETY: as above
         let last = unsafe { host.output_value("lastSuccessfulTime", last_time)? };
         terminate.write(0);
-        (event.write(0), early.write(0));
+        event.write(0);
+        early.write(0);
         last.write(instance.now.simulation.as_ref().map_or(point, |simulation| simulation.time()));
         let [update, environment] = instance.allowed.update;
         let ended =

@@ -12,7 +12,7 @@ TABLE = ("experiment", "kind", "variable", "unit", "time", "value", "expected", 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("fmu", metavar="FMU", help="an FMU that carries evidence by FMI-LS-REF")
+    parser.add_argument("fmu", metavar="FMU", nargs="?", help="an FMU that carries evidence by FMI-LS-REF (start value: that of this package)")
     parser.add_argument("--quick", action="store_true", help="smoke tests alone")
     parser.add_argument("--csv", metavar="FILE", help="write the largest deviation of each variable")
     add_progress(parser)
@@ -20,6 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Runs the experiments, prints a table and writes a file. Returns 1 where an experiment fails or is broken."""
+    from ..fmu import usual
     from ..output_file import checked
     from ..progress import shown
     from ..records import write
@@ -28,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     checked(arguments.csv)
     with shown(arguments.progress) as progress:
-        found, faults = verify(arguments.fmu, arguments.quick, progress)
+        found, faults = verify(arguments.fmu or usual(), arguments.quick, progress)
     for fault in faults:
         print(f"fault: {fault}")
     print("\n".join(aligned([HEAD, *map(_row, found)], 3)))
