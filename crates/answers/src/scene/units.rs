@@ -129,7 +129,7 @@ mod tests {
         assert!(wrong("geometry.module", "4.5 kg").ends_with("units that do: m, mm, um"));
         assert!(wrong("geometry.module", "4.5").contains("has no unit"));
         assert!(wrong("geometry.module", "large").contains("does not begin with a number"));
-        assert!(wrong("solver.relative_tolerance", "1 mm").contains("has no unit"));
+        assert!(wrong("solver.relative_tolerance", "1 mm").contains("without a unit"));
         assert!(seconds("3 m").is_err());
     }
 }

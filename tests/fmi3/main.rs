@@ -1,0 +1,4 @@
+//! The C interface of FMI 3.0.
+
+mod random;
+mod sources;

@@ -1,0 +1,23 @@
+//! All exports go through the frame that catches panics.
+
+use std::fs;
+use std::path::Path;
+
+/// How an export begins: three entries that catch panics, and a constant that cannot panic. Steps enter by `part`.
+const ENTRIES: [&str; 5] = ["call!(c, ", " catch(", "{ free(c) }", "c\"3.0\"", "part(c, "];
+
+#[test]
+fn every_export_catches_panics() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/fmi3/exports");
+    let mut seen = 0;
+    for file in fs::read_dir(folder).expect("the exports") {
+        let text = fs::read_to_string(file.expect("a file").path()).expect("a source");
+        for export in text.split("#[unsafe(no_mangle)]").skip(1) {
+            let signature = export.lines().nth(1).unwrap_or_default();
+            assert!(export.trim_start().starts_with("pub ") && export.contains("extern \"C\" fn"), "{signature}");
+            assert!(ENTRIES.iter().any(|entry| export.contains(entry)), "{signature}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 30, "{seen}");
+}
