@@ -105,7 +105,7 @@ fn instance(random: &mut Random, count: *mut u64) -> ComponentPointer {
     }
 }
 
-/// One call. Its status, and whether it may move the time.
+/// One call. Returns its status.
 fn call(random: &mut Random, round: &mut Round) -> Status {
     let c = round.c;
     let (vr, value) = ([random.reference(), random.reference()], [random.value(), random.value()]);
@@ -206,6 +206,7 @@ fn calls_at_random_keep_all_promises() {
         let mut count = 0u64;
         let c = instance(&mut random, &raw mut count);
         assert!(!c.is_null());
+        let mut round = Round { c, state: ptr::null_mut(), time: 0.0 };
         for _ in 0..ROUND {
             LOGGED.with_borrow_mut(Vec::clear);
             let status = call(&mut random, &mut round);

@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 import binaries
 import fmpy
 import pytest
+from fmpy.fmi3 import _FMU3
 from lxml import etree
 
 ROOT = Path(__file__).parents[2]
@@ -27,6 +28,8 @@ EXCHANGING = ["EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", 
               "SetContinuousStates", "GetDerivatives", "GetEventIndicators", "GetContinuousStates",
               "GetNominalsOfContinuousStates"]
 DECLARED = {"fmi2" + name for name in COMMON + STEPPING + EXCHANGING}
+# those of FMI 3.0, as fmpy calls them
+DECLARED |= {name for name in dir(_FMU3) if name.startswith("fmi3")}
 # libraries that belong to Windows itself, besides the families below
 WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32.dll", "bcrypt.dll", "advapi32.dll",
                "bcryptprimitives.dll"}

@@ -149,7 +149,7 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
     file = tmp_path / "found.parquet"
     first = sweep(scene, **few(), out=file)
     before = file.read_bytes()
-    other = "something else"
+    other = "other results"
     for changed, options, message in [({}, {}, "--resume"), ({"seed": 2}, {}, other), ({"seed": 2}, {"resume": True}, other),
                                       ({"wants": ["right.speed"]}, {"resume": True}, other)]:
         with pytest.raises(DifferentialError, match=message):
@@ -159,7 +159,7 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
     assert again.new == 0 and again.digest() == first.digest() and file.read_bytes() == before
     assert sweep(scene, **few(seed=2), out=file, force=True).digest() != first.digest()
     (tmp_path / "text.parquet").write_text("mine")
-    with pytest.raises(DifferentialError, match="something else"):
+    with pytest.raises(DifferentialError, match="other results"):
         sweep(scene, **few(), out=tmp_path / "text.parquet", resume=True)
     with pytest.raises(DifferentialError, match="no folder"):
         sweep(scene, **few(), out=tmp_path / "nowhere" / "found.parquet")

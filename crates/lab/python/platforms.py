@@ -160,7 +160,7 @@ def described(platform):
     else:
         exported, needed, glibc = binaries.of_linux(platform.binary)
         version = ".".join(str(part) for part in glibc)
-    others = [name for name in exported if not name.startswith("fmi2")]
+    others = [name for name in exported if not name.startswith(("fmi2", "fmi3"))]
     size = platform.binary.stat().st_size / 1e6
     return [platform.name, f"{size:.2f}", version, ", ".join(needed)], [len(exported), *others]
 

@@ -69,7 +69,10 @@ fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(&library).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let listed = String::from_utf8(output.stdout).unwrap();
-    let mut exported: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().last()).collect();
+    let all = listed.lines().filter_map(|line| line.split_whitespace().last());
+    // those of FMI 3.0 are compared with fmpy's list by a test in Python
+    let (third, mut exported): (Vec<&str>, Vec<&str>) = all.partition(|name| name.starts_with("fmi3"));
+    assert_eq!(third.len(), 75, "functions of FMI 3.0.2");
     let mut known: Vec<&str> = Function::ALL.iter().map(|f| f.name()).collect();
     exported.sort_unstable();
     known.sort_unstable();

@@ -193,8 +193,8 @@ fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) ->
     }
 }
 
-/// Where a serialised state holds the phase: after the header and the kind.
-const PHASE: usize = 29;
+/// Where a serialised state holds the phase: after the header, the version of FMI and the kind.
+const PHASE: usize = 30;
 
 /// A function by its weight; those of the other kind of instance seldom.
 fn draw(r: &mut Random, kind: i32) -> Function {
