@@ -8,7 +8,8 @@ from lxml import etree
 
 REQUIREMENTS = """# What a test with this evidence requires
 
-The manifest follows FMI-LS-REF {version}. Each scene is a parameter set, a table of inputs where inputs change, and two experiments.
+The manifest's folder, name and root attributes are those of FMI-LS-REF {version}; the elements within it are the project's own. Each
+scene is a parameter set, a table of inputs where inputs change, and two experiments.
 
 - **Smoke test**: the first {smoke:.0%} of a scene. It shows that the unit runs and starts as it should.
 - **Validation**: the whole scene.
