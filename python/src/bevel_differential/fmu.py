@@ -94,7 +94,7 @@ class Fmu:
         for name, value in {**(values or {}), **named}.items():
             variable = self.variable(name)
             if variable.causality not in ("parameter", "input"):
-                raise DifferentialError(f"{name}: an output or a calculated value; only parameters and inputs can be set")
+                raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
             number = variable.number(value)
             if variable.has_unit(value):
                 # the FMU's own message guesses at the unit that was meant
