@@ -1,6 +1,7 @@
 """Makes the other parts with pythonfmu and binds all of them into one archive after the standard SSP 1.0."""
 
 import shutil
+import sys
 import zipfile
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -12,6 +13,8 @@ from parameters import CONNECTIONS, END, PARTS, settings
 HERE = Path(__file__).parent
 # in each of these FMUs: what parts have in common, and the package's equations of tyre, motor and body
 SHARED = [HERE / "parts" / "part.py", HERE.parents[1] / "python/src/bevel_differential/vehicle/equations.py"]
+# pythonfmu imports a part to describe it; last, as a part.py of the package's own lies there too
+sys.path.append(str(SHARED[1].parent))
 # file of each class that pythonfmu makes
 SOURCES = {"Engine": "engine.py", "FinalDrive": "final_drive.py", "Wheel": "wheel.py", "Vehicle": "vehicle.py"}
 SPACES = ('xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription" '
