@@ -39,27 +39,26 @@ fn name(reference: u32) -> String {
 /// fmi3GetFloat64.
 pub fn get_float64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
     let rows = table().rows.len() as u32;
-    let is_plain = |reference: u32| reference < rows && held(&table().rows[reference as usize]).is_none();
+    let is_plain = |reference: u32| reference < rows && held(reference as usize).is_none();
     if references.iter().all(is_plain) {
         check_count(references.len(), values.len())?;
         return instance.get_real(references.iter(), values.iter());
     }
     let items =
         references.iter().map(|reference| Ok((reference, known(reference)?))).collect::<CallResult<Vec<_>>>()?;
-    let size = |item: &Item| {
-        if matches!(item, Item::Planets(_) | Item::Pairs(_)) { item.rows(&instance.now.parameters).len() } else { 1 }
-    };
-    check_count(items.iter().map(|(_, item)| size(item)).sum(), values.len())?;
+    check_count(items.iter().map(|(_, item)| item.len(&instance.now.parameters)).sum(), values.len())?;
     let mut places = values.iter();
     // rows together, so that they share what they need
     let (mut wanted, mut room): (Vec<u32>, Vec<Output<f64>>) = (Vec::new(), Vec::new());
     for (reference, item) in &items {
         let mut one = || places.next().ok_or_else(|| CallError::error("there is no room for a value"));
+        if let Item::Row(index) = item
+            && let Some(mask) = held(*index)
+        {
+            one()?.write(instance.discrete()?.held[mask]);
+            continue;
+        }
         match item {
-            Item::Row(index) if held(&table().rows[*index]).is_some() => {
-                let k = held(&table().rows[*index]).unwrap_or(0);
-                one()?.write(instance.discrete()?.held[k]);
-            }
             Item::Row(_) | Item::Planets(_) | Item::Pairs(_) => {
                 for &index in item.rows(&instance.now.parameters) {
                     wanted.push(index as u32);
@@ -199,8 +198,10 @@ fn check_structural(reference: u32) -> CallResult {
 pub fn get_boolean(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u8>) -> CallResult {
     check_count(references.len(), values.len())?;
     for (reference, value) in references.iter().zip(values.iter()) {
-        settable(reference, "Boolean").map_err(|_| other_type(reference, "Boolean"))?;
-        value.write(u8::from(instance.get_boolean(reference)?));
+        match known(reference)? {
+            Item::Row(_) => value.write(u8::from(instance.get_boolean(reference)?)),
+            _ => return Err(other_type(reference, "Boolean")),
+        }
     }
     Ok(())
 }
@@ -245,30 +246,38 @@ fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u
     Ok(rows)
 }
 
+/// Rows of unknowns and knowns, in whose numbers there must be `[of unknowns, of knowns]` values.
+fn rows_of_both(
+    instance: &Instance,
+    [unknowns, knowns]: [InputArray<u32>; 2],
+    values: [usize; 2],
+) -> CallResult<[Vec<u32>; 2]> {
+    let rows = [rows_of(instance, unknowns)?, rows_of(instance, knowns)?];
+    check_count(rows[1].len(), values[1])?;
+    check_count(rows[0].len(), values[0])?;
+    Ok(rows)
+}
+
 /// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.
 pub fn directional_derivative(
     instance: &mut Instance,
-    [unknowns, knowns]: [InputArray<u32>; 2],
+    references: [InputArray<u32>; 2],
     seed: InputArray<f64>,
     sensitivity: OutputArray<f64>,
 ) -> CallResult {
-    let [unknown, known] = [rows_of(instance, unknowns)?, rows_of(instance, knowns)?];
-    check_count(known.len(), seed.len())?;
-    check_count(unknown.len(), sensitivity.len())?;
-    let directed = known.into_iter().zip(seed.iter()).collect::<Vec<_>>();
-    instance.get_directional_derivative(unknown.into_iter(), directed.into_iter(), sensitivity.iter())
+    let [unknown, known] = rows_of_both(instance, references, [sensitivity.len(), seed.len()])?;
+    let directed = known.iter().copied().zip(seed.iter());
+    instance.get_directional_derivative(unknown.into_iter(), directed, sensitivity.iter())
 }
 
 /// fmi3GetAdjointDerivative: for each known the sum over unknowns of `seed` times their derivative by it.
 pub fn adjoint_derivative(
     instance: &mut Instance,
-    [unknowns, knowns]: [InputArray<u32>; 2],
+    references: [InputArray<u32>; 2],
     seed: InputArray<f64>,
     sensitivity: OutputArray<f64>,
 ) -> CallResult {
-    let [unknown, known] = [rows_of(instance, unknowns)?, rows_of(instance, knowns)?];
-    check_count(unknown.len(), seed.len())?;
-    check_count(known.len(), sensitivity.len())?;
+    let [unknown, known] = rows_of_both(instance, references, [seed.len(), sensitivity.len()])?;
     if let Some(bad) = seed.iter().find(|x| !x.is_finite()) {
         return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
     }

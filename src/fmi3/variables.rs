@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use crate::instance::EVENT_INDICATORS;
 use crate::model::{Happening, MAX_PLANETS, Parameters};
-use crate::variables::{Access, Variable, table};
+use crate::variables::{Access, table};
 
 /// Prefix of the variables of the first planet, and of its loaded tooth pairs with the left side gear.
 const FIRST: &str = "planet[1].";
@@ -55,17 +55,22 @@ pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
     ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
 ];
 
+/// Index of the row `name`.
+fn place(name: &str) -> usize {
+    table().rows.iter().position(|row| row.name == name).unwrap_or(usize::MAX)
+}
+
 /// Value reference of the number of planets, on which sizes of arrays depend.
 pub fn planet_count() -> u32 {
     static PLACE: OnceLock<u32> = OnceLock::new();
-    *PLACE.get_or_init(|| {
-        table().rows.iter().position(|row| row.name == "geometry.planet_count").map_or(u32::MAX, |i| i as u32)
-    })
+    *PLACE.get_or_init(|| place("geometry.planet_count") as u32)
 }
 
-/// Whether a row changes at events alone.
-pub fn held(row: &Variable) -> Option<usize> {
-    ["held.sides", "held.planets", "held.wheels"].iter().position(|name| *name == row.name)
+/// Which of the masks of what dry friction holds a row is, if it is one: these change at events alone.
+pub fn held(index: usize) -> Option<usize> {
+    static PLACES: OnceLock<[usize; 3]> = OnceLock::new();
+    let places = PLACES.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(place));
+    places.iter().position(|&place| place == index)
 }
 
 /// What FMI 3.0 has besides the rows of the table; value references follow those of the rows.
@@ -129,6 +134,11 @@ pub fn item(reference: u32) -> Option<Item> {
 }
 
 impl Item {
+    /// How many values the variable has with these `parameters`.
+    pub fn len(&self, parameters: &Parameters) -> usize {
+        if matches!(self, Self::Planets(_) | Self::Pairs(_)) { self.rows(parameters).len() } else { 1 }
+    }
+
     /// Rows of the table that the variable shows, where it shows such; sizes are those of the `parameters`.
     pub fn rows<'a>(&'a self, parameters: &Parameters) -> &'a [usize] {
         match self {

@@ -13,6 +13,7 @@ mod call_error;
 mod component;
 mod derivatives;
 mod exchange;
+mod exports;
 mod host_memory;
 #[allow(clippy::module_inception)]
 mod instance;
@@ -29,6 +30,7 @@ pub use call_error::{CallError, CallResult};
 pub use component::{Component, free, run};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
+pub(crate) use exports::{call, debug_logging, getters, host_solver, plain};
 pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
 pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};

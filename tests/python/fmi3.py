@@ -1,10 +1,10 @@
 """A unit of FMI 3.0 driven by fmpy, call by call, with names for value references."""
 
-from ctypes import byref, c_bool, c_double, c_int32, c_int64, c_size_t, c_uint, c_uint64
+from ctypes import POINTER, c_bool, c_double, c_int32, c_int64, c_uint, c_uint64
 
 import numpy as np
 from fmpy import extract, read_model_description
-from fmpy.fmi3 import FMU3Model, FMU3Slave, fmi3Binary  # noqa: F401
+from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 KINDS = {"Float64": c_double, "Int32": c_int32, "Enumeration": c_int64, "UInt64": c_uint64, "Boolean": c_bool}
 CALLS = {"Float64": "Float64", "Int32": "Int32", "Enumeration": "Int64", "UInt64": "UInt64", "Boolean": "Boolean"}
@@ -59,7 +59,7 @@ class Unit3:
         references = (c_uint * len(names))(*(self.variables[name].valueReference for name in names))
         values = np.empty(len(names))
         self.raw.fmi3GetFloat64(self.raw.component, references, len(names),
-                                values.ctypes.data_as(self.raw.fmi3GetFloat64.__annotations__["values"]), len(names))
+                                values.ctypes.data_as(POINTER(c_double)), len(names))
         return values
 
     def initialise(self, values, stop=None):
@@ -90,11 +90,3 @@ class Unit3:
         call = self.raw.fmi3GetAdjointDerivative if adjoint else self.raw.fmi3GetDirectionalDerivative
         call(self.raw.component, u, len(unknowns), k, len(knowns), seeds, len(seed), found, len(found))
         return np.array(found)
-
-    def save(self):
-        return self.raw.getFMUState()
-
-    def number_of(self, what):
-        count = c_size_t()
-        getattr(self.raw, f"fmi3GetNumberOf{what}")(self.raw.component, byref(count))
-        return count.value

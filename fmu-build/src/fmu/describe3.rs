@@ -82,7 +82,7 @@ fn variable(reference: usize, row: &Variable) -> Element {
     let calculated = matches!(row.causality, Causality::CalculatedParameter | Causality::Output | Causality::Local);
     let element = named(kind, reference, row.name, row.description)
         .with("causality", if is_structural { "structuralParameter" } else { causality(row) })
-        .with("variability", if held(row).is_some() { "discrete" } else { variability(row) })
+        .with("variability", if held(reference).is_some() { "discrete" } else { variability(row) })
         .with_some("initial", calculated.then_some("calculated"));
     let mut defaults = Parameters::default();
     match row.access {

@@ -2,20 +2,6 @@
 
 use super::*;
 
-macro_rules! getters {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
-            call!(c, $call, |instance, host| {
-                // SAFETY: the host's promise, see the module
-                let values = unsafe { host.output("the array", values, count) }?;
-                instance.$method(values)
-            })
-        }
-    )+};
-}
-
 plain! {
     fmi2EnterEventMode EnterEventMode enter_event_mode;
     fmi2EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode;
@@ -45,40 +31,4 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(c: ComponentPointer, info: *mut E
     })
 }
 
-/// fmi2CompletedIntegratorStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
-    c: ComponentPointer,
-    _never_back: Boolean,
-    enter_event_mode: *mut Boolean,
-    terminate_simulation: *mut Boolean,
-) -> Status {
-    call!(c, CompletedIntegratorStep, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        let (event, end) = unsafe {
-            (
-                host.output_value("enterEventMode", enter_event_mode)?,
-                host.output_value("terminateSimulation", terminate_simulation)?,
-            )
-        };
-        event.write(Boolean::from(instance.completed_integrator_step()?));
-        end.write(0);
-        Ok(())
-    })
-}
-
-/// fmi2SetTime.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(c: ComponentPointer, time: f64) -> Status {
-    call!(c, SetTime, |instance, _| instance.set_time(time))
-}
-
-/// fmi2SetContinuousStates.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
-    call!(c, SetContinuousStates, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        let states = unsafe { host.input("x", states, count) }?;
-        instance.set_continuous_states(states)
-    })
-}
+host_solver!(fmi2CompletedIntegratorStep fmi2SetTime fmi2SetContinuousStates "x");

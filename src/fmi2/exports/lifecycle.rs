@@ -5,7 +5,7 @@ use std::ptr;
 
 use super::super::logger::HostLogger;
 use super::*;
-use crate::instance::{Component, Experiment, Log, catch, free};
+use crate::instance::{Component, Experiment, Instance, Log, catch, free};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.
@@ -84,19 +84,7 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: ComponentPointer) {
     unsafe { free(c) }
 }
 
-/// fmi2SetDebugLogging. No categories mean all.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: ComponentPointer,
-    logging: Boolean,
-    count: usize,
-    categories: *const Text,
-) -> Status {
-    call!(c, SetDebugLogging, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        unsafe { instance.configure_log(host, logging != 0, categories, count) }
-    })
-}
+debug_logging!(fmi2SetDebugLogging);
 
 /// fmi2SetupExperiment.
 #[unsafe(no_mangle)]

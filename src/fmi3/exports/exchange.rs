@@ -4,20 +4,6 @@ use super::*;
 use crate::instance::EVENT_INDICATORS;
 use crate::model::STATES;
 
-macro_rules! getters {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
-            call!(c, $call, |instance, host| {
-                // SAFETY: the host's promise, see the module
-                let values = unsafe { host.output("the array", values, count) }?;
-                instance.$method(values)
-            })
-        }
-    )+};
-}
-
 getters! {
     fmi3GetContinuousStateDerivatives GetContinuousStateDerivatives get_derivatives;
     fmi3GetEventIndicators GetEventIndicators get_event_indicators;
@@ -85,40 +71,4 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
     })
 }
 
-/// fmi3CompletedIntegratorStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
-    c: ComponentPointer,
-    _never_back: Boolean,
-    enter_event_mode: *mut Boolean,
-    terminate: *mut Boolean,
-) -> Status {
-    call!(c, CompletedIntegratorStep, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        let (event, end) = unsafe {
-            (
-                host.output_value("enterEventMode", enter_event_mode)?,
-                host.output_value("terminateSimulation", terminate)?,
-            )
-        };
-        event.write(Boolean::from(instance.completed_integrator_step()?));
-        end.write(0);
-        Ok(())
-    })
-}
-
-/// fmi3SetTime.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetTime(c: ComponentPointer, time: f64) -> Status {
-    call!(c, SetTime, |instance, _| instance.set_time(time))
-}
-
-/// fmi3SetContinuousStates.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
-    call!(c, SetContinuousStates, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        let states = unsafe { host.input("continuousStates", states, count) }?;
-        instance.set_continuous_states(states)
-    })
-}
+host_solver!(fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates "continuousStates");

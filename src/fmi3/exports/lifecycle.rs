@@ -124,19 +124,7 @@ pub unsafe extern "C" fn fmi3FreeInstance(c: ComponentPointer) {
     unsafe { free(c) }
 }
 
-/// fmi3SetDebugLogging. No categories mean all.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetDebugLogging(
-    c: ComponentPointer,
-    logging: Boolean,
-    count: usize,
-    categories: *const Text,
-) -> Status {
-    call!(c, SetDebugLogging, |instance, host| {
-        // SAFETY: the host's promise, see the module
-        unsafe { instance.configure_log(host, logging != 0, categories, count) }
-    })
-}
+debug_logging!(fmi3SetDebugLogging);
 
 /// fmi3EnterInitializationMode.
 #[unsafe(no_mangle)]

@@ -10,27 +10,7 @@
 use super::types::*;
 use super::{Call, FACE, values};
 use crate::instance::c_types::{c_int, c_void};
-use crate::instance::{CallError, HostMemory, Instance, run};
-
-/// Carries out a call: `body` checks its pointers and passes them on.
-macro_rules! call {
-    ($c:expr, $call:ident, |$instance:pat_param, $host:pat_param| $body:expr) => {{
-        let body = |$instance: &mut Instance, $host: &HostMemory| $body;
-        // SAFETY: the host's promise, see the module
-        unsafe { run($c, Call::$call, body) }
-    }};
-}
-
-/// Functions that take an instance and nothing else.
-macro_rules! plain {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
-            call!(c, $call, |instance, _| instance.$method())
-        }
-    )+};
-}
+use crate::instance::{CallError, HostMemory, Instance, call, debug_logging, getters, host_solver, plain};
 
 mod clocks;
 mod derivatives;

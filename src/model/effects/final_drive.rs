@@ -17,7 +17,7 @@ spec! {
 }
 
 impl Declare for FinalDriveSpec {
-    const DESCRIPTION: &'static str = "Mesh order of the final drive's ring gear on the carrier";
+    const DESCRIPTION: &'static str = "Excitation of the carrier at the mesh order of the final drive's ring gear";
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![

@@ -16,7 +16,7 @@ spec! {
         pub preload: f64 = 50.0,
         /// Torque of each clutch per torque of the meshes on its side gear.
         pub torque_coefficient: f64 = 0.1,
-        /// Torque at which a stuck clutch breaks loose over its sliding torque.
+        /// Breakaway torque of a stuck clutch over its sliding torque.
         pub static_ratio: f64 = 1.0,
         /// Stiffness of a stuck clutch [N·m/rad].
         pub stiffness: f64 = 1e5,
@@ -32,7 +32,7 @@ pub const CLUTCH_HEAT: Heat = Heat {
 
 impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
-        "Clutch packs between side gears and carrier, preloaded and torque-proportional, which stick";
+        "Clutch packs between side gears and carrier, preloaded and torque-proportional, with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
@@ -45,7 +45,7 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Torque at which a stuck clutch breaks loose over its sliding torque")
+            row("limited_slip.static_ratio", "Breakaway torque of a stuck clutch over its sliding torque")
                 .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
             row("limited_slip.stiffness", "Stiffness of a stuck clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),

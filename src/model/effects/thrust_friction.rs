@@ -50,7 +50,7 @@ spec! {
 
 impl Declare for ThrustFrictionSpec {
     const DESCRIPTION: &'static str =
-        "Friction of thrust washers and pins, which stick: the torque bias of an open differential";
+        "Friction of thrust washers and pins, with stiction: the torque bias of an open differential";
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.thrust",
         description: "Heat of thrust washers and pins since the start",

@@ -73,7 +73,7 @@ impl Declare for ToothErrorSpec {
             .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.side_axial_offset),
             row(
                 "tooth_errors.axis_offset",
-                "Displacement of the pins as one body across the side gears' axis, forward at planet 1",
+                "Displacement of the pins as one body across the side gears' axis, planet 1 forward",
             )
             .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.axis_offset),
         ]

@@ -8,7 +8,6 @@ use super::StepFailure;
 use super::integration::LONGEST_INTERVAL;
 use crate::model::assembly::Model;
 use crate::model::dynamics::event::{Pause, Way};
-use crate::model::dynamics::pending_step::PendingStep;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
@@ -64,12 +63,19 @@ pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
 /// Moves to `until` [s] if the step ahead contains it and the equations hold up to there and beyond. Returns whether it does.
 #[inline]
 pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -> bool {
-    let Some(PendingStep { clock, inputs, .. }) = &state.pending_step else { return false };
-    let ([now, time], inputs) = (shown(state, clock), *inputs);
+    // reckoned before the move
+    let pause = if way.is_part {
+        state.pending_step.as_ref().map(|step| {
+            let [now, time] = shown(state, &step.clock);
+            Pause { now, time, inputs: step.inputs }
+        })
+    } else {
+        None
+    };
     let moves = next_change(model, state).is_none_or(|change| until + resolution(change) < change)
         && state.move_within(until, model.layout.count());
     if moves {
-        state.pause = way.is_part.then_some(Pause { now, time, inputs });
+        state.pause = pause;
     }
     moves
 }

@@ -22,7 +22,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         row(
             "solid.smoothing",
             "Width of the patch over which the greatest overlap of solid teeth is taken: 1 follows the \
-             facets, less comes near to the deepest point alone",
+             facets, a small value approaches the deepest point alone",
         )
         .when("scene.gear_contact = solid")
         .real(units::ONE, (0.02, 10.0), |p| &mut p.solid.smoothing),
