@@ -1,6 +1,6 @@
 //! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and its FMI 2.0 face.
 //!
-//! The rooms, ground floor first; each uses only those before it:
+//! The modules; each uses only those before it:
 //! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
 //!
 //! Programs in Rust begin with [`Differential`], which sets, runs and reads a differential by the names of the FMU's variables.

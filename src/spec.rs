@@ -1,5 +1,5 @@
-//! How parameters are written, in every room: structs with the start value beside each field, and enumerations with the name that
-//! the interface has for each choice.
+//! How parameters are written, in every module: structs with the start value beside each field, and enumerations with
+//! the name that the interface has for each choice.
 
 /// One literal of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

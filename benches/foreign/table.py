@@ -5,7 +5,7 @@ import numpy as np
 from solvers import OURS
 
 # cases as the table names them
-CASES = {"turn_equilibrium": "turn", "turn_rolling": "turn, rolled in", "straight_rolling": "straight, rolled in",
+CASES = {"turn_equilibrium": "turn", "turn_rolling": "turn, rolling", "straight_rolling": "straight, rolling",
          "clunk, every 10 us": "clunk, 10 µs", "turn, force along a line": "turn, `line`"}
 
 LEVELS = (1e-3, 1e-6, 1e-8)
@@ -37,7 +37,7 @@ def markdown(rows, names, checks, missing):
     if slow:
         parts.append(_ratios(rows, [name for name in names if any(row["case"] == name and row["name"] in slow for row in rows)], slow))
     closest = ", ".join(f"{checks[name]:.1e}" for name in names)
-    parts.append(f"Closest of the others to the reference, case by case: {closest}.")
+    parts.append(f"Least error of the other solvers, case by case: {closest}.")
     parts += [f"Not run: {text}." for text in missing]
     return "\n\n".join(parts) + "\n"
 

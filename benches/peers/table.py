@@ -23,7 +23,7 @@ PLACES = {"cost": "CPU s per s", "ripple": "ripple peak to peak, %", "ripple_rms
 
 def markdown(results, machine, missing):
     ours = next((r for r in results if (r["row"].group, r["row"].label) == OURS), None)
-    head = ["tool", "setting", "s/s straight", "turn", "× straight", "× turn", "straight, %", "turn, %", "off, %", "slip, °", "ΣF_n, kN"]
+    head = ["tool", "setting", "s/s ahead", "s/s turn", "× ahead", "× turn", "ripple ahead", "ripple turn", "off, %", "slip, °", "ΣF_n, kN"]
     rows = [cells(result, finest(result, results), ours) for result in results]
     rows.append(["Project Chrono, same law", "cited", f"{CHRONO:.0f}", "–", over_net({"straight": CHRONO}, ours, "straight"), *6 * "–"])
     lines = aligned([head, *rows], left=(0, 1))

@@ -40,7 +40,7 @@ def progress(fraction, what):
 
 
 def difference(signals, rows, reference_rows):
-    """Largest difference over all times of each quantity, by the quantity's largest value."""
+    """Largest difference over all times of each quantity, over the quantity's largest value."""
     own, right = (dict(zip(signals, values.T)) for values in (rows, reference_rows))
     return {name: np.max(np.abs(np.subtract(of(own), of(right)))) / np.max(np.abs(of(right)))
             for name, of in QUANTITIES.items()}

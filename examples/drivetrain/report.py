@@ -26,7 +26,7 @@ def rows_of(head, rows):
 def hosts(found):
     names = list(found["ideal"])
     rows = [[name, *(f"{found[contact][name]:.1e}" if name != "FMPy" else "0" for contact in found)] for name in names]
-    return (f"Same archive, steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, by its largest value.\n\n"
+    return (f"Same archive, steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, over its largest value.\n\n"
             + rows_of(["host", *(f"`{contact}`" for contact in found)], rows))
 
 
@@ -62,7 +62,7 @@ def errors(contact, found):
         low, high = expected(master, found["limits"]["interpolates"])
         theory.append(f"{master.order}" if high - low < 1 else "1 to 2")
     doubt, methods = found["references"][contact].doubt, found["references"][contact].methods
-    return (f"`{contact}`: largest error of any quantity by communication step, ms (with rollback: how often a step is made).\n"
+    return (f"`{contact}`: largest error of any quantity by communication step, ms (in brackets: runs of a step with rollback).\n"
             f"Reference: {methods[0]} on all equations at once; {methods[1]} differs from it by {doubt:.0e}.\n\n"
             + rows_of(["step, ms", *(master.label for master in ALL.values())], [*lines, order, theory]))
 
@@ -77,7 +77,7 @@ def quantities(found):
     step = max(step for step in {row["step"] for row in rows} if step <= 1.01 * max(STEP, min(row["step"] for row in rows)))
     lines = [[master.label, *(f"{row[q]:.1e}" for q in QUANTITIES), f"{row['seconds']:.1f}"]
              for name, master in ALL.items() for row in rows if (row["master"], row["step"]) == (name, step)]
-    return (f"`{contact}`, steps of {step * 1e3:g} ms: largest error of each quantity by its largest value, and CPU time.\n\n"
+    return (f"`{contact}`, steps of {step * 1e3:g} ms: largest error of each quantity over its largest value, and CPU time.\n\n"
             + rows_of(["master", *QUANTITIES, "s"], lines))
 
 

@@ -1,4 +1,4 @@
-//! The command line: the commands of all rooms, by their readers.
+//! The command line: the commands of all modules, by their readers.
 
 use std::ffi::OsString;
 

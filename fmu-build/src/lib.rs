@@ -1,5 +1,5 @@
-//! What builds the FMU and its Python package, and runs the study with them. A room uses only rooms above it in this list;
-//! [`command_line`] joins the commands of all rooms. What measures and checks is the crate `lab`.
+//! Builds the FMU and its Python package, and runs the study with them. A module uses only modules above it in this
+//! list; [`command_line`] joins the commands of all modules. The crate `lab` measures and checks.
 //!
 //! - [`tools`]: shared tools without gears in them
 //! - [`fmu`]: builds the FMU

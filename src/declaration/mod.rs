@@ -1,7 +1,7 @@
 //! How a variable of the interface is declared: name, unit, range, description, and the way to its value.
 //!
-//! Each part of the model declares its own variables with these rows, next to the quantities they stand for; the table in
-//! `variables` collects them. What belongs here: the shape of a row, units, and short ways to write rows.
+//! Each part of the model declares its own variables with these rows, next to the quantities they stand for; the table
+//! in `variables` collects them. This module has the shape of a row, units, and short ways to write rows.
 
 mod access;
 mod row;

@@ -2,7 +2,7 @@
 
 use crate::problem::Problem;
 
-/// Largest coefficient any law may return: that of unlubricated steel starts beyond it.
+/// Largest coefficient that a law may return; unlubricated steel lies above it.
 pub const LARGEST: f64 = 0.3;
 
 choices! {
@@ -24,7 +24,7 @@ spec! {
         pub law: FrictionLaw = FrictionLaw::CoulombStribeck,
         /// Kinetic coefficient μ_k of [`FrictionLaw::CoulombStribeck`], 0 to 0.3.
         pub coefficient: f64 = 0.05,
-        /// Static over kinetic coefficient μ_s/μ_k, from 1: no peak.
+        /// Static over kinetic coefficient μ_s/μ_k, at least 1; 1 = no peak.
         pub static_ratio: f64 = 1.0,
         /// Stribeck speed v_S, at which the peak has fallen to 1/e [m/s].
         pub stribeck_speed: f64 = 0.01,

@@ -118,8 +118,8 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
             let [modules, limit] = told_apart([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
             found.push(problem!(
                 "geometry.addendum_system",
-                "{what}: the {}'s addendum {:.3} mm = {modules} m exceeds the limit {limit} m at {:.1} deg; \
-                 the path of contact ends at the {}'s base circle",
+                "{what}: the {}'s addendum {:.3} mm = {modules} modules exceeds the limit of {limit} modules at {:.1} \
+                 deg; the path of contact ends at the {}'s base circle",
                 NAMES[1 - i],
                 mate.addendum * MM,
                 pair.pressure_angle.to_degrees(),
@@ -130,7 +130,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         if land < POINTED_LAND * m {
             found.push(problem!(
                 "geometry.addendum_system",
-                "pointed {} teeth: tip land {:.3} mm = {:.3} m at the heel",
+                "pointed {} teeth: tip land {:.3} mm = {:.3} modules at the heel",
                 NAMES[i],
                 land * MM,
                 land / m
@@ -198,7 +198,7 @@ fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
         };
         problem!(
             "geometry.root_fillet",
-            "the {}'s root fillet is cut to {:.3} mm = {:.3} m at the heel, not {:.3} mm = {:.3} m: {why}",
+            "the {}'s root fillet is cut to {:.3} mm = {:.3} modules at the heel, not {:.3} mm = {:.3} modules: {why}",
             NAMES[i],
             got * pair.outer_cone * MM,
             got * pair.outer_cone / pair.module,

@@ -1,15 +1,15 @@
-//! A quantity over a step of the integrator, as the continuous extension has it: its extremes, and where it takes a value.
+//! A quantity within a step of the integrator, by the continuous extension: its extremes, and where it takes a value.
 
 use super::course::bent;
 
-/// A component of the continuous extension of a step, or what depends on several of them linearly; see [`bent`].
+/// A component of the continuous extension of a step, or a linear combination of components; see [`bent`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// Value at the begin of the step.
     pub start: f64,
     /// Value at its end.
     pub end: f64,
-    /// Bends of the way in between.
+    /// Coefficients b of the extension, 0 for a straight line.
     pub bends: [f64; 3],
 }
 
@@ -25,8 +25,7 @@ impl Curve {
         [end - start + a, 2.0 * (b - a), 3.0 * (c - b), -4.0 * c]
     }
 
-    /// Visits values at both ends of a span and wherever the curve is level in between; others of the curve may be among
-    /// them.
+    /// Visits the values at both ends of a span and at all extremes in between, perhaps at other places, too.
     pub fn visit_extremes(&self, [from, to]: [f64; 2], mut visit: impl FnMut(f64)) {
         visit(self.at(from));
         visit(self.at(to));
@@ -44,13 +43,13 @@ impl Curve {
         }
     }
 
-    /// A fraction within the span after which the curve takes `value`, which lies between those at its ends.
+    /// Fraction of the step, within `span`, at which the curve takes `value`, which lies between those at the ends.
     pub fn crossing(&self, value: f64, span: [f64; 2]) -> f64 {
         root(|t| self.at(t) - value, span)
     }
 }
 
-/// Real roots of a quadratic with the coefficients `c`, from the constant on; 0 in the place of one that does not exist.
+/// Real roots of a quadratic with the coefficients `c`, from the constant on; 0 in place of a missing root.
 fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
     let discriminant = c[1] * c[1] - 4.0 * c[2] * c[0];
     if discriminant.is_nan() || discriminant <= 0.0 {

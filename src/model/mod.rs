@@ -1,4 +1,4 @@
-//! The differential as a mechanical system. The rooms, ground floor first; each uses only those before it:
+//! The differential as a mechanical system. Its modules; each uses only those before it:
 //!
 //! - `scene`: drives, inputs, material, integration, and the plan of bodies,
 //! - `effect_kinds`: what effects are made of: forces on bodies, dry friction, changes to teeth,

@@ -3,16 +3,16 @@
 pub use libm::{acos, asin, atan2, cos, pow, sin, tan};
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Square root of `x`, which processors round correctly. That of `libm` is an instruction for narrow vectors, which waits
-/// for wider ones.
+/// Square root of `x`, which processors round correctly. `libm` takes an SSE instruction, which waits for AVX
+/// instructions before it.
 #[inline(always)]
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
-/// Sine and cosine of `x`, for less than both apart.
+/// Sine and cosine of `x`, cheaper than one by one.
 ///
-/// Up to 1/2 by their Taylor series, in which what is left out is below a rounding: arcs along a flank are seldom longer.
+/// Up to 1/2 by Taylor series whose remainder is below rounding; arcs along a flank are seldom longer.
 #[inline(always)]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() > 0.5 {

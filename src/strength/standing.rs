@@ -2,15 +2,15 @@
 //!
 //! A standing tooth touches with one flank or, when the torque reverses, with the other. The force on its drive flank
 //! bends the fillet at that flank into tension and that at the coast flank into compression, a force on the coast flank
-//! the other way round. So both fillets have the same history of stress but for its sign: a cycle of one, its mean
-//! negated, is a cycle of the other. One rainflow count serves both.
+//! the other way round. So both fillets have the same history of stress with opposite signs: a cycle of one is a cycle
+//! of the other with the mean negated. One rainflow count serves both.
 
 use serde::{Deserialize, Serialize};
 
 use super::mean_stress::pulsating_range;
 use super::{Damage, LoadCycle, Rainflow, Rating};
 
-/// Reversals of stress up to this part of the strength are no cycles.
+/// Reversals of stress up to this part of the strength are not counted.
 const GATE: f64 = 0.01;
 
 /// Damage of a gear's root at the drive and at the coast flank.
@@ -26,7 +26,7 @@ pub struct StandingTeeth {
 }
 
 impl StandingTeeth {
-    /// Whether nothing has bent them yet.
+    /// Whether no force has been counted yet.
     pub fn are_new(&self) -> bool {
         self.history.is_empty()
     }
@@ -49,7 +49,7 @@ impl StandingTeeth {
     }
 
     /// Damage sums of the worse root of planet and side gear. Cycles that are still open count as the halves that they
-    /// are, so that the sum does not hang on whether two equal peaks differ by a rounding.
+    /// are, so that the sum does not depend on rounding of two equal peaks.
     pub fn worst(&self, rating: &Rating) -> [f64; 2] {
         let mut roots = self.roots;
         self.history.rest(|cycle| count(rating, &mut roots, &cycle));

@@ -43,9 +43,9 @@ fn usual_gears_give_no_message() {
 
 #[test]
 fn standard_addenda_undercut_a_ten_tooth_planet() {
-    // the side gear's addendum may be 0.787 m at 20°
+    // the side gear's addendum may be 0.787 modules at 20°
     let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..usual() };
-    assert_warns(&spec, &["undercut of the planet", "1.000 m", "limit 0.787 m"]);
+    assert_warns(&spec, &["undercut of the planet", "1.000 modules", "limit of 0.787 modules"]);
     // the other way round, a tall planet tip jams in a small side gear
     assert_warns(&GearSpec { planet_teeth: 16, side_teeth: 10, ..spec }, &["tip interference in the side gear"]);
 }
@@ -90,8 +90,11 @@ fn planets_that_strike_their_neighbours_give_a_warning() {
 #[test]
 fn a_fillet_that_does_not_fit_gives_a_warning() {
     let spec = GearSpec { root_fillet: 1.0, ..usual() };
-    let words =
-        ["geometry.root_fillet: the planet's root fillet is cut to", "not 4.500 mm = 1.000 m", "rounded out whole"];
+    let words = [
+        "geometry.root_fillet: the planet's root fillet is cut to",
+        "not 4.500 mm = 1.000 modules",
+        "rounded out whole",
+    ];
     assert_warns(&spec, &words);
     let steep = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([1.0, 2.0], [1.0, 2.0]) };
     let deep = GearSpec { planet_teeth: 40, side_teeth: 60, ..steep };

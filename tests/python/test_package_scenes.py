@@ -84,7 +84,7 @@ def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
     ("[rpm]", "[kg]", ["cycle.csv", "kg", "rpm"]),
     ("time [ms]", "clock [ms]", ["no column time"]),
     (",90", "", ["line 6", "1 cells", "2"]),
-    ("11.1", "1.1", ["is before the line before"]),
+    ("11.1", "1.1", ["is earlier than in the line above"]),
 ])
 def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything, fmu_file):
     file = everything.parent / "cycle.csv"

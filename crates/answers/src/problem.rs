@@ -1,14 +1,14 @@
-//! What is wrong with what was asked, as values: a program that asks need not read sentences.
+//! Errors in a question, as values: programs need not parse messages.
 
 use std::fmt;
 
 use bevel_differential::variables::Variable;
 use serde::Serialize;
 
-/// One thing that is wrong. The message alone says all; what it is about stands beside it where it is known.
+/// One error. The message is complete; the other fields repeat its parts where they are known.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Problem {
-    /// The whole sentence.
+    /// What is wrong, in a sentence.
     pub message: String,
     /// The variable or option.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,23 +22,23 @@ pub struct Problem {
     /// Least and largest value that the variable takes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// What was meant, perhaps.
+    /// What was probably meant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
 }
 
-/// All that is wrong with a question.
+/// All errors in a question.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problems(pub Vec<Problem>);
 
 impl Problem {
-    /// Of the variable or option `name` with the value `written`.
+    /// An error of the variable or option `name` with the value `written`.
     pub fn of(name: &str, written: impl Into<String>, message: impl Into<String>) -> Self {
         let (variable, value) = (Some(name.to_owned()), Some(written.into()));
         Self { variable, value, ..Self::from(message.into()) }
     }
 
-    /// With unit and range of `row`.
+    /// The same error with unit and range of `row`.
     pub fn at(mut self, row: &Variable) -> Self {
         self.variable.get_or_insert_with(|| row.name.to_owned());
         self.unit = row.unit.map(|unit| unit.name);
@@ -46,7 +46,7 @@ impl Problem {
         self
     }
 
-    /// The same in a place that its message begins with.
+    /// The same error with `place` in front of its message.
     pub fn in_place(mut self, place: &str) -> Self {
         self.message = format!("{place}{}", self.message);
         self
@@ -54,7 +54,7 @@ impl Problem {
 }
 
 impl From<String> for Problem {
-    /// With what its message offers as meant for a hint.
+    /// The hint is what follows "did you mean" in the message.
     fn from(message: String) -> Self {
         let hint = message.split_once("did you mean ").map(|(_, meant)| meant.trim_end_matches([')', '?']).to_owned());
         Self { message, hint, ..Self::default() }

@@ -24,7 +24,7 @@ ALL = [
 COLUMNS = ["quantity", "scene", "want", "accuracy", "gears", "effects", "solver", "error", "stray", "real_time", "price",
            "reference_price"]
 HEAD = ["quantity", "within", "gears", "effects", "tolerance", "error", "× real time"]
-TITLE = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy`"
+TITLE = "The cheapest setting by quantity, each found and checked by `bevel-differential accuracy`"
 
 
 def decisions(folder, count, timed, begin, end):
@@ -51,4 +51,4 @@ def decisions(folder, count, timed, begin, end):
                       significant(stop / seconds, 2) if seconds else ""])
     write_measured(folder / "decisions.csv", ["error: of the chosen setting against the richest model, as a fraction"], rows)
     questions = "; ".join(f"{scene}: {', '.join(wants)}" for scene, wants in asked.items())
-    return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nIts questions, by `--want` in the order of the rows: {questions}."
+    return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nScenes and `--want`, in the order of the rows: {questions}."

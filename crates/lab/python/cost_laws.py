@@ -24,7 +24,7 @@ LAWS = {"`impact`": ("impact", False), "`line`": ("line", False), "`line_weber`"
 # the part of the turn in which the teeth meet, which does not count
 START = 0.1
 TITLE = ("Errors of each law against `line_weber` + gear bodies, least and largest over four gear pairs (10/16, 12/20 and 14/18 teeth, "
-         "modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's for the size")
+         "modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's, scaled by size")
 
 
 def figures(fmu, scene, values, law, bodies):

@@ -21,7 +21,7 @@ def summary(folder):
     solved = {case: own for case, own in cases.items()
               if any(row["method"] == OWN and not (good(row) and row["speed_error"] <= AT_REST) for row in own)}
     tolerances = [each for each in dict.fromkeys(row["setting"] for row in rows if row["method"] == OWN) if each not in LEFT_OUT]
-    by_tolerance, cheapest = [["case", *map(short, tolerances)]], [["case", *map(short, WANTED)]]
+    by_tolerance, cheapest = [["case", *map(short, tolerances)]], [["case", *(f"≤{short(wanted)}" for wanted in WANTED)]]
     for case, own in solved.items():
         of_own = {row["setting"]: row for row in own if row["method"] == OWN}
         unit = of_own[DEFAULT]["cpu_s"]
@@ -32,7 +32,7 @@ def summary(folder):
     left = range(len(by_tolerance[0]))
     return (f"{OWN}, by solver.relative_tolerance: error of speed, error of force, time × that at 1e-6:\n\n"
             f"{markdown(by_tolerance, left)}\n"
-            "cheapest method by largest error of speed: method, tolerance or step, time × that of the default:\n\n"
+            "cheapest method within each error of speed: method, tolerance or step, time × that of the default:\n\n"
             f"{markdown(cheapest, left)}")
 
 

@@ -201,8 +201,8 @@ def page(results, absent, scenes):
         rows.append([f"{host.name} {version}", host.loader, host.sets, "; ".join(differ) or "same bits"])
     every = [one for _, found in results.values() for one in found]
     text = markdown(rows, range(4)) + "\n" + "".join(f"- `{scene.name}`: {scene.known['description']}.\n" for scene in scenes)
-    text += (f"\nDeviations from {ALL[0].name} are the largest over all outputs and communication points, relative to the value or, "
-             f"where that is smaller, to the output's natural scale. {sum(one.compared for one in every)} values were compared, "
+    text += (f"\nDeviations from {ALL[0].name} are the largest over all outputs and communication points, relative to the larger "
+             f"of value and the output's natural scale. {sum(one.compared for one in every)} values were compared, "
              f"{sum(one.different for one in every)} have other bits.\n")
     return text + "".join(f"\n{host.name}: not run: {why}\n" for host, why in absent.items())
 

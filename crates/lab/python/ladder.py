@@ -10,18 +10,18 @@ from tools import say, write_measured
 
 HEAD = ["scene", "rung", "words", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
         "cpu_s_high", "cost"]
-# all rungs, the plainest first: what each is, in words, and how it follows from the rung before
+# all rungs, the plainest first: a description, and the values changed from the rung before
 RUNGS = {
     "ideal": ("ideal gears", {"scene.gear_contact": "ideal"}),
     "lumped": ("a spring with play for each mesh", {"scene.gear_contact": "lumped"}),
     "tooth, impact": ("tooth pairs, Adams' IMPACT", {"scene.gear_contact": "tooth"}),
-    "tooth, line": ("tooth pairs with their own stiffness", {"contact.law": "line"}),
-    "tooth, line_weber": ("Hertz's part by load as well", {"contact.law": "line_weber"}),
+    "tooth, line": ("tooth pairs, stiffness from geometry", {"contact.law": "line"}),
+    "tooth, line_weber": ("Hertz part by load, too", {"contact.law": "line_weber"}),
     "+ friction": ("and friction", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
     "+ pins and case": ("and elastic pins and case", {"effects.pin_compliance": True}),
     "+ gear bodies": ("and elastic gear bodies", {"effects.body_compliance": True}),
 }
-# communication step while times are measured [s], and runs of each in a round: all rungs take turns
+# communication step while times are measured [s]; runs of each rung in a round; rounds, in which all rungs alternate
 STEP, RUNS, ROUNDS = 1e-3, 5, 3
 OUTPUTS = ["left.speed", "carrier.speed", "planet[1].left_normal_force", "left.shaft_torque", "planet[1].left_transmission_error"]
 # the study's turn with inertias as the references in tests/data have them
@@ -30,7 +30,7 @@ TURN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.plan
 
 
 class Turn:
-    """The study's turn, one tooth after one to settle. Names and units of what is looked at, times [s] and start values."""
+    """The study's turn: one mesh cycle, after one to settle. Names and units of the quantities, times [s], start values."""
 
     name, settled, end, every = "turn", 0.18, 0.36, 5e-4
     values, later = TURN, {}
@@ -47,7 +47,7 @@ class Turn:
 
 class Clunk:
     """The scene clunk with the study's gears, damped by restitution, and with its inputs from the start on: with gears as light and
-    undamped as the scene has them, teeth rattle on and solutions that differ by rounding part."""
+    undamped as the scene has them, teeth rattle on and solutions that differ by rounding diverge."""
 
     name, settled, end, every = "clunk", 0.0, 0.02, 1e-5
     quantities = {"speed of the carrier at the end": "rad/s", "peak shaft torque": "N.m", "time of the peak": "s",
@@ -114,4 +114,4 @@ def measure(fmu, folder, short, begin, end):
                          len(seconds[place]), median, low, high, median / unit])
     write_measured(folder / "fidelity_ladder.csv", [
         "error: difference from the richest rung over its value; cost: cpu_s over that of the ideal rung",
-        "turn: the study's, one tooth after one to settle; clunk: the scene with the study's gears and restitution"], rows)
+        "turn: the study's, one mesh cycle after one to settle; clunk: the scene with the study's gears and restitution"], rows)

@@ -58,7 +58,7 @@ class Platform:
 
     def opened(self):
         """A new instance; under wine with a new server, as that ends with the instance."""
-        # a library looks at its first step
+        # a library reads this variable at its first step
         os.environ[VECTORS] = NARROW if self.name.endswith(NARROW) else ""
         if self.windows:
             self.close()
@@ -166,7 +166,7 @@ def described(platform):
 
 
 def compared(one, other):
-    """Whether all bits agree, and in words."""
+    """Whether all bits agree, and the difference in words."""
     if one.shape != other.shape:
         return False, f"{len(other)} communication points instead of {len(one)}"
     different = one.view(np.uint64) != other.view(np.uint64)
@@ -213,7 +213,7 @@ def tables(platforms, scenes):
             rows.append([name, *(words for _, words in found)])
     same = len(rows) == 1
     text += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
-    text += "the same bits in all libraries.\n\n" if same else f"other bits here.\n\n{markdown(rows, left=range(len(rows[0])))}\n"
+    text += "the same bits in all libraries.\n\n" if same else f"different bits in these scenes:\n\n{markdown(rows, left=range(len(rows[0])))}\n"
     for index, (name, duration) in enumerate(TIMED.items()):
         say(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
         settings = next(scene[1] for scene in scenes if scene[0] == name)

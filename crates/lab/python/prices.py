@@ -124,7 +124,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
     write(folder, "alone.csv", rows)
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
     text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown([short(row) for row in rows])}\n"
-            f"All together an evaluation costs {of_all:.1f} times that of plain teeth; 1 and what each adds alone make {added:.1f}.\n")
+            f"All together an evaluation costs {of_all:.1f} times that of plain teeth; single surcharges would add up to {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
         for done, (a, b) in enumerate(pairs):
@@ -137,7 +137,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
 
 
 def pairs_told(rows):
-    """Which pairs cost far more than both alone let expect, and how much the others do."""
+    """Pairs that cost far more than the sum of both alone, and the range of the others."""
     dear = sorted((row for row in rows if float(row[-1]) >= DEAR), key=lambda row: -float(row[-1]))
     others = [float(row[-1]) for row in rows if float(row[-1]) < DEAR]
     told = f"\nOf {len(rows)} pairs {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both alone"

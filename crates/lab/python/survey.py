@@ -171,7 +171,7 @@ def wrapped(text):
 
 def shipped():
     """How long the answers for the shipped scenes take: all outputs of each, to 1 %."""
-    rows = [["scene", "one reference run, s", "as dear as reference runs", "answer, s", "setting"]]
+    rows = [["scene", "one reference run, s", "search, reference runs", "answer, s", "setting"]]
     scenes = shipped_scenes()
     for place, scene in enumerate(scenes):
         begin = time.perf_counter()
@@ -181,7 +181,7 @@ def shipped():
         if answer.use is None:
             setting = "none but the reference"
         else:
-            setting = "not certain: two runs of the reference part" if answer.uncertain else counted(answer.use.run.setting)
+            setting = "not certain: runs of the reference diverge" if answer.uncertain else counted(answer.use.run.setting)
         rows.append([f"`{scene}`", significant(answer.reference.seconds, 2), significant(answer.answer["spent"], 2),
                      significant(took, 2), setting])
     return markdown(rows, left=(0, 4))

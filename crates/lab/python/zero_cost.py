@@ -63,8 +63,8 @@ def main():
         print(f"{markdown(rows)}\nsame bits, no more work")
         return
     print(f"{markdown(rows)}\nInstructions per communication step of 1 ms in the study's turn: {totals[1]:.0f} with all effects off, "
-          f"{totals[0]:.0f} in a build without any. Bits of the results are the same, and off does no operation on floating-point "
-          "numbers, branch or call more. Switching on takes the time of more steps, too, where the effect brings faster motion.")
+          f"{totals[0]:.0f} in a build without any. Results have the same bits. An effect that is off adds no floating-point "
+          "operation, branch or call. One that is on also takes more steps where it brings faster motion.")
 
 
 if __name__ == "__main__":

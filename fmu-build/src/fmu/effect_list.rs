@@ -90,7 +90,7 @@ fn inputs(effect: &Declared) -> Vec<bevel_differential::declaration::Row<InputFi
 fn overview() -> Table {
     let mut table = Table::new(["`effects.`…", "what it adds", "gear contact"]).all_left();
     for effect in EFFECTS {
-        let name = effect.switch.map_or_else(|| "by its input".to_owned(), |_| format!("`{}`", effect.name));
+        let name = effect.switch.map_or_else(|| "no switch".to_owned(), |_| format!("`{}`", effect.name));
         let contact = if effect.needs.is_some() { contacts(effect).join(", ") } else { "all".to_owned() };
         table.push([name, effect.description.to_owned(), contact]);
     }

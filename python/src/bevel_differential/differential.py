@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
-# what `run` records if nothing is said
+# what `run` records by default
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
 
 
 class Runner(Closing):
-    """What runs the FMU with values that have been set. An instance is kept for all runs and reset in between; each thread has its
+    """Runs the FMU with the values that have been set. An instance is kept for all runs and reset in between; each thread has its
     own."""
 
     def __init__(self, fmu: FileName | Fmu | None):
@@ -41,7 +41,7 @@ class Runner(Closing):
 
     @property
     def values(self) -> dict[str, Number]:
-        """What has been set, by name, as the FMU takes it: SI numbers, numbers of literals."""
+        """What has been set, by name, as the FMU takes it: SI numbers; a choice is the number of its literal."""
         return {variable.name: value for variable, value in self._values.items()}
 
     @property
@@ -51,7 +51,7 @@ class Runner(Closing):
 
     @property
     def unfelt(self) -> dict[str, str]:
-        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's words why."""
+        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's reason."""
         return self._instance().unfelt
 
     def close(self) -> None:
@@ -115,8 +115,8 @@ class Differential(Runner):
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
         the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has
-        all that the FMU warned of."""
+        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning,
+        `DifferentialWarning`; `warnings` has all warnings of the FMU."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
@@ -134,7 +134,7 @@ class Differential(Runner):
         return plot(self.fmu, record, file=file)
 
     def __getstate__(self) -> dict[str, Any]:
-        # to other processes go the values alone
+        # only the values go to other processes
         return {"fmu": self.fmu, "values": self.values}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:

@@ -16,8 +16,8 @@ Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 
 class Table:
-    """An input or a tunable parameter over time: Reals straight between their points, others held; constant before the first point and after the last,
-    or repeated after `period` (s). Two points at one time are a jump."""
+    """An input or a tunable parameter over time. Reals are interpolated linearly, others held. The value is constant before the first
+    point and after the last, or repeated after `period` (s). Two points at one time are a jump."""
 
     def __init__(self, variable: Variable, times: Times, values: Values, period: float | None = None):
         self.variable, self.period = variable, period
@@ -47,7 +47,7 @@ class Table:
 
 
 class Signals:
-    """What changes during a run, and what inputs are constant.
+    """Inputs and tunable parameters of a run: constant, or changing with time.
 
     `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time."""
 

@@ -1,7 +1,7 @@
 //! The body of one gear: how far a load on one tooth moves this tooth and others.
 //!
-//! Loads and displacements of the roots belong to each other by work. Harmonics of all orders act on a tooth that stands
-//! `angle` further: cos(n·angle) between loads of like parity, sin(n·angle) else.
+//! Displacements of a root are work-conjugate to its loads. The compliance between two teeth, `angle` apart, is a sum
+//! over harmonics n: with cos(n·angle) between loads of like parity in ζ, else with sin(n·angle).
 
 use nalgebra::Matrix3;
 
@@ -12,9 +12,9 @@ use crate::geometry::Pair;
 use crate::numeric::{PI, TAU, sin, sin_cos, sqrt};
 use crate::problem::Problem;
 
-/// Waves over half the width of a root up to which the series goes.
+/// Waves in half the width of a root at the last harmonic of the series.
 const WAVES: f64 = 4.0;
-/// Harmonics up to which the face is finite; free ends soften shorter waves as much less as they are shorter.
+/// Harmonics up to which free ends of the face are computed. On shorter waves their effect falls with the wavelength.
 const FINITE: usize = 8;
 /// Nodes across a finite face.
 const ACROSS: usize = 3;
@@ -32,8 +32,8 @@ pub struct GearBody {
 }
 
 impl GearBody {
-    /// The body of gear `i` of `pair`, whose teeth have the section `section`, held by `support`; `name` is what a problem
-    /// with it names.
+    /// The body of gear `i` of `pair`, whose teeth have the section `section`, held by `support`. A problem with the
+    /// support names the variable `name`.
     pub fn new(
         pair: &Pair,
         i: usize,
@@ -98,7 +98,8 @@ impl GearBody {
         sum
     }
 
-    /// Displacement along the load `measured` of a tooth that the load `acting` on another moves; `between` is theirs [1/Pa].
+    /// Displacement of one tooth along the load `measured`, caused by the load `acting` on another; `between` is the
+    /// compliance of the two teeth [1/Pa].
     pub fn moved(between: &[[f64; 3]; 3], measured: &RootLoad, acting: &RootLoad) -> f64 {
         (0..3).map(|i| measured[i] * (0..3).map(|j| between[i][j] * acting[j]).sum::<f64>()).sum()
     }

@@ -4,7 +4,7 @@ use crate::contact::{Engagement, Spot};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin, sin_cos, sqrt};
 
-/// Constants of the line of action, of which flank directions are made.
+/// Constants of the line of action, from which directions of the normal follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Directions {
     /// sin and cos of the arcs ψ from the tangent points of planet and side gear to the pitch point.
@@ -29,7 +29,7 @@ pub struct Normal {
 pub struct Arcs([[f64; 2]; 2]);
 
 impl Arcs {
-    /// Where none are asked for.
+    /// For callers that need no arcs.
     pub const NONE: Self = Self([[0.0; 2]; 2]);
 }
 
@@ -46,7 +46,7 @@ pub struct Arms {
     pub radius_slope: f64,
 }
 
-/// tanψ below which a flank counts as this curved: at a base circle.
+/// Smallest tanψ in the curvature of a flank; at its base circle the radius would vanish.
 const LEAST_TANGENT: f64 = 1e-6;
 
 /// √x where it is safely positive, and half its reciprocal.
@@ -74,7 +74,7 @@ impl Directions {
         Arcs([[cos * sp + sin * cp, cos * cp - sin * sp], [cos * ss - sin * cs, cos * cs + sin * ss]])
     }
 
-    /// Part ν of the normal along the side gear's axis as its displacement sees it, with its slope by s; ν″ = −ν.
+    /// Part ν of the normal along the side gear's axis, for its axial displacement, with the slope by s; ν″ = −ν.
     #[inline(always)]
     pub fn axial(&self, arcs: &Arcs) -> [f64; 2] {
         let [_, [sin, cos]] = arcs.0;

@@ -1,20 +1,20 @@
-//! Own arcs and loads of pairs that move each other.
+//! Own arcs a_k and loads ω_k of pairs that move each other: solution of a_k + Σ t_kl ω_l(a_l) = A_k.
 
 use super::Couplings;
 use super::couplings::MOST;
 
-/// Newton steps at most; a few serve.
+/// Newton steps at most; usually a few suffice.
 const STEPS: usize = 40;
-/// What is left of an equation, relative to the largest arc; more where there are more loads than `FEW` to round.
+/// Residual of a solved equation, relative to the largest arc; it grows with the number of loads beyond `FEW`.
 const SOLVED: f64 = 4e-15;
 const FEW: usize = 8;
-/// Steps in a row that may leave more than the one before.
+/// Consecutive Newton steps that may raise the residual.
 const VAIN: i32 = 3;
-/// Rounds from pair to pair that follow them.
+/// Gauss-Seidel rounds that follow them.
 const ROUNDS: usize = 50;
-/// What is left where it is rounding that hinders, relative to the largest arc.
+/// Residual accepted where rounding hinders convergence, relative to the largest arc.
 const ROUNDED: f64 = 1e-13;
-/// Least arc to which it is related [rad]: a light load's.
+/// Smallest arc that a residual is relative to [rad]: that of a light load.
 const LEAST: f64 = 1e-4;
 
 /// Own arcs of pairs with their loads.
@@ -32,7 +32,7 @@ impl<const K: usize> Own<K> {
     /// Those of no pairs.
     pub const NONE: Self = Self { arc: [0.0; K], load: [0.0; K], stiffness: [0.0; K] };
 
-    /// The same of pairs under a law that is linear at positive arcs: where all of them carry, one solution is exact.
+    /// The same for a law that is linear at positive arcs: if all pairs carry, one linear system gives the solution.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
@@ -51,15 +51,16 @@ impl<const K: usize> Own<K> {
         if carry { own } else { Self::new(couplings, arcs, law) }
     }
 
-    /// Those of pairs whose arcs are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
+    /// Those of pairs whose arcs A_k are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
     ///
-    /// The loads make ΣΦ*(ω_k) + ½Σt_kl ω_k ω_l − ΣA_k ω_k least, Φ* the energy of a pair by its load, and the bodies make it
-    /// convex. Newton's method finds them quickly unless pairs come and go in turn. Rounds from pair to pair lead down always.
+    /// The loads minimise ΣΦ*(ω_k) + ½Σt_kl ω_k ω_l − ΣA_k ω_k with the complementary energy Φ* of a pair. Elastic
+    /// bodies make the sum convex. Newton's method converges quickly unless pairs gain and lose contact in turn.
+    /// Gauss-Seidel rounds always descend.
     #[inline(always)]
     pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
-        // what is left of an equation has the rounding of the openings of flanks, too
+        // the residual contains the rounding of the openings of flanks, too
         let scale = arcs[..n].iter().fold(LEAST, |most, arc| most.max(arc.abs()));
         let solved = SOLVED * scale * n.div_ceil(FEW) as f64;
         let (mut last, mut part, mut vain) = (f64::INFINITY, 1.0, 0);
@@ -76,7 +77,7 @@ impl<const K: usize> Own<K> {
             if most <= solved || n < 2 || step == STEPS - 1 {
                 break;
             }
-            // pairs that come and go in turn are approached by halves
+            // pairs gain and lose contact in turn: halve the step
             (part, vain) = if most < last { (1.0, 0) } else { (0.5 * part, vain + 1) };
             last = most;
             if K == MOST && vain > VAIN {
@@ -95,7 +96,7 @@ impl<const K: usize> Own<K> {
         own
     }
 
-    /// Brings each pair in turn to the arc that the loads of the others leave it.
+    /// Gauss-Seidel: sets the arc and load of each pair in turn by the loads of the others.
     #[cold]
     fn go_round(&mut self, couplings: &Couplings<K>, arcs: &[f64; K], law: &dyn Fn(usize, f64) -> [f64; 2]) {
         for _ in 0..ROUNDS {
@@ -108,7 +109,7 @@ impl<const K: usize> Own<K> {
     }
 
     /// Solves (1 + t diag(∂ω/∂a)) x = `right`. The product is positive definite but for a factor at each column, so that
-    /// elimination needs no exchange of rows.
+    /// elimination needs no pivoting.
     #[inline(always)]
     pub fn solve<const R: usize>(&self, couplings: &Couplings<K>, right: &mut [[f64; R]; K]) {
         let n = couplings.count;

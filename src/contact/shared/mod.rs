@@ -1,7 +1,8 @@
-//! Pairs of teeth that share the bodies of their gears: loads of all pairs of a planet's two meshes, from one potential.
+//! Pairs of teeth that share the bodies of their gears: loads of all pairs of a planet's two meshes, from one
+//! potential.
 //!
-//! The arc A_k of a pair is its own, a_k, of tooth, root and Hertz under its own load ω_k(a_k), and what the loads of the others
-//! move it by:
+//! The arc A_k of a pair has two parts: a_k of tooth, root and Hertz under its own load ω_k(a_k), and the displacement
+//! by the loads of the other pairs:
 //!
 //!   a_k + Σ_l t_kl ω_l(a_l) = A_k,   l ≠ k.
 //!
@@ -9,8 +10,8 @@
 //!
 //!   V = Σ U_k(a_k) + ½ J Σ t_kl ω_k ω_l,   ∂V/∂A_k = M_k,   ∂V/∂s_k = ∂U_k/∂s − J ω_k Σ_l ∂t_kl/∂s_k ω_l:
 //!
-//! what depends on a through V drops out, as V is stationary in the loads. Damping scales or adds to M with the rate Ȧ, so that
-//! it takes what the approach of the flanks gives.
+//! V is stationary in the loads, so the derivatives of a contribute nothing. Damping scales M or adds to it. It takes
+//! the rate Ȧ of the whole approach of the flanks.
 
 mod arcs;
 mod couplings;

@@ -1,8 +1,9 @@
-//! Two laws of a tooth pair from its compliance: linear, and with Hertz's part following the load.
+//! Two laws of a tooth pair from its compliance: linear, or with a Hertz part that depends on the load.
 //!
 //! Slices of a straight bevel pair are similar, so with a line load w = ωR the deflection is Rp at every R, and
-//! p = ω q(ω, s), q = Q(s) − B ln(ω/ω₀) as b² grows with ω; Q is the compliance at ω₀. Both laws give the elastic
-//! response per ∫R²dR: multiplied by (R_e³ − R_i³)/3 it is that of the pair, torque ω∫R²dR.
+//! p = ω q(ω, s), q = Q(s) − B ln(ω/ω₀), as the Hertz half-width b grows with √ω; Q is the compliance at ω₀. Both laws
+//! give the elastic response per ∫R²dR, with the energy Φ: multiplied by (R_e³ − R_i³)/3 it is that of the pair, torque
+//! ω∫R²dR.
 //!
 //! * [`Line`]: q at a fixed load, Φ = p²/2q.
 //! * [`LineWeber`]: with v = q/B the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
@@ -56,7 +57,7 @@ impl Spring for Line {
     }
 }
 
-/// Compliance with Hertz's part of the load that acts.
+/// Compliance whose Hertz part follows the acting load.
 #[derive(Clone, Debug)]
 pub struct LineWeber {
     table: Arc<ComplianceTable>,
@@ -68,7 +69,7 @@ pub struct LineWeber {
     per_limit: f64,
 }
 
-/// Iterations for v: one serves, two near ω₀.
+/// Iterations for v at most: one suffices, near ω₀ two.
 const ITERATIONS: usize = 4;
 /// A relative correction below this leaves an error of its fourth power.
 const CONVERGED: f64 = 1e-4;
@@ -108,7 +109,8 @@ impl LineWeber {
         Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
     }
 
-    /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and place `s` [rad], and the tangent dω/dp.
+    /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and compliance Q = `q` [1/Pa], the tangent dω/dp, and
+    /// whether the logarithm holds.
     fn load(&self, p: f64, q: f64) -> (f64, f64, bool) {
         let ratio = q * self.per_local;
         let x = p * self.per_local * self.per_limit;

@@ -2,7 +2,7 @@
 //!
 //! Toward a clipped end of the path the Hertz part has a logarithm and toward a pointed tip the bending has one, so in
 //! the outer quarters the knots close in quadratically on the ends: index = n √(distance). The middle half is even, and
-//! cells meet with like widths. `beyond` continues past the ends.
+//! cells meet with equal widths. `past_end` continues past the ends.
 
 use super::past_end::PastEnd;
 use super::spline::{Cell, cells, cubic};
@@ -16,7 +16,7 @@ const CELLS: usize = 256;
 pub struct ComplianceTable {
     low: f64,
     high: f64,
-    /// Length of an outer quarter, and index per √length and per length.
+    /// Length of an outer quarter; cells per √length in it, and cells per length in the middle.
     quarter: f64,
     per_root: f64,
     per_length: f64,
@@ -25,8 +25,8 @@ pub struct ComplianceTable {
 }
 
 impl ComplianceTable {
-    /// Table of the function `f` on [`low`, `high`]; `beyond` makes its continuation past the lower (0) or the upper end
-    /// from value and slopes there, taken outward.
+    /// Table of the function `f` on [`low`, `high`]. `past_end` makes the continuation past the lower (0) or the upper
+    /// end (1) from the value and the outward slopes there.
     pub fn new(low: f64, high: f64, f: impl Fn(f64) -> f64, past_end: impl Fn(usize, Jet) -> PastEnd) -> Self {
         let span = high - low;
         let knots: Vec<f64> = (0..=3 * CELLS).map(|j| low + span * share(j)).collect();
@@ -68,7 +68,7 @@ impl ComplianceTable {
         } else {
             CELLS + (self.per_length * (above - self.quarter)) as usize
         };
-        // rounding may name a neighbour, whose cubic is the same there
+        // by rounding this may be the neighbouring cell, whose cubic has the same value at their common knot
         cubic(&self.cells[cell.min(3 * CELLS - 1)], s)
     }
 }

@@ -1,7 +1,7 @@
-//! Values kept for the next time they are asked for, by the exact bits of what they follow from.
+//! A cache of values. The key of a value is the exact bits of everything that it is calculated from.
 //!
-//! A cache has few places; the value that was not asked for the longest makes way. Several threads may share it: one makes
-//! a value, the others wait for it.
+//! A cache has few places; the least recently used value is replaced. Several threads may share it: one makes a value,
+//! the others wait for it.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -10,16 +10,16 @@ use serde::Serialize;
 
 /// Places of a cache.
 pub const PLACES: usize = 16;
-/// Bytes that most origins fit in.
+/// Bytes that most keys fit in.
 const USUAL: usize = 1024;
 
-/// A value, once it is made, under the bits of what it follows from.
+/// A value, once it is made, and its key `origin`: the bits of everything that it is calculated from.
 struct Place<V> {
     origin: Vec<u8>,
     value: Arc<OnceLock<V>>,
 }
 
-/// A cache of values, the last asked for first.
+/// A cache of values, the last used first.
 pub struct Cache<V> {
     places: Mutex<Vec<Place<V>>>,
 }
@@ -37,12 +37,12 @@ impl<V> fmt::Debug for Cache<V> {
 }
 
 impl<V> Cache<V> {
-    /// The places; whoever panicked while holding them left them whole.
+    /// The places. They are whole even if a thread panicked while it held the lock.
     fn places(&self) -> MutexGuard<'_, Vec<Place<V>>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The place for what follows from `origin`, now the first.
+    /// The place of the key `origin`, which becomes the first.
     fn place(&self, origin: Vec<u8>) -> Arc<OnceLock<V>> {
         let mut places = self.places();
         if let Some(found) = places.iter().position(|place| place.origin == origin) {
@@ -56,7 +56,7 @@ impl<V> Cache<V> {
 }
 
 impl<V: Clone> Cache<V> {
-    /// What follows from `origin`: `make` makes it where it is not on the cache.
+    /// The value of the key `origin`; `make` makes it if the cache does not hold it.
     pub fn get(&self, origin: &impl Serialize, make: impl FnOnce() -> V) -> V {
         match postcard::to_extend(origin, Vec::with_capacity(USUAL)) {
             Ok(origin) => self.place(origin).get_or_init(make).clone(),

@@ -16,12 +16,12 @@ pub struct Accepted {
     pub v: [f64; MAX_DOF],
     /// Inputs.
     pub inputs: Inputs,
-    /// Commands whose jumps free speeds have followed.
+    /// Commands of imposed speeds: the free speeds have followed their jumps so far.
     pub followed: Inputs,
 }
 
 impl Accepted {
-    /// `state` as it was there.
+    /// `state` moved to the end of that step.
     pub fn of(&self, state: &State) -> State {
         state.elsewhere(self.time, self.q, self.v)
     }

@@ -1,19 +1,19 @@
-//! Means of the shaft torques, from which the torque bias is read.
+//! Means of the shaft torques over a mesh cycle, from which the torque bias follows.
 
 use serde::{Deserialize, Serialize};
 
-/// Time integrals of the shaft torques, kept mesh cycle by mesh cycle.
+/// Time integrals of the shaft torques over the present mesh cycle, and their means over the last whole one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bias {
     /// ∫T dt of left and right since the mesh cycle began [N·m·s].
     pub sum: [f64; 2],
-    /// How long that is [s].
+    /// Time since the mesh cycle began [s].
     pub time: f64,
-    /// Cycles rolled since it began, backward negative.
+    /// Part of a mesh cycle rolled since then, backward negative.
     pub rolled: f64,
-    /// Means over the last whole mesh cycle [N·m], and how long it took [s].
+    /// Means over the last whole mesh cycle [N·m], and its duration [s].
     pub last: Option<([f64; 2], f64)>,
-    /// Time since that cycle ended [s].
+    /// Time since the last whole cycle ended [s].
     pub since: f64,
 }
 

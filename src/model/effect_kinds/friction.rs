@@ -1,4 +1,4 @@
-//! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels on the ground.
+//! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels in their brakes.
 
 use super::dry_friction::{DAMPING_TIME, DryFriction};
 use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceLoad, WheelFriction};
@@ -71,7 +71,7 @@ impl Friction {
         self.wheel_limit = Some(wheel.limit);
     }
 
-    /// Friction on body `i` of those that may stick.
+    /// Friction on body `i`, counted among those that may stick.
     #[inline]
     pub fn on(&self, i: usize) -> &DryFriction {
         match i {

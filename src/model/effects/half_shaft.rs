@@ -1,6 +1,6 @@
 //! Torsion of the half-shafts: T = k φ + c φ̇ with the twist φ = θ_s − θ_end between side gear and wheel.
 //!
-//! Kelvin–Voigt element of a uniform shaft, k = G I_p / L.
+//! Kelvin–Voigt element of a uniform shaft, k = G I_t / L.
 
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, row};

@@ -45,8 +45,11 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Breakaway torque of a stuck clutch over its sliding torque")
-                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("limited_slip.static_ratio", "Breakaway torque of a stuck clutch over its sliding torque").real(
+                units::ONE,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+            ),
             row("limited_slip.stiffness", "Stiffness of a stuck clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]

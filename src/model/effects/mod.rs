@@ -1,6 +1,6 @@
-//! The effects, one file and one line in the list each. Parameters, switches, rows, heat, readings and what acts in a scene
-//! follow from the list. `effect_kinds` defines what an effect may declare and do; `docs/architecture.md` shows how to
-//! add one.
+//! The effects, one file and one line in the list each. From the list follow parameters, switches, rows, heat, readings
+//! and the terms that act in a scene. `effect_kinds` defines what an effect may declare and do; `docs/architecture.md` shows
+//! how to add one.
 
 mod bearing_drag;
 mod body_compliance;
@@ -60,7 +60,7 @@ impl Declared {
     }
 }
 
-/// Adds to each row of an effect the way from all parameters to those of the effect, and the switch without which it does nothing.
+/// Rows of an effect's parameters as parts of all parameters, each with the switch without which it does nothing.
 fn within<E: Declare + 'static>(
     switch: Option<&'static str>,
     group: fn(&mut EffectParameters) -> &mut E,
@@ -82,7 +82,7 @@ macro_rules! effects {
         }
 
         impl Effects {
-            /// Nothing but the teeth: backlash and corner contact.
+            /// Teeth without effects: backlash and corner contact on.
             pub const TEETH: Self = Self { backlash: true, corner_contact: true, $($name: false),+ };
 
             /// All switches, by their names.
@@ -118,7 +118,7 @@ macro_rules! effects {
             $(Declared::new::<$commanded>(stringify!($command), None),)+
         ];
 
-        /// The same with their parameters, and whether they are on.
+        /// Each effect, whether it is on, and its parameters.
         pub fn configured<'a>(
             effects: &Effects,
             parameters: &'a EffectParameters,

@@ -54,7 +54,7 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
         }
         None => lines.push(("Use", "no setting runs to its end; see the reference.".into())),
     }
-    for (title, run, place) in [("Cheaper", answer.cheaper, 1), ("Richer", answer.richer, 2)] {
+    for (title, run, place) in [("Too coarse", answer.cheaper, 1), ("Richer", answer.richer, 2)] {
         if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
             let what = difference(&chosen.scene.parameters, &run.scene.parameters);
             lines.push((title, format!("{what}: {}.", error_and_cost(answer, run, place))));
@@ -196,13 +196,13 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     push("Needed", names(&acts(true, true)));
     push("Kept", prefixed("needed together, or no cheaper without: ", names(&acts(true, false))));
     push(
-        "Out",
+        "Left out",
         prefixed(
             "changes the richest model by more than the accuracy, but the chosen setting is accurate without: ",
             names(&acts(false, true)),
         ),
     );
-    push("Out", prefixed("acts below the accuracy: ", names(&acts(false, false))));
+    push("Left out", prefixed("acts below the accuracy: ", names(&acts(false, false))));
     for (switch, role) in &answer.effects {
         if let Role::Neutral { typical, by, now } = role {
             let values: Vec<String> =

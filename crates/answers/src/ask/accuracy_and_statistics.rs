@@ -150,7 +150,7 @@ impl StatisticsQuestion {
         let points = self.points.max(1);
         let series: Vec<Vec<f64>> = numbers.chunks_exact(points).map(<[f64]>::to_vec).collect();
         if self.points == 0 || numbers.len() != points * series.len() || series.is_empty() {
-            let wanted = "send the times and then each series, `points` numbers each, at least one";
+            let wanted = "send the times, then each series; each has `points` numbers, at least 1";
             let message = format!("points = {}: {} numbers do not fit; {wanted}", self.points, numbers.len());
             return Err(Problems::from(Problem::of("points", self.points.to_string(), message)).into());
         }

@@ -9,7 +9,7 @@ use crate::study::comparison;
 use crate::study::evaluation::{Results, request};
 use crate::study::theory::Theory;
 
-/// What to simulate for the study; with the results of that the comparison.
+/// Asks what to simulate for the study. With the results of these simulations it asks for the comparison.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudyQuestion {

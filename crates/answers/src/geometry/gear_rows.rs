@@ -1,16 +1,16 @@
-//! Dimensions of each gear's blank: cones, diameters, where along the axis.
+//! Dimensions of each gear's blank: cones, diameters, positions along the axis.
 
 use bevel_differential::numeric::{cos, sin};
 
 use super::design::Design;
 use super::dimension::{DimensionGroup, DimensionValue, ISO_23509, dimensions};
 
-/// Share of the outer cone distance at which the middle and the toe of the face stand.
+/// Mean over outer cone distance.
 pub fn mean(d: &Design) -> f64 {
     d.pair.mean_cone / d.pair.outer_cone
 }
 
-/// See [`mean`].
+/// Inner over outer cone distance.
 pub fn toe(d: &Design) -> f64 {
     d.pair.inner_cone / d.pair.outer_cone
 }

@@ -28,7 +28,7 @@ pub struct InterferenceCheck {
     spec: GearSpec,
     /// By how much teeth are thicker than they are made [m], both gears together at the outer pitch circle.
     thicken: f64,
-    /// With the teeth in the middle of their gaps, and with all play taken up on one side.
+    /// With the teeth in the middle of their gaps, and with all backlash taken up on one side.
     stances: [Interference; 2],
 }
 
@@ -60,7 +60,7 @@ impl InterferenceCheck {
         Ok(Self { stances: [middle?, driving], pair, spec, thicken })
     }
 
-    /// Whether anything enters anything.
+    /// Whether teeth or neighbours overlap.
     pub fn any(&self) -> bool {
         self.stances.iter().any(Interference::any)
     }
@@ -77,7 +77,7 @@ impl InterferenceCheck {
             ));
         }
         out += &wrapped(&format!("1. Teeth in the middle of their gaps: {}.", self.middle(middle)));
-        out += &wrapped(&format!("2. Play taken up on one side, as gears run: {}.", self.driving(driving)));
+        out += &wrapped(&format!("2. Backlash taken up on one side, as gears run: {}.", self.driving(driving)));
         out += &wrapped(&format!("3. Neighbours: {}.", self.neighbours()));
         out += &wrapped(&format!(
             "Looked at: {POSITIONS} positions of a tooth pitch of the planet, and more about the worst; outlines of {FACETS} \
@@ -94,7 +94,7 @@ impl InterferenceCheck {
             Verdict::Interfering => self.entered(found),
             Verdict::Touching => format!("no interference: {} touch within the accuracy of this check", parts(worst)),
             Verdict::Clear => format!(
-                "no interference; nearest come {}, {:.4} mm at the toe (R = {:.4} mm) and {:.4} mm at the heel \
+                "no interference; smallest gap between {}, {:.4} mm at the toe (R = {:.4} mm) and {:.4} mm at the heel \
                  (R = {:.4} mm), {}",
                 parts(worst),
                 worst.gap * self.pair.inner_cone * MM,
@@ -108,9 +108,9 @@ impl InterferenceCheck {
 
     fn driving(&self, found: &Interference) -> String {
         match found.worst() {
-            _ if self.spec.backlash <= 0.0 => "there is no play".into(),
+            _ if self.spec.backlash <= 0.0 => "there is no backlash".into(),
             Some(worst) if found.verdict(worst.gap) == Verdict::Interfering => self.entered(found),
-            _ => "no interference: flanks touch, and nothing enters anything".into(),
+            _ => "no interference: flanks only touch".into(),
         }
     }
 
@@ -248,8 +248,8 @@ fn sentence(a: &Approach) -> String {
 /// Where it is.
 fn place(a: &Approach) -> String {
     format!(
-        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both, with the \
-         planet turned by {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})",
+        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both axes, \
+         with the planet turned {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})",
         a.polar[0].to_degrees(),
         a.polar[1].to_degrees(),
         a.azimuth.to_degrees(),

@@ -119,7 +119,7 @@ fn columns(found: &[PatternFindings], count: usize) -> Table {
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
         "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure \
-         while it touches at its pitch point; peak: the greatest pressure from the pitch line up over the whole \
+         while it touches at its pitch point; peak: the greatest pressure at or above the pitch line over the \
          engagement.\n",
         columns(found, IN_DOCUMENT).markdown()
     )

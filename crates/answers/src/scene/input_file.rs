@@ -22,7 +22,7 @@ use crate::text;
 const TIME: &str = "time";
 /// Begins comments.
 const COMMENT: u8 = b'#';
-/// Some programs begin files of UTF-8 with it.
+/// Byte order mark, with which some programs begin UTF-8 files.
 const MARK: char = '\u{feff}';
 
 /// A column of an input.
@@ -38,7 +38,7 @@ struct Column {
     wrong_count: usize,
 }
 
-/// The inputs in `file`, all repeating after `period` [s] if there is one; or all that is wrong with it.
+/// The inputs in `file`, all repeated after `period` [s] if there is one; on failure all problems of the file.
 pub fn read(file: &Path, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
     let shown = text::shown(file);
     let text = fs::read_to_string(file).map_err(|error| {
@@ -119,7 +119,7 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
         }
         Some((_, Ok(_))) => {}
         Some((_, Err(problem))) => problems.push(problem),
-        // the other columns are misread where something else than commas separates them
+        // the other columns are misread if anything but a comma separates them
         None => {
             problems = vec![format!(
                 ", header \"{}\": has no column time; the first line names the columns, separated by commas: \
@@ -160,7 +160,8 @@ fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
         _ if !time.is_finite() => Err("is not a finite number".into()),
         None if time < 0.0 => Err("times begin at 0 or later".into()),
         Some(before) if time < before => {
-            Err("is before the line before; sort the lines by time, and give a jump two lines of one time".into())
+            Err("is earlier than in the line above; sort the lines by time, and write a jump as two lines of one time"
+                .into())
         }
         _ => Ok(time),
     }
@@ -183,7 +184,7 @@ impl Column {
         }
     }
 
-    /// In the unit of the interface.
+    /// The value of a cell in the variable's own unit.
     fn value(&self, cell: &str) -> Result<f64, String> {
         let number: f64 = cell.parse().map_err(|_| not_a_number())?;
         let value =
@@ -210,7 +211,8 @@ fn told(text: &str, error: &csv::Error) -> String {
     }
 }
 
-/// Line of the record at `position`, which csv gives before the comments and blanks that it skips.
+/// Line of the record at `position`. The crate csv gives the position before the comments and blank lines that it
+/// skips.
 fn line(text: &str, position: Option<&Position>) -> u64 {
     let Some(position) = position else { return 0 };
     let rest = usize::try_from(position.byte()).ok().and_then(|from| text.get(from..)).unwrap_or_default();

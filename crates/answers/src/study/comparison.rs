@@ -157,8 +157,8 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
          for an exact solution."
             .to_owned(),
         format!(
-            "Geometry: standard addenda (1.0 m) {what}; the limit is {:.3} m at {:.0} deg. Long and short addenda, the \
-             default, cure it. The face width of {:.0} mm is {:.3} R_e, above the usual R_e/3. The contact ratio is {:.4} \
+            "Geometry: standard addenda (1.0 modules) {what}; the limit is {:.3} modules at {:.0} deg. Long and short \
+             addenda, the default, cure it. The face width of {:.0} mm is {:.3} R_e, above the usual R_e/3. The contact ratio is {:.4} \
              on the sphere; Tredgold's planar approximation, which the study uses, gives {:.4} ({:+.2} %).",
             theory.addendum_limit(),
             geometry.pressure_angle.to_degrees(),

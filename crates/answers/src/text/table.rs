@@ -7,7 +7,7 @@ use comfy_table::{CellAlignment, LineStyle, TableStyle};
 
 /// Width of paragraphs.
 const WIDTH: usize = 118;
-/// Most of a last column of sentences that the line under the head reaches over.
+/// Characters that the line under the head spans at most in a last column of sentences.
 const LAST: usize = 24;
 
 /// A table of texts; columns are right-aligned unless said otherwise.
@@ -56,7 +56,7 @@ impl Table {
         })
     }
 
-    /// By how much the last column is wider than the line under the head: sentences in it are long.
+    /// Characters of the last column that the line under the head leaves out, where the column holds long sentences.
     fn past_rule(&self) -> usize {
         let Some(last) = self.head.len().checked_sub(1).filter(|last| self.left.contains(last)) else { return 1 };
         let cells = self.rows.iter().filter_map(|row| row.get(last)).chain([&self.head[last]]);

@@ -185,14 +185,14 @@ def known(folder):
 
 
 def report(changes, fates, seed, repository):
-    """Counts by room, and the survivors with what docs/mutants.toml says about them."""
+    """Counts by module, and the survivors with what docs/mutants.toml says about them."""
     said = tomllib.loads((repository / "docs" / "mutants.toml").read_text(encoding="utf-8")).get("survivor", [])
     rows = []
     for room in [*dict.fromkeys(change.room for change in changes), "all"]:
         own = [fate["fate"] for change, fate in zip(changes, fates) if room in (change.room, "all")]
         rows.append(f"| {room if room == 'all' else f'`{room}`'} | {len(own)} | {own.count('noticed')} | {own.count('no end')} | "
                     f"{own.count('survived')} |")
-    lines = [f"{len(changes)} changes, drawn by seed {seed}:", "", "| room | changes | noticed | without end | survived |",
+    lines = [f"{len(changes)} changes, drawn by seed {seed}:", "", "| module | changes | noticed | timed out | survived |",
              "|---|---:|---:|---:|---:|", *rows]
     survivors = [change for change, fate in zip(changes, fates) if fate["fate"] == "survived"]
     if survivors:

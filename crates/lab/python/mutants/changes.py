@@ -43,7 +43,7 @@ class Change:
 
 
 def drawn(root: Path, rooms: list[str], count: int, seed: int, without: set[Change] = frozenset()) -> list[Change]:
-    """So many changes of the files in `rooms`, drawn by a seed; none within another, none of `without`."""
+    """`count` changes of the files in the modules `rooms`, drawn by a seed; none within another, none of `without`."""
     files = sorted(file.relative_to(root).as_posix() for room in rooms for file in (root / room).rglob("*.rs")
                    if not file.stem.endswith("tests") and "tests" not in file.parts)
     everything = [change for file in files for change in possible(root, file)]

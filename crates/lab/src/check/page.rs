@@ -1,4 +1,5 @@
-//! The page in a browser: Chromium runs it as a reader does, and its results are compared with node's and with the native FMU's.
+//! The page in a browser: Chromium runs it as a reader does. Its results are compared with those of node and of the
+//! native FMU.
 
 use std::env;
 use std::ffi::OsStr;
@@ -18,13 +19,13 @@ use fmu_build::tools::progress::Progress;
 
 /// Names a Chromium that is not on the search path.
 const CHROME: &str = "CHROME";
-/// The folder of the tests, their environment, and what it holds.
+/// The folder of the tests, the name of their environment, and its packages.
 const ENVIRONMENT: [&str; 3] = ["tests/browser", "browser", "playwright, pytest, fmpy, numpy"];
 
 /// Opens the page in Chromium and checks it there: scenes, controls, messages, links, pictures, the bits of the native FMU
 ///
-/// The page is made before, by the command `page`. It takes node, and Chromium: `chromium` on the search path, or the program that
-/// the environment variable CHROME names.
+/// First make the page, with the command `page`. The tests need node, and Chromium: `chromium` on the search path, or
+/// the program that the environment variable CHROME names.
 #[derive(Args, Clone, Debug)]
 pub struct TestPageCommand {
     /// The page [default: the one that the command `page` built]

@@ -76,7 +76,8 @@ pub const REAL_TIME: Script = Script {
     ..DEFAULTS
 };
 
-/// Changes of the source that no test notices: drawn by a seed from the rooms with the physics, built in at once, tried one by one.
+/// Changes of the source that no test notices: drawn by a seed from the modules with the physics, built in at once,
+/// tried one by one.
 pub const MUTANTS: Script = Script {
     name: "mutants",
     about: "Changes the source in one place at a time and lists the changes that no test notices (goes on where it was stopped)",

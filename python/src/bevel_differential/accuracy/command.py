@@ -42,8 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=once("--set", arguments.set),
                          file=arguments.write, progress=progress)
     print(found.text)
-    print(f"{len(found.runs) - 1} runs as dear as {found.answer['spent']:.2g} of the reference, which takes "
-          f"{found.reference.seconds:.2g} s: {time.monotonic() - begin:.2g} s in all")
+    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
+          f"{time.monotonic() - begin:.2g} s in all")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:

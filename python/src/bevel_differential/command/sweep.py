@@ -5,7 +5,7 @@ from pathlib import Path
 
 from .arguments import add_farm, add_fmu, add_set, assignment, farm, once
 
-# what a plan file may have, and what each option is called
+# keys of a plan file, and the name of each option here
 KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
 USUAL = {"plan": "random", "seed": 0, "start": 0.0}
@@ -19,18 +19,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                              "triangular(A, PEAK, B), lognormal(MEDIAN, FACTOR) or seed")
     add_set(parser)
     parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (default: random)")
-    parser.add_argument("--runs", type=int, metavar="N", help="how many; not for a grid, and Sobol takes a power of two")
-    parser.add_argument("--seed", type=int, metavar="N", help="what all draws follow from (default: 0)")
+    parser.add_argument("--runs", type=int, metavar="N", help="number of designs; not for a grid; Sobol rounds up to a power of two")
+    parser.add_argument("--seed", type=int, metavar="N", help="seed of all draws (default: 0)")
     parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
                         help="a figure to record, such as left.speed:mean; the final value without a statistic")
     parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],
                         help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
     parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
-    parser.add_argument("--out", metavar="FILE", help="results as Parquet, which --resume goes on with")
+    parser.add_argument("--out", metavar="FILE", help="results as Parquet; --resume goes on from this file")
     parser.add_argument("--csv", metavar="FILE", help="write all runs: CSV, or Parquet where the file ends in .parquet")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
-    parser.add_argument("--force", action="store_true", help="start over where there are results")
+    parser.add_argument("--force", action="store_true", help="overwrite existing results")
     add_farm(parser)
     add_fmu(parser)
 
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _merged(arguments):
-    """What the plan file says, and what the command line says instead or adds."""
+    """Values of the plan file, replaced or extended by those of the command line."""
     given = {**USUAL, **(_read(arguments.plan_file) if arguments.plan_file else {})}
     for name in ("scene", "plan", "runs", "seed", "start"):
         if getattr(arguments, name) is not None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 # no message has this level
 SILENT = logging.CRITICAL + 1
-# a scheduler or its workers that do not answer so soon are not there, s
+# time limit for a scheduler and its workers to answer, s
 PATIENCE = 5.0
 # a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
 ALLOWED_FAILURES = 0
@@ -27,7 +27,7 @@ RESTART = 300.0
 SETTINGS = {
     "distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
     "distributed.worker.multiprocessing-method": "spawn", "distributed.comm.timeouts.connect": f"{PATIENCE:g}s",
-    # nobody looks at what dask measures of itself
+    # dask's own measurements are not read
     "distributed.worker.profile.enabled": False, "distributed.admin.system-monitor.interval": "10s",
     "distributed.admin.tick.interval": "500ms", "distributed.admin.log-length": 0,
 }
@@ -60,7 +60,7 @@ def _started(distributed, workers, processes):
     count = workers or usual_workers()
     sizes = {"n_workers": count, "threads_per_worker": 1} if processes else {"n_workers": 1, "threads_per_worker": count}
     with _interrupts_for_this_process_alone(), warnings.catch_warnings():
-        # where another cluster has its port for browsers
+        # dask warns if another cluster uses the port of its dashboard
         warnings.simplefilter("ignore", UserWarning)
         try:
             cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=SILENT,
@@ -68,14 +68,14 @@ def _started(distributed, workers, processes):
         except RuntimeError as error:
             raise DifferentialError(f"the workers do not start ({error}); a script starts them below "
                                     "if __name__ == \"__main__\": alone, as each worker reads it") from None
-    # it listens for browsers even so
+    # the cluster opens a port for browsers nevertheless
     cluster.loop.add_callback(cluster.scheduler.http_server.stop)
     return distributed.Client(cluster, set_as_default=False)
 
 
 @contextmanager
 def _quiet():
-    """No log of dask: what matters is said by errors."""
+    """Silences the log of dask: errors carry what matters."""
     logs = [logging.getLogger(name) for name in ("distributed", *logging.root.manager.loggerDict)
             if name.partition(".")[0] == "distributed"]
     levels = [log.level for log in logs]
@@ -90,12 +90,12 @@ def _quiet():
 
 @contextmanager
 def _interrupts_for_this_process_alone():
-    """Threads and processes that are started meanwhile, and what these start, never see a Ctrl-C. One that comes meanwhile waits
-    for the end."""
+    """Threads and processes that are started meanwhile, and what these start, never see a Ctrl-C. A Ctrl-C that comes
+    meanwhile waits for the end."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    # the process that it starts with the first worker would end the blocking
+    # multiprocessing starts this process with the first worker, which would end the blocking: start it before
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:

@@ -20,14 +20,14 @@ from .task import Row, Task
 SHORTEST, LONGEST = 0.1, 1.0
 # chunks that each worker still gets towards the end, so that all end at about the same time
 LAST_CHUNKS = 4
-# chunks that a worker has at hand, so that it never waits
+# chunks that a worker has in its queue, so that it never waits
 AT_HAND = 2
 # time without any worker after which none will come any more, s
 DESERTED = 60.0
 
 
 class Farm:
-    """Workers that evaluate designs; a context manager, kept for as many tasks as one likes.
+    """Workers that evaluate designs; a context manager, usable for any number of tasks.
 
     `workers`: how many (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: each worker is
     a process; otherwise threads of this one. `scheduler`: address of a dask scheduler whose workers are used instead.
@@ -56,7 +56,7 @@ class Farm:
         return sorted(self.rows(task, designs), key=lambda row: row.run)
 
     def rows(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[Row, None, None]:
-        """Rows as they complete. `task`: a `Task`, or what has its `evaluate` and `close` and can be pickled."""
+        """Rows as they complete. `task`: a `Task`, or an object with its `evaluate` and `close` that can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()
         return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
@@ -73,7 +73,7 @@ class _Run:
     def __init__(self, client, task, designs):
         self.client, self.left, self.packed = client, deque(designs), pickle.dumps(task)
         self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
-        # of chunks whose worker died, to be tried one by one; and what died even so, to be tried alone
+        # designs of chunks whose worker died, to be run one by one; designs whose worker died again, to be run alone
         self.singles, self.suspects = deque(), []
 
     def rows(self):
@@ -108,7 +108,7 @@ class _Run:
             source = self.singles or self.left
             self._submit([source.popleft() for _ in range(size)])
         if self.suspects and not self.under_way:
-            # alone, so that no other design can be what the worker dies of
+            # alone, so that no other design can be the cause if the worker dies
             self._submit([self.suspects.pop()], alone=True)
 
     def _submit(self, chunk, alone=False):
@@ -132,7 +132,7 @@ class _Run:
         except KilledWorker:
             if alone:
                 return [Row(run, dict(values), message="its worker process died each time") for run, values in chunk]
-            # one by one, to find the design that does it
+            # one by one, to find the design that kills it
             (self.suspects if len(chunk) == 1 else self.singles).extend(chunk)
             return []
         recent = sum(row.seconds for row in rows) / len(rows)
@@ -141,18 +141,18 @@ class _Run:
 
 
 def _with_bar(rows, total):
-    # who stops early closes what is returned, and with it the rows: designs under way are cancelled
+    # a caller that stops early closes this generator, and with it `rows`: designs under way are cancelled
     with closing(rows):
         yield from require("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
 
 
-# on a worker, of this thread, as an instance belongs to one: the last task, and how it was packed
+# on a worker: the last task and its pickled form, for each thread, as an instance belongs to one thread
 _own = threading.local()
 
 
 def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
-    """Rows of a chunk, on a worker. The task comes packed with each chunk; it is kept for the next ones, and with it the
-    FMU's instance."""
+    """Rows of a chunk, on a worker. Each chunk brings the pickled task. The worker keeps the task, with the FMU's instance,
+    for the next chunks."""
     if getattr(_own, "packed", None) != packed:
         if hasattr(_own, "task"):
             _own.task.close()

@@ -18,7 +18,7 @@ Given: TypeAlias = Number | str | Iterable[Value]
 _CALL = re.compile(r"(uniform|normal|triangular|lognormal)\((.*)\)$")
 _USAGE = ("write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
           "lognormal(MEDIAN, FACTOR) or, for whole numbers, seed")
-# the least share of a distribution without bounds: share 0 would be an infinite value
+# the least share of a distribution without bounds: share 0 would give an infinite value
 _LEAST = 2.0**-53
 
 
@@ -38,7 +38,7 @@ class Dimension:
 
     @classmethod
     def parse(cls, fmu: Fmu, name: str, given: Given) -> "Dimension":
-        """Of text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or of a sequence of values."""
+        """From text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or of a sequence of values."""
         variable = fmu.variable(name)
         if variable.causality not in ("parameter", "input"):
             raise DifferentialError(f"{name}: it is calculated and cannot be varied")
@@ -167,7 +167,7 @@ class Space:
 
     @classmethod
     def parse(cls, fmu: Fmu, given: Mapping[str, Given]) -> "Space":
-        """Of a mapping from names to what `Dimension.parse` takes."""
+        """From a mapping of names to values that `Dimension.parse` takes."""
         if not given:
             raise DifferentialError("nothing varies: name a variable and its values")
         return cls(tuple(Dimension.parse(fmu, name, values) for name, values in given.items()))

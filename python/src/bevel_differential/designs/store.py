@@ -173,7 +173,7 @@ class Store:
             raise StoreError(f"{self.folder}: {error.strerror or error}") from None
 
     def _read_parts(self):
-        """All parts as one table, in order of run. Of a run that is there twice the last row counts."""
+        """All parts as one table, in order of run. If a run occurs twice, its last row counts."""
         tables = [pq.read_table(part, schema=self.columns.schema) for part in sorted(self.folder.glob("part-*.parquet"))]
         table = pa.concat_tables(tables) if tables else self.columns.schema.empty_table()
         places = {run: place for place, run in enumerate(table["run"].to_pylist())}

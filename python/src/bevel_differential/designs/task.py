@@ -1,4 +1,4 @@
-"""What is done for each design: a run of the scene, reduced to what is wanted of it."""
+"""The task of each design: a run of the scene, reduced to the wanted figures."""
 
 import time
 from collections.abc import Mapping, Sequence
@@ -12,10 +12,10 @@ from ..want import Condition, Want
 
 @dataclass
 class Row:
-    """A design and what it gave.
+    """A design and its results.
 
     `figures`: by want, SI; empty where the design failed, and `message` says why. `feasible`: it ran and all conditions hold.
-    `seconds`: what it took."""
+    `seconds`: duration of the run."""
 
     run: int
     values: dict[str, Number]
@@ -26,11 +26,11 @@ class Row:
 
 
 class Task:
-    """A scene and what is wanted of each of its designs. It can be sent to other processes.
+    """A scene, and the figures and conditions of its designs. It can be sent to other processes.
 
-    `wants` and `conditions` as text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures are taken from after
-    `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one
-    long step."""
+    `wants` and `conditions` as text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count
+    communication points after `start` (s). `figures` are those of wants and conditions, in order. If all of them are final
+    values, the scene takes one long step."""
 
     def __init__(self, scene: Scene, wants: Sequence[str | Want], conditions: Sequence[str | Condition] = (),
                  start: float = 0.0):
@@ -49,7 +49,7 @@ class Task:
                                     f"{scene.stop:g} s; begin earlier, or make the scene's step smaller")
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
-        """The row of a design. What fails is a row, too."""
+        """The row of a design. A failed run is a row, too."""
         begun = time.perf_counter()
         row = Row(run, dict(values))
         try:
@@ -73,7 +73,7 @@ class Task:
             return {str(want): float(last[want.name]) for want in self.figures}
         angles = {want.statistic.angle for want in self.figures} - {None}
         outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
-        # thousands of runs pass on no warnings
+        # warnings are not passed on, as there may be thousands of runs
         record = self.scene._record(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
         # half a step, as communication points are rounded; the start itself is not counted

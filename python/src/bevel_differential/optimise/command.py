@@ -1,4 +1,4 @@
-"""The command `optimise`: from a problem file to a front, a choice and files for CAD."""
+"""The command `optimise`: from a problem file to a Pareto front, chosen designs and files for CAD."""
 
 import argparse
 import sys

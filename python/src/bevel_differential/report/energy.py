@@ -45,7 +45,7 @@ def _draw_bias(picture, run, left, right):
             plane.text(place, slope * place, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
     plane.plot(left, right, color=svg_style.VIOLET, marker=".", ms=3, lw=0.8)
     plane.plot(left[-1], right[-1], "o", color=svg_style.VIOLET, ms=6)
-    plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="plane of torques", xlim=(low, reach),
+    plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="right against left torque", xlim=(low, reach),
               ylim=(low, reach))
     plane.set_aspect("equal")
 

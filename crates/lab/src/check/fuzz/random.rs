@@ -1,11 +1,11 @@
-//! Values as careless hosts hand them over, at random.
+//! Random values such as careless hosts pass.
 
 use bevel_differential::variables::{Access, Variable, real_start};
 
 pub use crate::tools::random::Random;
 
 impl Random {
-    /// Any number, often one that hurts.
+    /// Any number, often a hard one: zero, NaN, infinite, tiny or huge.
     pub fn real(&mut self) -> f64 {
         let any = f64::from_bits(self.bits());
         let near = (self.below(2001) as f64 - 1000.0) * 10f64.powi(self.below(9) as i32 - 6);

@@ -18,7 +18,7 @@ use super::unit::Unit;
 pub const CALLS: usize = 500;
 /// Instances of a round.
 const UNITS: usize = 4;
-/// One call in so many has the instance's state compared before and after.
+/// For one call in this many the states before and after it are compared.
 const COMPARED: usize = 6;
 /// Refusals in a row after which an instance is started again.
 const PATIENCE: usize = 10;
@@ -62,7 +62,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
         unsafe { fmi2FreeFMUstate(units[0].c, &mut state) };
     }
     outcome?;
-    // whatever happened to them: after a reset all are as new
+    // after a reset every instance behaves as new, whatever was called before
     for unit in &units {
         if scenes::study(unit).as_ref() != Some(&expected[unit.kind as usize]) {
             return Err(BrokenPromise {
@@ -75,7 +75,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
     Ok(())
 }
 
-/// One call, and all that is promised about it.
+/// Makes one call and checks all that is promised about it.
 fn one(
     (seed, at): (u64, usize),
     r: &mut Random,
@@ -95,7 +95,7 @@ fn one(
         _ => unit.c,
     };
     let before = if r.chance(COMPARED) { unit.bytes() } else { None };
-    // of the processor: what else the machine does is not the call's
+    // processor time, so that other load of the machine does not count
     let start = ThreadTime::now();
     let outcome = call(function, component, r, unit, held);
     tally.count(function, outcome.status, start.elapsed(), (seed, at));
@@ -128,7 +128,7 @@ fn one(
     Ok(())
 }
 
-/// What every answer must be like.
+/// Checks what every call must return.
 fn check(
     function: Function,
     is_foreign: bool,
@@ -164,7 +164,7 @@ fn check(
     if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 
-/// Calls that may move the instance although they are refused: what could not be begun or completed leaves its mark.
+/// Calls that may change the instance although they fail: a start or a step may fail halfway.
 fn may_leave_a_mark(function: Function) -> bool {
     use Function as F;
     matches!(
@@ -173,7 +173,7 @@ fn may_leave_a_mark(function: Function) -> bool {
     )
 }
 
-/// Calls that only look.
+/// Calls that only read.
 fn looks(function: Function) -> bool {
     let name = function.name();
     name.starts_with("fmi2Get") || name.contains("erialize") || name == "fmi2FreeFMUstate"
@@ -184,11 +184,13 @@ fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) ->
     if !holds_still {
         return Ok(());
     }
-    // in initialisation mode a look builds the simulation that it looks at
+    // in initialisation mode the first read builds the simulation
     let starts = before.get(PHASE) == Some(&(Phase::Initialization as u8));
     match unit.bytes() {
         None => Err("the instance failed".into()),
-        Some(after) if after != before && !starts => Err("the call was refused or only looks, and left a mark".into()),
+        Some(after) if after != before && !starts => {
+            Err("the call was refused or only reads, but changed the state".into())
+        }
         _ => Ok(()),
     }
 }
@@ -196,7 +198,7 @@ fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) ->
 /// Where a serialised state holds the phase: after the header, the version of FMI and the kind.
 const PHASE: usize = 30;
 
-/// A function by its weight; those of the other kind of instance seldom.
+/// Draws a function by its weight; functions of the other kind of instance seldom.
 fn draw(r: &mut Random, kind: i32) -> Function {
     use Function as F;
     loop {

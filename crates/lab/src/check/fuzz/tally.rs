@@ -50,7 +50,7 @@ impl Default for Tally {
 }
 
 impl Tally {
-    /// A call of `function`, at its place: the seed of its round and its number there.
+    /// Counts a call of `function`. Its place is the seed of its round and its number there.
     pub fn count(&mut self, function: Function, status: Status, took: Duration, (seed, at): (u64, usize)) {
         if took > self.longest.took {
             self.longest = LongestCall { took, function: function.name(), seed, at: at as u64 };
@@ -66,7 +66,7 @@ impl Tally {
         self.rows.iter().flat_map(|row| row.statuses).sum()
     }
 
-    /// Calls of `function` that were carried out.
+    /// Calls of `function` that returned fmi2OK.
     pub fn done(&self, function: Function) -> u64 {
         self.rows[function as usize].statuses[0]
     }

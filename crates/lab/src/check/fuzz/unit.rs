@@ -1,4 +1,4 @@
-//! An instance as the driver holds it, and what it logs.
+//! An instance of the fuzzer and its log.
 
 use std::ffi::CString;
 use std::ptr;
@@ -11,17 +11,17 @@ mod recorder;
 
 pub use recorder::{Line, Recorder};
 
-/// An instance of the driver's.
+/// An instance of the fuzzer.
 pub struct Unit {
     /// The instance.
     pub c: ComponentPointer,
-    /// What it was made for.
+    /// Model exchange (0) or co-simulation (1).
     pub kind: i32,
-    /// What it said since the last call.
+    /// Lines that it logged.
     pub recorder: Box<Recorder>,
     /// Whether its log is filtered by category.
     pub is_filtered: bool,
-    /// A state to keep the present in, for comparison; NULL until it is needed.
+    /// A state for comparisons, overwritten each time; NULL until it is needed.
     pub kept: FmuState,
     /// Calls refused one after the other.
     pub refused: usize,
@@ -38,12 +38,12 @@ impl Unit {
         (!c.is_null()).then(|| Self { c, kind, recorder, is_filtered: false, kept: ptr::null_mut(), refused: 0 })
     }
 
-    /// What was said since this was last asked.
+    /// Lines logged since the last call of this function.
     pub fn said(&self) -> Vec<Line> {
         std::mem::take(&mut *self.recorder.lines())
     }
 
-    /// All that the instance is, as bytes; none where the standard forbids to ask (after an error).
+    /// The whole state as bytes; none where the standard forbids reading it (after an error).
     pub fn bytes(&mut self) -> Option<Vec<u8>> {
         // SAFETY: a live component; the state is NULL or this unit's own
         let status = unsafe { fmi2GetFMUstate(self.c, &mut self.kept) };
