@@ -1,6 +1,5 @@
 //! Values by the types of FMI 3.0: rows of the table, arrays over them, and the variables that 3.0 has besides.
 
-use std::cell::Cell;
 use std::ffi::CStr;
 
 use super::variables::{HAPPENINGS, Item, held, item, planet_count};
@@ -278,15 +277,5 @@ pub fn adjoint_derivative(
     sensitivity: OutputArray<f64>,
 ) -> CallResult {
     let [unknown, known] = rows_of_both(instance, references, [seed.len(), sensitivity.len()])?;
-    if let Some(bad) = seed.iter().find(|x| !x.is_finite()) {
-        return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
-    }
-    // a column of derivatives at a time
-    let column: Vec<Cell<f64>> = vec![Cell::new(0.0); unknown.len()];
-    for (known, sum) in known.into_iter().zip(sensitivity.iter()) {
-        let direction = std::iter::once((known, 1.0));
-        instance.get_directional_derivative(unknown.iter().copied(), direction, column.iter().map(Output::of))?;
-        sum.write(column.iter().zip(seed.iter()).map(|(slope, seed)| slope.get() * seed).sum());
-    }
-    Ok(())
+    instance.get_adjoint_derivative(unknown.into_iter(), seed.iter(), known.into_iter(), sensitivity.iter())
 }

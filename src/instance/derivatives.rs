@@ -145,21 +145,57 @@ impl Instance {
     /// Derivatives of unknowns along a direction of knowns.
     pub fn get_directional_derivative<'a>(
         &mut self,
-        unknown: impl ExactSizeIterator<Item = u32> + Clone,
+        unknown: impl Iterator<Item = u32>,
         known: impl Iterator<Item = (u32, f64)> + Clone,
         values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
-        let sources = unknown.clone().map(|r| row(r).and_then(output_source)).collect::<Result<Vec<_>, _>>()?;
+        let unknowns = Unknowns::of(unknown)?;
         if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
-        if unknown.len() == 0 {
-            return Ok(());
+        let mut slopes = vec![0.0; unknowns.0.len()];
+        self.slopes_along(&unknowns, known, &mut slopes)?;
+        values.zip(slopes).for_each(|(value, slope)| value.write(slope));
+        Ok(())
+    }
+
+    /// For each known the sum over unknowns of `seed` times their derivative by it: a column of derivatives at a time, but for
+    /// knowns that the scene does not feel.
+    pub fn get_adjoint_derivative<'a>(
+        &mut self,
+        unknown: impl Iterator<Item = u32>,
+        seed: impl Iterator<Item = f64> + Clone,
+        known: impl Iterator<Item = u32>,
+        values: impl Iterator<Item = Output<'a, f64>>,
+    ) -> CallResult {
+        let unknowns = Unknowns::of(unknown)?;
+        if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
+            return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
         }
+        let mut column = vec![0.0; unknowns.0.len()];
+        let mut sums = Vec::new();
+        for known in known {
+            let felt = self.is_felt(known);
+            column.fill(0.0);
+            self.slopes_along(&unknowns, std::iter::once((known, f64::from(felt))), &mut column)?;
+            sums.push(column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum::<f64>());
+        }
+        values.zip(sums).for_each(|(value, sum)| value.write(sum));
+        Ok(())
+    }
+
+    /// The same into `slopes`, which are zero before.
+    fn slopes_along(
+        &mut self,
+        unknowns: &Unknowns,
+        known: impl Iterator<Item = (u32, f64)> + Clone,
+        slopes: &mut [f64],
+    ) -> CallResult {
         if self.now.phase == Phase::Initialization {
-            return initial_derivatives((&self.now, &self.cache), (unknown, &sources), known, values);
+            return initial_derivatives((&self.now, &self.cache), unknowns, known, slopes);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
+        let mut changes = false;
         for (reference, change) in known {
             let row = row(reference)?;
             let state = table().states.iter().position(|&i| i as u32 == reference);
@@ -173,16 +209,32 @@ impl Instance {
                     )));
                 }
             }
+            changes |= change != 0.0;
+        }
+        if !changes || slopes.is_empty() {
+            return Ok(());
         }
         let simulation = self.simulation()?;
         let present = simulation.with_inputs_applied();
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.direction(&states, &inputs);
-        let mut slopes = Slopes::new(simulation, &direction);
-        for ((reference, source), value) in unknown.zip(sources).zip(values) {
-            value.write(finite_slope(row(reference)?, slopes.of(source))?);
+        let mut along = Slopes::new(simulation, &direction);
+        for (&(row, source), slope) in unknowns.0.iter().zip(slopes) {
+            *slope = finite_slope(row, along.of(source))?;
         }
         Ok(())
+    }
+}
+
+/// Variables whose derivatives are asked for.
+struct Unknowns(Vec<(&'static Variable, OutputSource)>);
+
+impl Unknowns {
+    fn of(references: impl Iterator<Item = u32>) -> CallResult<Self> {
+        references
+            .map(|reference| row(reference).and_then(|row| Ok((row, output_source(row)?))))
+            .collect::<CallResult<_>>()
+            .map(Self)
     }
 }
 
@@ -209,12 +261,13 @@ struct Slopes<'a> {
     motion: Option<crate::model::Motion>,
     forces: Option<Along<Forces>>,
     pairs: Option<Along<PairLines>>,
+    states: Option<[f64; STATES]>,
     rates: Option<[f64; STATES]>,
 }
 
 impl<'a> Slopes<'a> {
     fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
-        Self { simulation, direction, motion: None, forces: None, pairs: None, rates: None }
+        Self { simulation, direction, motion: None, forces: None, pairs: None, states: None, rates: None }
     }
 
     fn of(&mut self, source: OutputSource) -> f64 {
@@ -235,7 +288,9 @@ impl<'a> Slopes<'a> {
             OutputSource::Constant(_) => 0.0,
             // the ledger changes with time alone
             OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
-            OutputSource::State(k) => simulation.states_of(|i| direction.q[i], &direction.v)[k],
+            OutputSource::State(k) => {
+                self.states.get_or_insert_with(|| simulation.states_of(|i| direction.q[i], &direction.v))[k]
+            }
             OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
                 let [q, v] = simulation.rate_slopes(direction);
                 simulation.states_of(|i| q[i], &v)
@@ -246,11 +301,11 @@ impl<'a> Slopes<'a> {
 
 /// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
 /// equilibrium.
-fn initial_derivatives<'a>(
+fn initial_derivatives(
     (now, cache): (&Snapshot, &GearCache),
-    (unknown, sources): (impl Iterator<Item = u32>, &[OutputSource]),
+    unknowns: &Unknowns,
     known: impl Iterator<Item = (u32, f64)> + Clone,
-    values: impl Iterator<Item = Output<'a, f64>>,
+    slopes: &mut [f64],
 ) -> CallResult {
     let mut size = 0.0f64;
     for (reference, change) in known.clone() {
@@ -287,7 +342,6 @@ fn initial_derivatives<'a>(
     let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
     let sides: [&[(f64, f64)]; 3] = [&STENCIL, &FORWARD, &BACKWARD];
     let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
-    let mut sums = vec![0.0; sources.len()];
     for &(offset, weight) in offsets {
         let mut simulation = moved(offset)?.start(cache).map_err(|problems| {
             CallError::error(format!(
@@ -295,12 +349,12 @@ fn initial_derivatives<'a>(
                 crate::problem::list(&problems)
             ))
         })?;
-        for (sum, source) in sums.iter_mut().zip(sources) {
-            *sum += weight * source.read(&mut simulation);
+        for (slope, (_, source)) in slopes.iter_mut().zip(&unknowns.0) {
+            *slope += weight * source.read(&mut simulation);
         }
     }
-    for ((reference, sum), value) in unknown.zip(sums).zip(values) {
-        value.write(finite_slope(row(reference)?, sum / step)?);
+    for (slope, (row, _)) in slopes.iter_mut().zip(&unknowns.0) {
+        *slope = finite_slope(row, *slope / step)?;
     }
     Ok(())
 }

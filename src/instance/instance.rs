@@ -124,6 +124,12 @@ impl Instance {
         Ok(())
     }
 
+    /// Whether the scene can feel a variable that changes now.
+    pub fn is_felt(&mut self, reference: u32) -> bool {
+        let situation = self.situation(self.now.phase == Phase::Initialization);
+        felt::is_felt(reference as usize, &mut self.now.parameters, situation)
+    }
+
     fn situation(&self, from_start: bool) -> Situation {
         Situation { own_steps: self.now.kind == Kind::CoSimulation, from_start }
     }

@@ -1,7 +1,8 @@
 //! States of an instance, and which call is legal in which of them.
 //!
-//! Model exchange and co-simulation share the states before the start and after the end; in between, each has its own states, so
-//! one table serves both. Calls of one kind that are legal in a shared state also check the kind.
+//! Model exchange and co-simulation share the states before the start and after the end; in between, each has its own
+//! states, so one table serves both. A call of one kind alone that is legal in a shared state also checks the
+//! instance's kind.
 
 use serde::{Deserialize, Serialize};
 

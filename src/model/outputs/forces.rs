@@ -4,6 +4,17 @@ use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::scene::MAX_PLANETS;
 use crate::model::setup::effect_outputs::INSTANT_READINGS;
 
+/// How much of the forces is computed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extent {
+    /// Torques, accelerations and powers of the bodies; meshes stay zero.
+    Bodies,
+    /// The meshes' normal forces as well.
+    Loads,
+    /// Their parts in space as well, which cost as much as all others.
+    Parts,
+}
+
 /// Forces, torques and accelerations: one evaluation of the tooth forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces {

@@ -1,7 +1,6 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
-use super::forces::MeshForces;
-use super::forces::{Forces, bias};
+use super::forces::{Extent, Forces, MeshForces, bias};
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
@@ -71,8 +70,9 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
     heat.iter().zip(HEATS_WITHIN).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
 }
 
-/// Forces of the differential with teeth, with the parts of normal forces in space if these are asked for.
-pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, has_parts): (&State, bool)) -> Forces {
+/// Forces of the differential with teeth, as far as they are asked for.
+pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, extent): (&State, Extent)) -> Forces {
+    let has_parts = extent == Extent::Parts;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
     let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
@@ -89,6 +89,10 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     read_effects(&mut out, model, inputs, state);
+    if extent == Extent::Bodies {
+        add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
+        return out;
+    }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
     for g in 0..plan.groups().len() {

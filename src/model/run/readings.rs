@@ -8,7 +8,7 @@ use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
 use crate::model::dynamics::{IdealEquations, Largest, State, Watched};
 use crate::model::effect_kinds::{Changes, Mode};
-use crate::model::outputs::forces::Forces;
+use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::{LedgerReadings, Motion, resultants};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
@@ -94,12 +94,13 @@ impl Simulation {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }
-            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(parts));
+            let extent = if parts { Extent::Parts } else { Extent::Loads };
+            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(extent));
         }
         self.forces.get_or_insert_default()
     }
 
-    pub(super) fn forces_of_state(&self, parts: bool) -> Forces {
+    pub(super) fn forces_of_state(&self, extent: Extent) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) => resultants::ideal_forces(model, inputs, state),
@@ -107,7 +108,7 @@ impl Simulation {
                 resultants::ideal_forces_with_effects(model, &IdealEquations::new(ideal, inputs, state), inputs, state)
             }
             Gears::Teeth(teeth) => {
-                resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, parts))
+                resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, extent))
             }
         }
     }
