@@ -20,6 +20,7 @@ mod instance;
 mod log;
 mod panic_guard;
 mod phase;
+mod sensitivity;
 mod snapshot;
 mod steps;
 mod stored;

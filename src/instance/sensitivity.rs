@@ -1,0 +1,249 @@
+//! Directional derivatives and adjoint derivatives, of a running simulation and of the start that is being chosen.
+
+use super::values::{finite, row, wrong_type};
+use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
+use crate::model::{Along, Direction, Forces, GearCache, Inputs, PairLines, STATES, STENCIL, Simulation};
+use crate::variables::{Access, OutputSource, Variable, check_value, table};
+
+/// One-sided differences of order 4: positions and weights.
+const FORWARD: [(f64, f64); 5] = [(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)];
+const BACKWARD: [(f64, f64); 5] = [(0.0, 25.0 / 12.0), (-1.0, -4.0), (-2.0, 3.0), (-3.0, -4.0 / 3.0), (-4.0, 0.25)];
+/// Step of the differences of initial values, relative to the changed value: the initial equilibrium is found to about
+/// 1e-9.
+const RELATIVE_STEP: f64 = 3e-3;
+
+impl Instance {
+    /// Derivatives of unknowns along a direction of knowns.
+    pub fn get_directional_derivative<'a>(
+        &mut self,
+        unknown: impl Iterator<Item = u32>,
+        known: impl Iterator<Item = (u32, f64)> + Clone,
+        values: impl Iterator<Item = Output<'a, f64>>,
+    ) -> CallResult {
+        let unknowns = Unknowns::of(unknown)?;
+        if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
+            return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
+        }
+        let mut slopes = vec![0.0; unknowns.0.len()];
+        self.with_columns(|columns| columns.write(&unknowns, known, &mut slopes))?;
+        values.zip(slopes).for_each(|(value, slope)| value.write(slope));
+        Ok(())
+    }
+
+    /// For each known the sum over unknowns of `seed` times their derivative by it: a column of derivatives at a time, but for
+    /// knowns that the scene does not feel.
+    pub fn get_adjoint_derivative<'a>(
+        &mut self,
+        unknown: impl Iterator<Item = u32>,
+        seed: impl Iterator<Item = f64> + Clone,
+        known: impl Iterator<Item = u32>,
+        values: impl Iterator<Item = Output<'a, f64>>,
+    ) -> CallResult {
+        let unknowns = Unknowns::of(unknown)?;
+        if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
+            return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
+        }
+        let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.is_felt(known)))).collect();
+        let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], Vec::with_capacity(known.len()));
+        self.with_columns(|columns| {
+            known.into_iter().try_for_each(|known| {
+                column.fill(0.0);
+                columns.write(&unknowns, std::iter::once(known), &mut column)?;
+                sums.push(column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum::<f64>());
+                Ok(())
+            })
+        })?;
+        values.zip(sums).for_each(|(value, sum)| value.write(sum));
+        Ok(())
+    }
+
+    fn with_columns(&mut self, act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
+        if self.now.phase == Phase::Initialization {
+            return act(&Columns::Initial(&self.now, &self.cache));
+        }
+        let simulation = self.simulation()?;
+        let present = simulation.with_inputs_applied();
+        act(&Columns::Running(present.as_ref().unwrap_or(simulation)))
+    }
+}
+
+/// Where derivatives are taken.
+enum Columns<'a> {
+    /// At the start that is being chosen.
+    Initial(&'a Snapshot, &'a GearCache),
+    /// Of a simulation under its present inputs.
+    Running(&'a Simulation),
+}
+
+impl Columns<'_> {
+    /// Writes the derivatives of `unknowns` along `known` to `slopes`, which are zero before.
+    fn write(
+        &self,
+        unknowns: &Unknowns,
+        known: impl Iterator<Item = (u32, f64)> + Clone,
+        slopes: &mut [f64],
+    ) -> CallResult {
+        let simulation = match self {
+            Self::Initial(now, cache) => return initial_derivatives((now, cache), unknowns, known, slopes),
+            Self::Running(simulation) => simulation,
+        };
+        let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
+        let mut changes = false;
+        for (reference, change) in known {
+            let row = row(reference)?;
+            let state = table().states.iter().position(|&i| i as u32 == reference);
+            match (row.access, state) {
+                (Access::Input(slot), _) => *slot(&mut inputs) += change,
+                (_, Some(k)) => states[k] += change,
+                _ => {
+                    return Err(CallError::error(format!(
+                        "{} is neither an input nor a continuous state, so there is no derivative with respect to it",
+                        row.name
+                    )));
+                }
+            }
+            changes |= change != 0.0;
+        }
+        if changes {
+            let direction = simulation.direction(&states, &inputs);
+            let mut along = Slopes::new(simulation, &direction);
+            for (&(row, source), slope) in unknowns.0.iter().zip(slopes) {
+                *slope = finite_slope(row, along.of(source))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Variables whose derivatives are asked for.
+struct Unknowns(Vec<(&'static Variable, OutputSource)>);
+
+impl Unknowns {
+    fn of(references: impl Iterator<Item = u32>) -> CallResult<Self> {
+        references
+            .map(|reference| row(reference).and_then(|row| Ok((row, output_source(row)?))))
+            .collect::<CallResult<_>>()
+            .map(Self)
+    }
+}
+
+/// The derivative of a variable, if it is finite.
+pub fn finite_slope(row: &Variable, slope: f64) -> CallResult<f64> {
+    finite(row, slope).map_err(|error| CallError { message: format!("the derivative of {}", error.message), ..error })
+}
+
+/// Source of a variable that has derivatives.
+pub fn output_source(row: &Variable) -> CallResult<OutputSource> {
+    match row.access {
+        Access::Output(source) => Ok(source),
+        Access::Real(_) | Access::Input(_) => {
+            Err(CallError::error(format!("{} is set by the host, so it has no derivative", row.name)))
+        }
+        _ => Err(wrong_type(row)),
+    }
+}
+
+/// Derivatives along a direction; each kind is computed on demand.
+pub struct Slopes<'a> {
+    simulation: &'a Simulation,
+    direction: &'a Direction,
+    motion: Option<crate::model::Motion>,
+    forces: Option<Along<Forces>>,
+    pairs: Option<Along<PairLines>>,
+    states: Option<[f64; STATES]>,
+    rates: Option<[f64; STATES]>,
+}
+
+impl<'a> Slopes<'a> {
+    pub fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
+        Self { simulation, direction, motion: None, forces: None, pairs: None, states: None, rates: None }
+    }
+
+    pub fn of(&mut self, source: OutputSource) -> f64 {
+        let Self { simulation, direction, .. } = *self;
+        match source {
+            OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
+            OutputSource::Forces(of) | OutputSource::Parts(of) => {
+                self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of)
+            }
+            OutputSource::Reading(place) => {
+                let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
+                along.slope(|forces| forces.readings[place])
+            }
+            OutputSource::Pair(k, of) => {
+                let along = self.pairs.get_or_insert_with(|| simulation.pair_lines_along(direction));
+                along.slope(|lines| of(&lines[k]))
+            }
+            OutputSource::Constant(_) => 0.0,
+            // the ledger changes with time alone
+            OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
+            OutputSource::State(k) => {
+                self.states.get_or_insert_with(|| simulation.states_of(|i| direction.q[i], &direction.v))[k]
+            }
+            OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
+                let [q, v] = simulation.rate_slopes(direction);
+                simulation.states_of(|i| q[i], &v)
+            })[k],
+        }
+    }
+}
+
+/// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
+/// equilibrium.
+fn initial_derivatives(
+    (now, cache): (&Snapshot, &GearCache),
+    unknowns: &Unknowns,
+    known: impl Iterator<Item = (u32, f64)> + Clone,
+    slopes: &mut [f64],
+) -> CallResult {
+    let mut size = 0.0f64;
+    for (reference, change) in known.clone() {
+        let row = row(reference)?;
+        let mut origin = now.clone();
+        let value = match row.access {
+            Access::Input(slot) => *slot(&mut origin.inputs),
+            Access::Real(slot) => *slot(&mut origin.parameters),
+            _ => {
+                return Err(CallError::error(format!(
+                    "{} is neither an input nor a real parameter, so there is no derivative with respect to it",
+                    row.name
+                )));
+            }
+        };
+        size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
+    }
+    let step = if size > 0.0 { RELATIVE_STEP / size } else { 1.0 };
+    let moved = |offset: f64| {
+        let mut moved = now.clone();
+        for (reference, change) in known.clone() {
+            let row = row(reference)?;
+            let value = match row.access {
+                Access::Input(slot) => slot(&mut moved.inputs),
+                Access::Real(slot) => slot(&mut moved.parameters),
+                _ => continue,
+            };
+            *value += offset * step * change;
+            check_value(row, *value).map_err(|problem| CallError::error(problem.to_string()))?;
+        }
+        Ok(moved)
+    };
+    // one-sided where the other side leaves the range
+    let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
+    let sides: [&[(f64, f64)]; 3] = [&STENCIL, &FORWARD, &BACKWARD];
+    let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
+    for &(offset, weight) in offsets {
+        let mut simulation = moved(offset)?.start(cache).map_err(|problems| {
+            CallError::error(format!(
+                "there is no derivative, because initialisation fails close to these values:\n{}",
+                crate::problem::list(&problems)
+            ))
+        })?;
+        for (slope, (_, source)) in slopes.iter_mut().zip(&unknowns.0) {
+            *slope += weight * source.read(&mut simulation);
+        }
+    }
+    for (slope, (row, _)) in slopes.iter_mut().zip(&unknowns.0) {
+        *slope = finite_slope(row, *slope / step)?;
+    }
+    Ok(())
+}
