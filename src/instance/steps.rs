@@ -48,28 +48,18 @@ impl Instance {
         Err(CallError::error("this call is for co-simulation, but the instance is for model exchange"))
     }
 
-    /// A step from `point` over `h` [s], to the first event if the host allows it.
-    pub fn step_to_event(&mut self, point: f64, h: f64) -> CallResult<Ended> {
-        self.begin_step(point, h)?;
-        self.move_on(point + h, false)
-    }
-
-    /// The part of a step from `point` over `h` [s] up to the next step of the solver.
-    pub fn step_to_solver(&mut self, point: f64, h: f64) -> CallResult<Ended> {
-        self.begin_step(point, h)?;
-        let until = point + h;
-        let next = self.simulation()?.next_solver_time().map_err(|failure| self.step_failed(&failure))?;
-        match next {
+    /// A step from `point` over `h` [s] to `until`, to the first event if the host allows it; or the part of it up to the next
+    /// step of the solver.
+    pub fn step_to_event(&mut self, [point, h, until]: [f64; 3], in_parts: bool) -> CallResult<Ended> {
+        self.check_co_simulation()?;
+        let stop = self.now.stop_time;
+        let simulation = self.simulation()?;
+        check_step(simulation.time(), stop, point, h)?;
+        let next = if in_parts { simulation.next_solver_time() } else { Ok(None) };
+        match next.map_err(|failure| self.step_failed(&failure))? {
             Some(next) if next < until => self.move_on(next, true),
             _ => self.move_on(until, false),
         }
-    }
-
-    fn begin_step(&mut self, point: f64, h: f64) -> CallResult {
-        self.check_co_simulation()?;
-        let stop = self.now.stop_time;
-        let time = self.simulation()?.time();
-        check_step(time, stop, point, h)
     }
 
     fn move_on(&mut self, until: f64, is_part: bool) -> CallResult<Ended> {

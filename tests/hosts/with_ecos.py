@@ -1,7 +1,8 @@
 """Ecos by ecospy. C++, fmi4c; with --process the FMU runs in a separate process (proxyfmu).
 
 It does not support enumerations: it ignores their variables, and logs a warning for a value given to one. Values before
-initialisation are a parameter set.
+initialisation are a parameter set. A structural parameter of FMI 3.0 is refused, as Ecos does not enter configuration mode:
+only its debug log says so.
 """
 
 import os

@@ -7,7 +7,8 @@ import common
 
 
 def load():
-    import fmpy.fmi2  # noqa: F401
+    import fmpy.fmi2
+    import fmpy.fmi3  # noqa: F401
 
     return version("FMPy")
 
@@ -19,11 +20,26 @@ def run(fmu, scene):
 
 def stepped(fmu, scene, known, outputs):
     import fmpy
-    from fmpy.fmi2 import FMU2Slave
 
     folder = fmpy.extract(fmu)
     guid, identifier = common.description(fmu)
-    slave = FMU2Slave(guid=guid, unzipDirectory=folder, modelIdentifier=identifier, instanceName="differential")
+    use = three if common.is_three(fmu) else two
+    slave, write, read = use(scene, known, {"guid": guid, "unzipDirectory": folder, "modelIdentifier": identifier,
+                                            "instanceName": "differential"})
+    references = [known[name].reference for name in outputs]
+    rows = common.stepped(scene, lambda name, value: write([known[name].reference], [value]),
+                          lambda k: slave.doStep(k * scene.step, scene.step), lambda: read(references))
+    slave.terminate()
+    slave.freeInstance()
+    shutil.rmtree(folder, ignore_errors=True)
+    return rows
+
+
+def two(scene, known, options):
+    """An initialised slave of FMI 2.0, and what sets and reads its real numbers."""
+    from fmpy.fmi2 import FMU2Slave
+
+    slave = FMU2Slave(**options)
     slave.instantiate()
     for variable, value in scene.start(known):
         kind = "Integer" if variable.kind == "Enumeration" else variable.kind
@@ -31,13 +47,29 @@ def stepped(fmu, scene, known, outputs):
     slave.setupExperiment(startTime=0.0, stopTime=scene.stop)
     slave.enterInitializationMode()
     slave.exitInitializationMode()
-    references = [known[name].reference for name in outputs]
-    rows = common.stepped(scene, lambda name, value: slave.setReal([known[name].reference], [value]),
-                          lambda k: slave.doStep(k * scene.step, scene.step), lambda: slave.getReal(references))
-    slave.terminate()
-    slave.freeInstance()
-    shutil.rmtree(folder, ignore_errors=True)
-    return rows
+    return slave, slave.setReal, slave.getReal
+
+
+def three(scene, known, options):
+    """The same of FMI 3.0, whose structural parameters are set in configuration mode."""
+    from fmpy.fmi3 import FMU3Slave
+
+    slave = FMU3Slave(**options)
+    slave.instantiate()
+
+    def write(structural):
+        for variable, value in scene.start(known):
+            kind = "Int64" if variable.kind == "Enumeration" else variable.kind
+            if variable.structural == structural:
+                getattr(slave, "set" + kind)([variable.reference], [value])
+
+    slave.enterConfigurationMode()
+    write(structural=True)
+    slave.exitConfigurationMode()
+    write(structural=False)
+    slave.enterInitializationMode(startTime=0.0, stopTime=scene.stop)
+    slave.exitInitializationMode()
+    return slave, slave.setFloat64, slave.getFloat64
 
 
 if __name__ == "__main__":

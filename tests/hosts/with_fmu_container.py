@@ -1,5 +1,7 @@
 """The FMU inside another FMU: FMU Manipulation Toolbox puts it into a container, a C program that imports it. FMPy only
 steps the container. Enumerations are Integers there, and parameters are prefixed with the inner FMU's name.
+
+Inputs and outputs are named one by one: an array whose size is a structural parameter cannot be among them.
 """
 
 import copy
@@ -24,7 +26,7 @@ def run(fmu, scene):
     """{communication point: values}"""
     inner = common.variables(fmu)
     with tempfile.TemporaryDirectory() as folder:
-        outer = contained(Path(fmu).resolve(), scene.step, Path(folder))
+        outer = contained(Path(fmu).resolve(), scene, Path(folder))
         found = common.variables(outer)
         prefix = Path(fmu).stem.lower() + "."
         # what is local inside is not seen from outside
@@ -35,12 +37,16 @@ def run(fmu, scene):
         return with_fmpy.stepped(outer, scene, known, scene.outputs)
 
 
-def contained(fmu, step, folder):
-    """The container; its steps have this length."""
+def contained(fmu, scene, folder):
+    """The container, of the same version of FMI; its steps have the scene's length."""
     (folder / fmu.name).write_bytes(fmu.read_bytes())
-    (folder / "container.csv").write_text(f"rule;from_fmu;from_port;to_fmu;to_port\nFMU;{fmu.name};;;\n")
+    rows = ["rule;from_fmu;from_port;to_fmu;to_port", f"FMU;{fmu.name};;;"]
+    rows += [f"INPUT;;{name};{fmu.name};{name}" for name in scene.series]
+    rows += [f"OUTPUT;{fmu.name};{name};;{name}" for name in scene.outputs]
+    (folder / "container.csv").write_text("\n".join(rows) + "\n")
     command = [sys.executable, "-c", "from fmu_manipulation_toolbox.cli.fmucontainer import fmucontainer; fmucontainer()",
-               "-fmu-directory", str(folder), "-container", f"container.csv:{step!r}", "-auto-parameter"]
+               "-fmu-directory", str(folder), "-container", f"container.csv:{scene.step!r}", "-auto-parameter", "-no-auto-output",
+               "-fmi", "3" if common.is_three(str(fmu)) else "2"]
     made = subprocess.run(command, capture_output=True, text=True)
     if not (folder / "container.fmu").is_file():
         raise SystemExit(f"no container was made: {made.stdout.strip()} {made.stderr.strip()}")

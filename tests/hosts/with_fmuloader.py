@@ -13,9 +13,20 @@ def load():
 
 def run(fmu, scene):
     """{communication point: values}"""
+    known = common.variables(fmu)
+    slave, write, read = (three if common.is_three(fmu) else two)(fmu, scene, known)
+    references = [known[name].reference for name in scene.outputs]
+    rows = common.stepped(scene, lambda name, value: write([known[name].reference], [value]),
+                          lambda k: slave.do_step(k * scene.step, scene.step), lambda: read(references))
+    slave.terminate()
+    slave.free_instance()
+    return rows
+
+
+def two(fmu, scene, known):
+    """An initialised slave of FMI 2.0, and what sets and reads its real numbers."""
     from fmuloader.fmi2 import Fmi2Slave, Fmi2Type
 
-    known = common.variables(fmu)
     guid, identifier = common.description(fmu)
     slave = Fmi2Slave(fmu, model_identifier=identifier)
     # the FMU declares that it does not use the host's memory functions
@@ -27,12 +38,31 @@ def run(fmu, scene):
     slave.setup_experiment(start_time=0.0, stop_time=scene.stop)
     slave.enter_initialization_mode()
     slave.exit_initialization_mode()
-    references = [known[name].reference for name in scene.outputs]
-    rows = common.stepped(scene, lambda name, value: slave.set_real([known[name].reference], [value]),
-                          lambda k: slave.do_step(k * scene.step, scene.step), lambda: slave.get_real(references))
-    slave.terminate()
-    slave.free_instance()
-    return rows
+    return slave, slave.set_real, slave.get_real
+
+
+def three(fmu, scene, known):
+    """The same of FMI 3.0, whose structural parameters are set in configuration mode."""
+    from fmuloader.fmi3 import Fmi3Slave
+
+    guid, identifier = common.description(fmu)
+    slave = Fmi3Slave(fmu, model_identifier=identifier)
+    slave.instantiate_co_simulation("differential", instantiation_token=guid)
+    setters = {"Float64": slave.set_float64, "Int32": slave.set_int32, "UInt64": slave.set_uint64, "Boolean": slave.set_boolean,
+               "Enumeration": slave.set_int64}
+
+    def write(structural):
+        for variable, value in scene.start(known):
+            if variable.structural == structural:
+                setters[variable.kind]([variable.reference], [value])
+
+    slave.enter_configuration_mode()
+    write(structural=True)
+    slave.exit_configuration_mode()
+    write(structural=False)
+    slave.enter_initialization_mode(start_time=0.0, stop_time=scene.stop)
+    slave.exit_initialization_mode()
+    return slave, slave.set_float64, slave.get_float64
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
-"""The packaged FMU in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table.
+"""The packaged FMUs in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table.
 
 usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-fmi-sim]
 
-PLAIN_FMU is the FMU described with Integers, for hosts that set no Enumerations. Fails if hosts differ, or with --require if one
-cannot be loaded."""
+PLAIN_FMU is the FMU described with Integers, for hosts that set no Enumerations. The FMU of FMI 3.0 lies beside FMU: hosts that
+read it are compared with fmpy and FMI 2.0. Fails if hosts differ, or with --require if one cannot be loaded."""
 
 import csv
 import json
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bevel_differential.text import markdown
+from fmpy import read_model_description
 from tools import WORKSPACE, say
 
 HOSTS = WORKSPACE / "tests" / "hosts"
@@ -30,7 +31,8 @@ PACKAGES = "pip install -r tests/hosts/requirements.txt"
 class Host:
     """A host. `call`: a script of tests/hosts with its arguments, or the name of a host in the program of tests/hosts/rust;
     `language` it is used from, and the one it is written in; `loader`: what imports the FMU; `sets`: what it sets before
-    initialisation; `hint`: what to do if it cannot be loaded."""
+    initialisation; `hint`: what to do if it cannot be loaded; `three`: the call for the FMU of FMI 3.0, if the host reads it, and
+    `unset`: types and causalities that it does not set there."""
 
     name: str
     call: tuple[str, ...]
@@ -40,23 +42,25 @@ class Host:
     hint: str = PACKAGES
     enumerations: bool = True
     reads_start: bool = True
-
-
+    three: tuple[str, ...] = ()
+    unset: tuple[str, ...] = ()
 # the others are compared with the first one
 ALL = [
-    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types"),
-    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference"),
+    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types", three=("with_fmpy.py",)),
+    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference",
+         three=("with_fmuloader.py",)),
     Host("libcosim", ("with_libcosim.py",), "Python, C++", "FMI Library", "no Enumerations",
          enumerations=False, reads_start=False),
     Host("ecos", ("with_ecos.py",), "Python, C++", "fmi4c", "no Enumerations",
-         "apt install libtbb12", enumerations=False),
+         "apt install libtbb12", enumerations=False, three=("with_ecos.py",), unset=("Enumeration", "structuralParameter")),
     Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "no Enumerations",
-         "apt install libtbb12", enumerations=False),
+         "apt install libtbb12", enumerations=False, three=("with_ecos.py", "--process"),
+         unset=("Enumeration", "structuralParameter")),
     Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
-         "choices as Integers"),
+         "choices as Integers", three=("with_fmu_container.py",), unset=("structuralParameter",)),
     Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types", "cargo must reach crates.io"),
     Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types",
-         "cargo must reach crates.io, and a C compiler is needed"),
+         "cargo must reach crates.io, and a C compiler is needed", three=("fmi-rs-3",)),
     Host(FMI_SIM, ("with_fmi_sim.py",), "Rust", "fmi", "by --init-values, choices as numbers",
          "cargo must reach crates.io, and libclang is needed"),
 ]
@@ -118,6 +122,8 @@ class Bench:
 
     def __init__(self, fmu, plain, folder, with_rust):
         self.fmu, self.plain, self.folder, self.with_rust = fmu, plain, folder, with_rust
+        self.three = fmu.with_name(f"{fmu.stem}3.fmu")
+        self.needs = {each.name: {each.type, each.causality} for each in read_model_description(str(self.three)).modelVariables}
         self.programs = {}
         if with_rust:
             say(0.0, "building fmu-runner and fmi-rs")
@@ -142,10 +148,15 @@ class Bench:
         """Whether it was left out on demand."""
         return not self.with_rust and host.language == "Rust"
 
-    def run(self, host, scene):
-        """Runs a host on a scene: its record and its version. Raises `Absent`."""
-        out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}.csv"
-        program, *arguments = host.call
+    def can_by_three(self, host, scene):
+        """Whether a host runs a scene with the FMU of FMI 3.0: it reads it, and sets all that the scene sets."""
+        needed = {need for part in ("parameters", "inputs") for name in scene.known[part] for need in self.needs[name]}
+        return bool(host.three) and needed.isdisjoint(host.unset)
+
+    def run(self, host, scene, three=False):
+        """Runs a host on a scene, by FMI 3.0 if `three`: its record and its version. Raises `Absent`."""
+        out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}{'_3' if three else ''}.csv"
+        program, *arguments = host.three if three else host.call
         environment = dict(os.environ)
         if program.endswith(".py"):
             command = [sys.executable, HOSTS / program]
@@ -153,7 +164,7 @@ class Bench:
             command = [self._program("rust"), program]
         if host.name == FMI_SIM:
             environment["FMI_SIM"] = str(self._program(FMI_SIM))
-        fmu = self.fmu if host.enumerations else self.plain
+        fmu = self.three if three else self.fmu if host.enumerations else self.plain
         # some write logs into the current folder
         ended = subprocess.run([*command, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
                                text=True)
@@ -170,20 +181,23 @@ def last_line(text):
 
 
 def compared(bench, scenes):
-    """By host its version and deviations by scene; and why others are absent."""
+    """By host its version and, by FMI 2.0 and by FMI 3.0, the deviations by scene; and why others are absent."""
     results, absent, own = {}, {}, []
     for done, host in enumerate(ALL):
         say(done / len(ALL), host.name)
-        ran = []
+        ran = {}, {}
         try:
             for place, scene in enumerate(scenes):
-                record, version = bench.run(host, scene)
-                if host is ALL[0]:
-                    own.append(record)
-                try:
-                    ran.append(deviation(own[place], record, not host.reads_start, scene.known["outputs"]))
-                except SystemExit as wrong:
-                    raise SystemExit(f"{host.name} on {scene.name}: {wrong}") from None
+                for three in (False, True):
+                    if three and not bench.can_by_three(host, scene):
+                        continue
+                    record, version = bench.run(host, scene, three)
+                    if host is ALL[0] and not three:
+                        own.append(record)
+                    try:
+                        ran[three][scene.name] = deviation(own[place], record, not host.reads_start, scene.known["outputs"])
+                    except SystemExit as wrong:
+                        raise SystemExit(f"{host.name} on {scene.name}: {wrong}") from None
         except Absent as why:
             if host is ALL[0]:
                 raise SystemExit(f"{host.name}, which the others are compared with, cannot be loaded: {why}") from None
@@ -195,16 +209,25 @@ def compared(bench, scenes):
 
 def page(results, absent, scenes):
     """What is written into docs/fmi.md."""
-    rows = [["host", "import", "sets before the start", "outputs"]]
-    for host, (version, found) in results.items():
-        differ = [f"{scene.name}: {one.largest:.1e}".replace("e-0", "e-") for scene, one in zip(scenes, found) if one.different]
-        rows.append([f"{host.name} {version}", host.loader, host.sets, "; ".join(differ) or "same bits"])
-    every = [one for _, found in results.values() for one in found]
-    text = markdown(rows, range(4)) + "\n" + "".join(f"- `{scene.name}`: {scene.known['description']}.\n" for scene in scenes)
-    text += (f"\nDeviations from {ALL[0].name} are the largest over all outputs and communication points, relative to the larger "
-             f"of value and the output's natural scale. {sum(one.compared for one in every)} values were compared, "
-             f"{sum(one.different for one in every)} have other bits.\n")
+    rows = [["host", "import", "sets before the start", "FMI 2.0", "FMI 3.0"]]
+    for host, (version, ran) in results.items():
+        rows.append([f"{host.name} {version}", host.loader, host.sets, *(cell(found, scenes) for found in ran)])
+    every = [one for _, ran in results.values() for found in ran for one in found.values()]
+    text = markdown(rows, range(5)) + "\n" + "".join(f"- `{scene.name}`: {scene.known['description']}.\n" for scene in scenes)
+    text += (f"\nDeviations are the largest from {ALL[0].name} by FMI 2.0, relative to the value or, if larger, to the output's "
+             f"natural scale. {sum(one.compared for one in every)} values were compared, {sum(one.different for one in every)} have "
+             "other bits.\n")
     return text + "".join(f"\n{host.name}: not run: {why}\n" for host, why in absent.items())
+
+
+def cell(found, scenes):
+    """A host's deviations by one version of FMI."""
+    if not found:
+        return "–"
+    differ = [f"{scene}: {one.largest:.1e}".replace("e-0", "e-") for scene, one in found.items() if one.different]
+    if not differ:
+        return "same bits" if len(found) == len(scenes) else f"same bits, {len(found)} scenes"
+    return "; ".join(differ)
 
 
 def main():
@@ -214,8 +237,8 @@ def main():
     scenes = [Scene(file.stem, file, json.loads(file.read_text(encoding="utf-8"))) for file in files]
     results, absent = compared(bench, scenes)
     text = page(results, absent, scenes)
-    wrong = [f"{host.name} on {scene.name}: {one.largest:.1e}, {one.place}" for host, (_, found) in results.items()
-             for one, scene in zip(found, scenes) if one.largest > MOST]
+    wrong = [f"{host.name} on {scene}: {one.largest:.1e}, {one.place}" for host, (_, ran) in results.items()
+             for found in ran for scene, one in found.items() if one.largest > MOST]
     if wrong:
         raise SystemExit(f"{text}\nhosts differ by more than {MOST:g}:\n" + "\n".join(wrong))
     missing = [host.name for host in absent if not bench.leaves_out(host)]

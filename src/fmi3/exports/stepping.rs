@@ -15,11 +15,12 @@ pub unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_time: *mut f64,
 ) -> Status {
-    let (mut begin, until) = (point, point + size);
+    // the end stays the host's, whatever the parts before it
+    let (mut begin, mut size, until) = (point, size, point + size);
     loop {
         // SAFETY: the host's promise, see the module
         let (status, part) =
-            unsafe { part(c, [begin, until - begin], [event_needed, terminate, early_return], last_time) };
+            unsafe { part(c, [begin, size, until], [event_needed, terminate, early_return], last_time) };
         let Some(Part { ended, update, environment, may_return }) = part else { return status };
         let is_last = ended.is_done;
         let may_return = may_return && !is_last;
@@ -43,7 +44,7 @@ pub unsafe extern "C" fn fmi3DoStep(
         if status != Status::Ok || is_last || returns {
             return status;
         }
-        begin = ended.time;
+        (begin, size) = (ended.time, until - ended.time);
     }
 }
 
@@ -58,7 +59,7 @@ struct Part {
 /// Moves on by a part of a step; writes how the step would end here. Without a function to call back the part is the whole.
 unsafe fn part(
     c: ComponentPointer,
-    [point, size]: [f64; 2],
+    [point, size, until]: [f64; 3],
     flags: [*mut Boolean; 3],
     last_time: *mut f64,
 ) -> (Status, Option<Part>) {
@@ -79,8 +80,7 @@ unsafe fn part(
         early.write(0);
         last.write(instance.now.simulation.as_ref().map_or(point, |simulation| simulation.time()));
         let [update, environment] = instance.allowed.update;
-        let ended =
-            if update != 0 { instance.step_to_solver(point, size)? } else { instance.step_to_event(point, size)? };
+        let ended = instance.step_to_event([point, size, until], update != 0)?;
         event.write(Boolean::from(ended.event));
         early.write(Boolean::from(ended.early));
         last.write(ended.time);
