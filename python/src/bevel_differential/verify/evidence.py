@@ -60,7 +60,7 @@ class Evidence:
         experiments = [experiment for each in related if each.role == "experiment" and _is_one_of(TYPES, each, faults)
                        for experiment in experiments_of(each.source, KINDS[each.part], folder, unit, faults)]
         _add_tolerances(experiments, related, folder)
-        experiments += _results_alone(experiments, related, folder, faults)
+        experiments += _results_alone(experiments, related, folder, unit, faults)
         if not experiments:
             raise DifferentialError(f"{unit.shown(manifest)}: it names no experiment and no result")
         return cls(experiments, faults)
@@ -123,8 +123,8 @@ def _add_tolerances(experiments, related, folder):
                 experiment.tolerances = Path(relpath(folder / each.source, experiment.folder)).as_posix()
 
 
-def _results_alone(experiments, related, folder, faults):
+def _results_alone(experiments, related, folder, unit, faults):
     """Results that belong to no experiment are of the default experiment."""
-    used = {(each.folder / each.result).resolve() for each in experiments if each.result}
+    used = {unit.at(each.folder, each.result) for each in experiments if each.result} - {None}
     return [Experiment(Path(each.source).stem, folder, kind="default experiment", result=each.source) for each in related
-            if each.role == "result" and (folder / each.source).resolve() not in used and _is_one_of((*TABLES, ANY), each, faults)]
+            if each.role == "result" and unit.at(folder, each.source) not in used and _is_one_of((*TABLES, ANY), each, faults)]
