@@ -78,15 +78,16 @@ def related(source, role="result", kind="text/csv"):
     return f'<Related type="{kind}" source="{source}" role="{role}"/>'
 
 
-def experiments(*children, root="Experiments"):
+def experiments(*children):
     """A file of experiments with such children."""
-    return f'<?xml version="1.0"?><{root} name="some">{"".join(children)}</{root}>'
+    return f'<?xml version="1.0"?><Experiments name="some">{"".join(children)}</Experiments>'
 
 
-def packed(file, evidence):
+def packed(file, evidence, description=DESCRIPTION):
     """Writes the unit with these files of evidence; returns its path."""
     with zipfile.ZipFile(file, "w") as archive:
-        archive.writestr("modelDescription.xml", DESCRIPTION)
+        archive.writestr("modelDescription.xml", description)
         for name, text in evidence.items():
-            archive.writestr(normpath(f"{FOLDER}/{name}"), text)
+            if text is not None:
+                archive.writestr(normpath(f"{FOLDER}/{name}"), text)
     return str(file)

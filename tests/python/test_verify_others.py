@@ -63,6 +63,13 @@ def test_a_result_alone_that_differs_fails_where_it_differs(held):
     assert found.worst.size == pytest.approx(0.01)
 
 
+def test_times_that_nothing_states_are_those_of_the_result(simulated, tmp_path):
+    bare = stand_in.DESCRIPTION.replace('<DefaultExperiment startTime="0" stopTime="1" stepSize="0.25"/>', "")
+    text = "time,y\n0,0\n1,1\n1,1\n1.5,1.5\n4,4\n"
+    (found,), _ = verify(stand_in.packed(tmp_path / "unit.fmu", {MANIFEST: manifest(related("out.csv")), "out.csv": text}, bare))
+    assert found.verdict == "passed" and (simulated.asked["stop"], simulated.asked["step"]) == (4.0, 0.5)
+
+
 @pytest.mark.parametrize("given, fault", [
     ({}, None),
     ({"version": "1.0.0-beta.1"}, None),
@@ -101,10 +108,11 @@ def test_faults_of_names_are_told(simulated, tmp_path, place, old, new, fault):
     (related("b%20c.txt", "document"), None),
     (related("b%20c.txt", "serialized-state/x86_64-linux", "application/octet-stream"), None),
     (related("b%20c.txt", "meta-data"), None),
+    (related("more.csv", kind="text/csv; charset=utf-8"), None),
 ])
 def test_faults_of_an_entry_take_no_other(held, entry, fault):
-    (found,), faults = held([entry, related("out.csv")], {"out.csv": DEFAULT, "b c.txt": "text"})
-    assert found.verdict == "passed"
+    found, faults = held([entry, related("out.csv")], {"out.csv": DEFAULT, "b c.txt": "text", "more.csv": DEFAULT})
+    assert [each.verdict for each in found] == ["passed"] * (1 + ("more.csv" in entry))
     assert len(faults) == (fault is not None) and all(fault in each for each in faults), faults
 
 
@@ -179,9 +187,10 @@ def test_an_experiment_without_a_result_shows_that_it_runs(experiment, simulated
     found, faults = experiment(element)
     assert found.verdict == "passed" and not found.deviations and not found.assumed
     assert len(faults) == 1 and "names no result" in faults[0]
-    simulated.ends = 2.0
-    found, _ = experiment(element)
-    assert found.verdict == "broken" and "ends at 2 s, before its stop time, 3 s" in found.problem
+    simulated.ends = 0.5
+    for times, stop in ((TIMES.replace('"1"', '"0"'), 3), ("", 1)):
+        found, _ = experiment(element.replace(TIMES, times))
+        assert found.verdict == "broken" and f"ends at 0.5 s, before its stop time, {stop} s" in found.problem
 
 
 @pytest.mark.parametrize("key, text", [("startTime", "early"), ("stopTime", "nan"), ("stepSize", "1e-3 s"), ("tolerance", "")])
@@ -249,6 +258,9 @@ def test_a_result_of_an_experiment_is_not_that_of_the_default_one_too(held):
     files = {**FILES, "a.exp": experiments(f'<Experiment name="a" {TIMES}>{ALL}</Experiment>'), "default.csv": DEFAULT}
     found, _ = held([related("out.csv"), related("default.csv"), related("a.exp", "experiment", EXP)], files)
     assert [(each.name, each.verdict) for each in found] == [("a", "passed"), ("default", "passed")]
+    # two that are missing are not one and the same
+    found, _ = held([related("gone.csv"), related("a.exp", "experiment", EXP)], {**files, "out.csv": None})
+    assert [(each.name, each.verdict) for each in found] == [("a", "broken"), ("gone", "broken")]
 
 
 @pytest.mark.parametrize("entries", [[], [related("a.txt", "document")], [related("a.h5", "result", "application/hdf5")],

@@ -84,6 +84,7 @@ class Experiment:
         if self.tolerances:
             self.allowed = tolerances_of(*self._found(self.tolerances, unit), self.name, self.columns)
         self.units = {name: variables[name].unit or "" for name in self.columns}
+        self._complete(unit.description.defaultExperiment)
         return self
 
     @property
@@ -94,27 +95,22 @@ class Experiment:
     def run(self, unit: Unit) -> np.ndarray:
         """The FMU's record of the experiment, by fmpy. Raises `Broken`."""
         said: list[str] = []
-        default = unit.description.defaultExperiment
-        stop = self.stop if self.stop is not None else getattr(default, "stopTime", None)
-        step = self.step if self.step is not None else getattr(default, "stepSize", None)
-        if self.expected is not None:
-            stop = self.expected["time"][-1] if stop is None else stop
-            step = self._spacing() if step is None else step
         try:
             # fmpy prints inputs that have no signal, and what the FMU says
             with redirect_stdout(io.StringIO()):
                 return simulate_fmu(
                     str(unit.folder), model_description=unit.description, start_values=self.values, start_time=self.start,
-                    stop_time=None if stop is None else float(stop), output_interval=None if step is None else float(step),
-                    relative_tolerance=self.solver_tolerance, input=self.signals, output=list(self.columns),
-                    logger=lambda *words: said.append(_text(words[-1])))
+                    stop_time=self.stop, output_interval=self.step, relative_tolerance=self.solver_tolerance, input=self.signals,
+                    output=list(self.columns), logger=lambda *words: said.append(_text(words[-1])))
         except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
             raise Broken(f"the unit fails: {' '.join('; '.join([*said, str(error)]).split())}") from None
 
-    def _spacing(self):
-        rising = np.diff(self.expected["time"])
-        rising = rising[rising > 0.0]
-        return rising.min() if len(rising) else None
+    def _complete(self, default):
+        """Takes times that the evidence does not give from the default experiment, else from the result."""
+        times = np.empty(0) if self.expected is None else self.expected["time"]
+        spacings = np.diff(times)
+        self.stop = _first(self.stop, getattr(default, "stopTime", None), *times[-1:])
+        self.step = _first(self.step, getattr(default, "stepSize", None), *np.sort(spacings[spacings > 0.0])[:1])
 
     def _found(self, name, unit):
         """The name for messages, and the path: where the evidence says, else elsewhere in the FMU, which is a fault."""
@@ -129,6 +125,11 @@ class Experiment:
             raise Broken(f"{name}: it is not in the FMU")
         self.faults.append(f"{name}: it is not where the evidence says; {others[0].relative_to(unit.folder).as_posix()} is taken")
         return name, others[0]
+
+
+def _first(*values):
+    """The first number that is given."""
+    return next((float(value) for value in values if value is not None), None)
 
 
 def _text(word):
