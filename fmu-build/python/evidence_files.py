@@ -14,8 +14,8 @@ SETS = {"smoke test": ("smoke-tests.exp", "smoke-test", "Smoke tests", "The firs
         "validation": ("validation.exp", "validation", "Validation", "Each scene as a whole")}
 REQUIREMENTS = """# What a test with this evidence requires
 
-Files, roles and the form of experiments are those of FMI-LS-REF {version}; `tolerances.csv` is the project's own. Each scene is a parameter
-set, a table of inputs where inputs change, and two experiments with their results.
+Files, roles and the form of experiments are those of FMI-LS-REF {version}; `tolerances.csv` is the project's own. Each scene is a
+parameter set, a table of inputs where inputs change, and two experiments with their results.
 
 - **Smoke test** (`smoke-tests.exp`): the first {smoke:.0%} of a scene. It shows that the unit runs and starts as it should.
 - **Validation** (`validation.exp`): the whole scene.

@@ -2,6 +2,8 @@
 
 In the draft alpha.1 an experiment has its times as attributes; in later ones an element within it has them."""
 
+from pathlib import Path
+
 from lxml import etree
 
 from .experiment import Experiment, Unit
@@ -17,7 +19,7 @@ ANALYSES = ("steadystate", "parameteroptimization", "setpointoptimization", "sen
             "linearization")
 
 
-def experiments_of(source: str, kind: str, folder, unit: Unit, faults: list[str]) -> list[Experiment]:
+def experiments_of(source: str, kind: str, folder: Path, unit: Unit, faults: list[str]) -> list[Experiment]:
     """The experiments of a file; where it cannot be read, one that says so, for what it holds is not tested."""
     file = unit.at(folder, source)
     root = parsed(source, file, faults) if file else None
