@@ -16,7 +16,8 @@ from bevel_differential.fmu import Fmu
 from bevel_differential.scene_file import find, read_scene, shipped_scenes
 from bevel_differential.text import aligned
 from bevel_differential.verify.experiment import Experiment, Unit
-from bevel_differential.verify.files import parameter_set, table
+from bevel_differential.verify.parameter_sets import parameter_set
+from bevel_differential.verify.tables import table
 from evidence_files import manifest, requirements, write_table
 
 SOLVER = "solver.relative_tolerance"
@@ -52,8 +53,9 @@ def main(fmu, folder):
     rows = [(part["name"], name, unit.variables[name].unit or "1", f"{value:.1e}")
             for part in parts for name, value in part["tolerances"].items()]
     write_table(folder / "tolerances.csv", [("experiment", "variable", "unit", "tolerance"), *rows])
-    (folder / "fmi-ls-manifest.xml").write_bytes(manifest(parts))
-    (folder / "requirements.md").write_text(requirements(usual, TIGHT, MARGIN, ROUNDING, LOST, SMOKE), encoding="utf-8")
+    for name, content in manifest(parts, SMOKE).items():
+        (folder / name).write_bytes(content)
+    (folder / "requirements.md").write_text(requirements(parts, usual, TIGHT, MARGIN, ROUNDING, LOST, SMOKE), encoding="utf-8")
     print(summary(parts))
 
 
@@ -81,7 +83,7 @@ class Run:
         return self.tight.dtype.names[1:]
 
     def parts(self, scales):
-        """The smoke test and the validation as the manifest and the tables name them."""
+        """The smoke test and the validation as files of experiments and tables name them."""
         differences = {name: np.abs(self.usual[name] - self.tight[name]) for name in self.outputs}
         lost = np.flatnonzero(np.any([differences[name] > LOST * scales[name] for name in self.outputs], axis=0))
         for kind, ending, stop in (("smoke test", "_smoke", SMOKE * self.stop), ("validation", "", self.stop)):

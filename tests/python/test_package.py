@@ -40,6 +40,8 @@ LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.s
 MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6}, 0.8e6
 # the page, which is packed along if it was made, and is not counted
 LIVE = "documentation/BevelDifferential.html"
+# what FMI-LS-REF recommends beside the documentation
+TESTS = "documentation/fmi-ls-ref.txt"
 DEMANDED = os.environ.get("PLATFORMS", "").split()
 
 
@@ -145,6 +147,14 @@ def test_pictures_and_links_of_the_documentation_lie_in_the_archive(archive, pag
         assert archive.read(f"documentation/{picture}").startswith(b"\x89PNG\r\n\x1a\n")
 
 
+def test_the_documentation_leads_to_what_tests_require(archive, page):
+    assert TESTS in {f"documentation/{link}" for link in page.links}
+    text = archive.read(TESTS).decode("utf-8")
+    parameter_sets = [PurePosixPath(name).stem for name in archive.namelist() if name.endswith(".ssv")]
+    assert parameter_sets and all(f"- `{name}`: " in text for name in parameter_sets)
+    assert archive.read("extra/org.fmi-standard.fmi-ls-ref/requirements.md").decode("utf-8") == text
+
+
 def test_every_variable_is_in_the_documentation(page, fmu):
     words = set(page.text.split())
     for variable in fmu.variables.values():
@@ -156,7 +166,7 @@ def test_licences_of_all_that_is_linked_in_are_there(archive, page):
     texts = {name: archive.read(name).decode("utf-8") for name in archive.namelist() if "/licenses/" in name}
     for folder in {PurePosixPath(name).parent for name in texts}:
         assert max(len(text) for name, text in texts.items() if PurePosixPath(name).parent == folder) > 400, folder
-    assert {f"documentation/{link}" for link in page.links} - {LIVE} == set(texts)
+    assert {f"documentation/{link}" for link in page.links} - {LIVE, TESTS} == set(texts)
     lock = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
     own = re.search(r'name = "bevel-differential"\nversion = "[^"]*"\ndependencies = \[\n(.*?)\]', lock, re.DOTALL)
     crates = set(re.findall(r'^ "([^" ]+)', own[1], re.MULTILINE)) - {"serde_json"}  # for tests alone

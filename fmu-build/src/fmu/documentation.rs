@@ -21,6 +21,7 @@ const INTRODUCTION: &str = "Dynamics of a bevel gear differential as an FMU for 
      to four planets and two side gears with straight spherical-involute teeth, in contact pair by pair along the exact path \
      of contact, with backlash and tip-corner contact.";
 const LIVE: &str = "The differential live in a browser: scenes, parameters and effects, with the gears in motion.";
+const TESTS: &str = "Scenes with results that the FMU carries, and what a test by them requires.";
 const USE: [&str; 5] = [
     "Import the FMU into any host of FMI 2.0 on one of the platforms below.",
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
@@ -75,9 +76,16 @@ pub const FIGURES: [Figure; 3] = [
     Figure { file: ["docs", "figures", "ripple.png"], caption: "Ripple in the turn, from pair to pair of teeth." },
 ];
 
-/// The page of an archive with `libraries`, into which all of `linked` is linked; `live` is the file beside it with the
-/// differential in motion, if there is one.
-pub fn page(libraries: &[Library], linked: &[LinkedPart], live: Option<&str>) -> Result<String> {
+/// Files beside the page that an archive may have.
+pub struct Beside {
+    /// The differential in motion.
+    pub live: Option<&'static str>,
+    /// What tests by the evidence require.
+    pub tests: Option<&'static str>,
+}
+
+/// The page of an archive with `libraries`, into which all of `linked` is linked.
+pub fn page(libraries: &[Library], linked: &[LinkedPart], beside: &Beside) -> Result<String> {
     let mut body = Element::new("body")
         .child(Element::new("h1").text(MODEL_NAME))
         .child(Element::new("p").text(concat!(
@@ -86,15 +94,13 @@ pub fn page(libraries: &[Library], linked: &[LinkedPart], live: Option<&str>) ->
             ", FMI 2.0 co-simulation and model exchange."
         )))
         .child(paragraph(INTRODUCTION))
-        .children(live.map(|file| {
-            let link = Element::new("a").with("href", file).text(LIVE);
-            Element::new("p").child(link)
-        }))
+        .children(beside.live.map(|file| link(file, LIVE)))
         .child(title("Use"))
         .child(Element::new("ol").children(USE.map(|step| Element::new("li").text(step))))
         .child(table_of(&["Platform", "Needs"], libraries.iter().map(platform)))
         .child(title("Results"))
         .children(FIGURES.iter().map(figure))
+        .children(beside.tests.map(|file| link(file, TESTS)))
         .child(title("Units and signs"))
         .children(UNITS.map(paragraph))
         .child(title("Limitations"))
@@ -155,6 +161,10 @@ fn title(text: &str) -> Element {
 
 fn paragraph(text: &str) -> Element {
     Element::new("p").text(text)
+}
+
+fn link(file: &str, text: &str) -> Element {
+    Element::new("p").child(Element::new("a").with("href", file).text(text))
 }
 
 fn figure(figure: &Figure) -> Element {

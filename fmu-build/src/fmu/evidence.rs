@@ -14,6 +14,10 @@ use crate::tools::{paths, script};
 
 /// The folder in the archive. FMI-LS-REF gives its name.
 const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
+/// What a test with the files requires.
+const REQUIREMENTS: &str = "requirements.md";
+/// The same text in the folder of the documentation, where FMI-LS-REF recommends one.
+pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 /// The script that makes the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
 
@@ -49,6 +53,13 @@ pub fn files() -> Result<Vec<(String, PathBuf)>> {
     }
     found.sort();
     Ok(found)
+}
+
+/// The text for `DOCUMENT`, if there is evidence.
+pub fn document() -> Result<Option<Vec<u8>>> {
+    let file = paths::evidence().join(REQUIREMENTS);
+    let read = || fs::read(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)));
+    file.is_file().then(read).transpose()
 }
 
 fn collect(folder: &Path, in_archive: &str, found: &mut Vec<(String, PathBuf)>) -> Result<()> {

@@ -144,8 +144,14 @@ fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing
         add(&format!("binaries/{platform}/{MODEL_NAME}.{ending}"), &read(file)?, EXECUTABLE)?;
     }
     let licences = licences::collected(CRATES[0], libraries)?;
-    let index = documentation::page(libraries, &licences.linked, page.map(|_| page::FILE))?;
+    let tests = evidence::document()?;
+    let beside =
+        documentation::Beside { live: page.map(|_| page::FILE), tests: tests.as_ref().map(|_| evidence::DOCUMENT) };
+    let index = documentation::page(libraries, &licences.linked, &beside)?;
     add("documentation/index.html", index.as_bytes(), PLAIN)?;
+    if let Some(tests) = tests {
+        add(&format!("documentation/{}", evidence::DOCUMENT), &tests, PLAIN)?;
+    }
     if let Some(page) = page {
         add(&format!("documentation/{}", page::FILE), page, PLAIN)?;
     }

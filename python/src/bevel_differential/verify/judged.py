@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .experiment import Experiment
+from .files import Broken
 
 # of the largest magnitude of a variable in the result, where the evidence states no tolerance
 ASSUMED = 1e-3
@@ -57,24 +58,33 @@ def broken(experiment: Experiment, problem: str) -> Judged:
 
 
 def judged(experiment: Experiment, record: np.ndarray) -> Judged:
-    """Compares a record with the result of an experiment."""
-    expected = experiment.expected
-    slack = SLACK * max(abs(expected["time"][-1]), abs(record["time"][-1]))
-    if record["time"][-1] < expected["time"][-1] - slack:
-        return broken(experiment, f"the run ends at {record['time'][-1]:g} s, before the last time of the result, {expected['time'][-1]:g} s")
-    deviations = tuple(_deviation(experiment, name, record, slack) for name in experiment.columns)
+    """Compares a record with the result of an experiment. Without a result it passes where the run comes to its end."""
+    end, expected = record["time"][-1], experiment.expected
+    last = experiment.stop if expected is None else expected["time"][-1]
+    slack = SLACK * max(abs(last or 0.0), abs(end))
+    if last is not None and end < last - slack:
+        missed = "its stop time" if expected is None else "the last time of the result"
+        return broken(experiment, f"the run ends at {end:g} s, before {missed}, {last:g} s")
+    deviations = tuple(each for name in experiment.columns for each in _deviations(experiment, name, record, slack))
     passed = all(each.ratio <= 1.0 for each in deviations)
-    return Judged(experiment.name, experiment.kind, "passed" if passed else "failed", deviations, assumed=not experiment.allowed)
+    assumed = bool(deviations) and not experiment.allowed
+    return Judged(experiment.name, experiment.kind, "passed" if passed else "failed", deviations, assumed=assumed)
 
 
-def _deviation(experiment, name, record, slack):
-    wanted, times = experiment.expected[name], experiment.expected["time"]
-    values = _nearest(times, wanted, record["time"], record[name].astype(float), slack)
+def _deviations(experiment, name, record, slack):
+    """The deviation of each element of a variable."""
+    expected, times = experiment.expected[name], experiment.expected["time"]
+    wanted, recorded = (values.reshape(len(values), -1).astype(float).T for values in (expected, record[name]))
+    if len(wanted) != len(recorded):
+        raise Broken(f"{name}: it has {len(recorded)} elements, {len(wanted)} in the result")
     # where the largest magnitude is 0 any other value is a deviation
     tolerance = experiment.allowed.get(name) or ASSUMED * np.abs(wanted).max() or np.finfo(float).tiny
-    distance = np.abs(values - wanted)
-    place = int(np.argmax(np.where(np.isfinite(distance), distance, np.inf)))
-    return Deviation(name, experiment.units[name], times[place], values[place], wanted[place], tolerance)
+    for place, (of_result, of_record) in enumerate(zip(wanted, recorded), 1):
+        values = _nearest(times, of_result, record["time"], of_record, slack)
+        distance = np.abs(values - of_result)
+        worst = int(np.argmax(np.where(np.isfinite(distance), distance, np.inf)))
+        shown = f"{name}[{place}]" if len(wanted) > 1 else name
+        yield Deviation(shown, experiment.units[name], times[worst], values[worst], of_result[worst], tolerance)
 
 
 def _nearest(times, wanted, recorded, values, slack):
