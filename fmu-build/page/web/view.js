@@ -1,5 +1,5 @@
 // The window on the gears: camera, light, labels, and drawing when something has changed.
-import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { ACESFilmicToneMapping, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Differential } from "./differential.js";
 import { studio } from "./studio.js";
@@ -28,8 +28,13 @@ export class View {
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
-    this.scene.environment = studio(this.renderer);
-    this.scene.environmentIntensity = 0.7;
+    if (this.isCoarse) {
+      // mirrored light takes more than half of a picture's time where the processor draws
+      this.scene.add(new HemisphereLight("#ffffff", "#8a8078", 1.5));
+    } else {
+      this.scene.environment = studio(this.renderer);
+      this.scene.environmentIntensity = 0.7;
+    }
     const key = new DirectionalLight("#fff4e4", 1.8);
     key.position.set(-0.6, 1.2, -0.9);
     // a lamp beside the eye: no face that is seen stays black
