@@ -7,7 +7,7 @@ import { studio } from "./studio.js";
 const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
 const FINEST = 2; // pixels of the picture to one of the page, in a line
-const COARSE = 6e4; // pixels of a picture that the processor draws
+const COARSE = 5e4; // pixels of a picture that the processor draws
 
 // From the rear of a vehicle: +x, its left, is at the left.
 // `from` is where the eye is, in axes of the scene or, with `at`, of the left mesh of planet 1: along its pitch line, forward,
