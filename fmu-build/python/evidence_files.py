@@ -23,7 +23,7 @@ tolerance of its variable in `tolerances.csv`. Tolerances are absolute, in the u
 
 Results come from runs with `solver.relative_tolerance` = {tight:g}. A test keeps the usual {usual:g}. The tolerance is {margin:g} times the
 largest difference between runs with both over all communication points, and {rounding:g} of the largest magnitude of the variable in any
-scene; of `heat.contact` for `solver.energy_residual`, which should be 0. A result ends where a difference exceeds {lost:g} of that magnitude: later the motion depends on the tolerance of the solver, as
+shipped scene, for other scenes in any scene; of `heat.contact` for `solver.energy_residual`, which should be 0. A result ends where a difference exceeds {lost:g} of that magnitude: later the motion depends on the tolerance of the solver, as
 that of rattling teeth does. The run still goes on to `stopTime`.
 
 The experiments are for co-simulation. The command `bevel-differential verify` does all this; any host can.

@@ -9,6 +9,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -47,7 +48,8 @@ def main():
         return worst, differ
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        rows = [row_of(change, *found) for change, found in zip(changes, pool.map(tried, range(1, len(changes) + 1)))]
+        said = tomllib.loads((repository / "docs" / "mutants.toml").read_text(encoding="utf-8"))["coefficient"]
+        rows = [row_of(change, *found, said) for change, found in zip(changes, pool.map(tried, range(1, len(changes) + 1)))]
     with (folder / "coefficients.csv").open("w", encoding="utf-8", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
     noticed = sum(row[2] == "yes" for row in rows)
@@ -102,15 +104,16 @@ def ratio_of(row):
     return float(row["deviation"]) / float(row["tolerance"]) if row["deviation"] else 0.0
 
 
-def row_of(change, worst, differ):
-    """A line of the table. `differ`: experiments whose bits differ where none fails."""
+def row_of(change, worst, differ, said):
+    """A line of the table. `differ`: experiments whose bits differ where none fails; `said`: why some are not noticed."""
     begin = [f"{change.file}:{change.line}", change.before, "yes" if differ is None else "no"]
+    why = next((each["why"] for each in said if (each["file"], each["value"]) == (change.file, change.before)), "not explained")
     if differ == []:
-        return [*begin, *[""] * 6, "equal bits of all outputs in all experiments"]
+        return [*begin, *[""] * 6, f"equal bits of all outputs in all experiments; {why}"]
     if not worst["deviation"]:
         return [*begin, worst["experiment"], *[""] * 5, "the run breaks off"]
     found = [f"{float(worst['time']):.6g}", f"{float(worst['deviation']):.3g}", worst["unit"], f"{ratio_of(worst):.3g}"]
-    return [*begin, worst["experiment"], worst["variable"], *found, f"bits differ in {', '.join(differ)}" if differ else ""]
+    return [*begin, worst["experiment"], worst["variable"], *found, f"bits differ in {', '.join(differ)}; {why}" if differ else ""]
 
 
 if __name__ == "__main__":
