@@ -32,7 +32,11 @@ impl EvidenceCommand {
         let fmu = package::package()?;
         progress.begin_bar("simulating");
         let mut command = environment.command();
-        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::workspace().join(SCENES)).arg(paths::evidence());
+        command
+            .arg(paths::workspace().join(SCRIPT))
+            .arg(&fmu)
+            .arg(paths::workspace().join(SCENES))
+            .arg(paths::evidence());
         let told = script::follow(&mut command, SCRIPT, &progress)?;
         progress.finish();
         print!("{told}");
