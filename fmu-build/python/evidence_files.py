@@ -39,7 +39,7 @@ largest deviation of each scene by its tolerance, which must not be above 1:
 
 Results come from runs with `solver.relative_tolerance` = {tight:g}. A test keeps the usual {usual:g}. The tolerance is {margin:g} times the
 largest difference between runs with both over all communication points, and {rounding:g} of the largest magnitude of the variable in any
-scene. A result ends where a difference exceeds {lost:g} of that magnitude: later the motion depends on the tolerance of the solver, as
+shipped scene, for other scenes in any scene; of `heat.contact` for `solver.energy_residual`, which should be 0. A result ends where a difference exceeds {lost:g} of that magnitude: later the motion depends on the tolerance of the solver, as
 that of rattling teeth does. The run still goes on to `stopTime`.
 
 ## Scenes

@@ -16,12 +16,15 @@ from stand_in import manifest, related
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.command import main
-from bevel_differential.scene_file import shipped_scenes
+from bevel_differential.scene_file import find, shipped_scenes
 from bevel_differential.verify import verify
 from bevel_differential.verify.evidence import FOLDER, MANIFEST
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / "modelDescription" / "evidence"
+OTHERS = ROOT / "fmu-build" / "evidence"
+# files of all scenes in the evidence: the shipped ones, and those in which acts what no shipped one needs
+SCENES = {**{name: find(name) for name in shipped_scenes()}, **{file.stem: file for file in OTHERS.glob("*.toml")}}
 LARGEST = 1_000_000  # bytes of all files
 ROWS = 300
 
@@ -62,8 +65,8 @@ def default_result(fmu_file):
 def test_the_shipped_unit_passes_all_its_experiments(fmu_file, capsys):
     assert main(["verify", fmu_file]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[-1] == f"{2 * len(shipped_scenes())} experiments, {2 * len(shipped_scenes())} passed"
-    for name in shipped_scenes():
+    assert lines[-1] == f"{2 * len(SCENES)} experiments, {2 * len(SCENES)} passed"
+    for name in SCENES:
         for ending, kind in (("", "validation"), ("_smoke", "smoke test")):
             assert any(re.match(rf"{name}{ending} +{kind} .* passed$", line) for line in lines), name
     assert not any(line.startswith("fault") for line in lines)
@@ -72,11 +75,11 @@ def test_the_shipped_unit_passes_all_its_experiments(fmu_file, capsys):
 def test_quick_runs_smoke_tests_alone_and_the_table_has_every_variable(fmu_file, tmp_path, capsys):
     file = tmp_path / "table.csv"
     assert main(["verify", fmu_file, "--quick", "--csv", str(file)]) == 0
-    assert f"{len(shipped_scenes())} experiments" in capsys.readouterr().out
+    assert f"{len(SCENES)} experiments" in capsys.readouterr().out
     rows = list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
     assert {row["kind"] for row in rows} == {"smoke test"}
-    for name in shipped_scenes():
-        outputs = Scene.load(name, fmu=fmu_file).outputs
+    for name in SCENES:
+        outputs = Scene.load(SCENES[name], fmu=fmu_file).outputs
         assert sorted(row["variable"] for row in rows if row["experiment"] == f"{name}_smoke") == sorted(outputs)
     assert all(abs(float(row["value"]) - float(row["expected"])) <= float(row["tolerance"]) for row in rows)
 
@@ -104,7 +107,7 @@ def test_other_physics_is_noticed_with_scene_variable_time_and_by_how_much(unit,
     assert abs(value - expected) == pytest.approx(off, rel=0.02, abs=1e-8 * abs(value)) and off > tolerance
     assert ratio == pytest.approx(off / tolerance, rel=0.06) and ratio > 10.0
     # the other scenes still pass
-    verdicts = {line.split()[0]: line.split()[-1] for line in lines[1:2 * len(shipped_scenes()) + 1]}
+    verdicts = {line.split()[0]: line.split()[-1] for line in lines[1:2 * len(SCENES) + 1]}
     assert {each for each, verdict in verdicts.items() if verdict == "failed"} <= {scene, f"{scene}_smoke"}
     assert verdicts[scene] == "failed"
 
@@ -134,7 +137,7 @@ def test_broken_evidence_is_reported_by_name(unit, capsys, changes, parts):
     said = [line for line in lines if line.startswith("hil, validation: ")]
     assert len(said) == 1 and all(part in said[0] for part in parts), said
     assert any(re.match(r"hil +validation +broken$", line) for line in lines)
-    assert sum(line.endswith(" passed") for line in lines) >= len(shipped_scenes())
+    assert sum(line.endswith(" passed") for line in lines) >= len(SCENES)
 
 
 def test_without_the_file_of_validations_smoke_tests_are_left_and_the_command_fails(unit, capsys):
@@ -149,7 +152,7 @@ def test_without_the_file_of_validations_smoke_tests_are_left_and_the_command_fa
 def test_tolerances_without_their_column_leave_nothing_to_judge_by(unit, capsys):
     assert main(["verify", unit({"tolerances.csv": b"experiment,variable\n"})]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert sum("tolerances.csv" in line and "no column tolerance" in line for line in lines) == 2 * len(shipped_scenes())
+    assert sum("tolerances.csv" in line and "no column tolerance" in line for line in lines) == 2 * len(SCENES)
 
 
 @pytest.mark.parametrize("source, fault", [("results/default.csv", None), ("default.csv", "results/default.csv is taken")])
@@ -184,7 +187,7 @@ def test_a_unit_without_evidence_is_refused(unit, changes, parts):
 def test_parameter_sets_are_valid_by_the_standard_s_schema():
     schema = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureParameterValues.xsd")))
     files = sorted((KEPT / "parameters").glob("*.ssv"))
-    assert [file.stem for file in files] == shipped_scenes()
+    assert [file.stem for file in files] == sorted(SCENES)
     for file in files:
         schema.assertValid(etree.parse(str(file)))
 
@@ -202,7 +205,7 @@ def made(fmu_file, tmp_path_factory):
     import evidence
 
     folder = tmp_path_factory.mktemp("evidence") / "made"
-    evidence.main(fmu_file, folder)
+    evidence.main(fmu_file, OTHERS, folder)
     return folder
 
 
@@ -225,10 +228,10 @@ def test_the_repository_keeps_what_the_command_makes(made):
             assert np.abs(old[name] - now[name]).max() <= kept[experiment, name], (experiment, name)
 
 
-@pytest.mark.parametrize("name", shipped_scenes())
+@pytest.mark.parametrize("name", sorted(SCENES))
 def test_results_are_those_of_the_scenes(fmu_file, name):
     """The package's own way to simulate a scene, with its own reader of inputs, gives the results too."""
-    with Scene.load(name, fmu=fmu_file) as scene:
+    with Scene.load(SCENES[name], fmu=fmu_file) as scene:
         record = scene.run()
     result = np.genfromtxt(KEPT / "results" / f"{name}.csv", delimiter=",", names=True, deletechars="", replace_space=" ")
     allowed = {row["variable"]: float(row["tolerance"]) for row in csv.DictReader((KEPT / "tolerances.csv").open()) if row["experiment"] == name}

@@ -16,7 +16,7 @@ use fmu_build::tools::progress::Progress;
 const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 20] = [
+const COMMANDS: [&[&str]; 21] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time"],
@@ -37,6 +37,7 @@ const COMMANDS: [&[&str]; 20] = [
     &["test-page"],
     &["test-python"],
     &["mutants", "--count", "8"],
+    &["coefficients", "--count", "8"],
 ];
 
 /// Runs every command here in its short form and prints one table of how they went (about an hour)

@@ -1,4 +1,4 @@
-//! The evidence that the FMU carries: parameter sets, inputs and results of the shipped scenes, as data in the repository. A script
+//! The evidence that the FMU carries: parameter sets, inputs and results of scenes, as data in the repository. A script
 //! makes them; packaging copies them.
 
 use std::fs;
@@ -20,8 +20,10 @@ const REQUIREMENTS: &str = "requirements.md";
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 /// The script that makes the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
+/// Scenes of the evidence alone. In them acts what no shipped scene needs: laws, levels of gear contact, effects.
+const SCENES: &str = "fmu-build/evidence";
 
-/// Simulates the shipped scenes and writes their results to modelDescription/evidence, for `bevel-differential verify`
+/// Simulates the shipped scenes and those of fmu-build/evidence, and writes their results to modelDescription/evidence, for `bevel-differential verify`
 #[derive(Args, Clone, Debug)]
 pub struct EvidenceCommand {}
 
@@ -34,7 +36,11 @@ impl EvidenceCommand {
         let fmu = package::package()?;
         progress.begin_bar("simulating");
         let mut command = environment.command();
-        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::evidence());
+        command
+            .arg(paths::workspace().join(SCRIPT))
+            .arg(&fmu)
+            .arg(paths::workspace().join(SCENES))
+            .arg(paths::evidence());
         let told = script::follow(&mut command, SCRIPT, &progress)?;
         progress.finish();
         print!("{told}");

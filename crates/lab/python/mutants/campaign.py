@@ -8,18 +8,16 @@ import hashlib
 import html
 import json
 import os
-import shutil
 import subprocess
 import sys
-import tarfile
 import threading
 import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
-from io import BytesIO
 from pathlib import Path
 
-from changes import build_in, drawn
+from build import WATCH, built
+from changes import drawn
 
 ROOMS = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
 PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
@@ -27,32 +25,6 @@ PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
 PATIENCE, GRACE = 5.0, 10.0
 # tests that take longer without a change [s] try none: they ask which settings act at all, not how much
 LONGEST = 300.0
-# in place of a change's number: those that a test reaches are written to a file
-WATCH = 4096
-SWITCH = f'''//! Which change acts, and which ones a test reaches.
-use std::io::Write;
-use std::sync::OnceLock;
-use std::sync::atomic::{{AtomicBool, Ordering}};
-static CHOSEN: OnceLock<u32> = OnceLock::new();
-static REACHED: [AtomicBool; {WATCH}] = [const {{ AtomicBool::new(false) }}; {WATCH}];
-/// Whether change `k` acts.
-#[inline]
-pub fn on(k: u32) -> bool {{
-    let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
-    if chosen == {WATCH} {{
-        reach(k);
-    }}
-    k == chosen
-}}
-#[cold]
-fn reach(k: u32) {{
-    if !REACHED[k as usize].swap(true, Ordering::Relaxed) {{
-        let file = std::env::var("MUTANTS_REACHED").expect("a file");
-        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(file).expect("can be written");
-        writeln!(file, "{{k}}").expect("can be written");
-    }}
-}}
-'''
 
 
 def main():
@@ -60,7 +32,9 @@ def main():
     if not 0 < count < WATCH:
         raise SystemExit(f"{count} changes: a run takes 1 to {WATCH - 1}")
     folder.mkdir(parents=True, exist_ok=True)
-    changes, programs = built(repository, folder, count, seed)
+    build = ["cargo", "test", "--no-run", *(word for name in PROGRAMS for word in ("--test", name))]
+    changes, messages = built(repository, folder, lambda source, refused: drawn(source, ROOMS, count, seed, refused), build)
+    programs = programs_of(messages)
     tests = watched(programs, folder, len(changes))
     done = known(folder)
     lock = threading.Lock()
@@ -124,45 +98,10 @@ def watched(programs, folder, count):
     return tests
 
 
-def built(repository, folder, count, seed):
-    """The changes, and the test programs with all of them built in. What the compiler refuses is replaced by other changes."""
-    source, refused = folder / "source", set()
-    for _ in range(20):
-        shutil.rmtree(source, ignore_errors=True)
-        archive = subprocess.run(["git", "archive", "HEAD"], cwd=repository, check=True, capture_output=True).stdout
-        tarfile.open(fileobj=BytesIO(archive)).extractall(source, filter="data")
-        changes = drawn(source, ROOMS, count, seed, refused)
-        places = build_in(source, changes)
-        (source / "src" / "mutants.rs").write_text(SWITCH, encoding="utf-8")
-        library = source / "src" / "lib.rs"
-        library.write_text(library.read_text(encoding="utf-8") + "\npub mod mutants;\n", encoding="utf-8")
-        print(f"progress 0.0 compiling {len(changes)} changes, {len(refused)} refused so far", file=sys.stderr, flush=True)
-        messages, programs = compiled(source, folder)
-        wrong = {change for file, begin, end in messages for first, last, change in places.get(file, []) if begin < last and first < end}
-        if not messages:
-            return changes, programs
-        if not wrong:
-            raise SystemExit(f"the source does not compile: {messages[:3]}")
-        refused |= wrong
-    raise SystemExit("too many changes are no programs")
-
-
-def compiled(source, folder):
-    """Places of errors (file, begin, end), and the test programs by name."""
-    command = ["cargo", "test", "--release", "--no-run", "-p", "bevel-differential", "--message-format", "json", "--target-dir",
-               str(folder / "build"), *(word for name in PROGRAMS for word in ("--test", name))]
-    settings = {"CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "16", "RUSTFLAGS": "-Aunused"}
-    done = subprocess.run(command, cwd=source, env={**os.environ, **settings}, capture_output=True, text=True)
-    messages, programs = [], {}
-    for line in done.stdout.splitlines():
-        message = json.loads(line)
-        if message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
-            messages += [(span["file_name"], span["byte_start"], span["byte_end"]) for span in message["message"]["spans"]]
-        if message.get("executable") and message["target"]["name"] in PROGRAMS:
-            programs[message["target"]["name"]] = message["executable"]
-    if done.returncode and not messages:
-        raise SystemExit(done.stderr)
-    return messages, {name: programs[name] for name in PROGRAMS if name in programs}
+def programs_of(messages):
+    """The test programs by name."""
+    found = {message["target"]["name"]: message["executable"] for message in messages if message.get("executable")}
+    return {name: found[name] for name in PROGRAMS if name in found}
 
 
 def trial(program, test, number, patience, folder, more={}):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import tree_sitter_rust
-from tree_sitter import Language, Parser
+from tree_sitter import Language, Node, Parser
 
 BINARY = {"+": "-", "-": "+", "*": "/", "/": "*", "<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "!=", "!=": "==", "&&": "||",
           "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
@@ -42,11 +42,12 @@ class Change:
         return "/".join(parts[:3 if parts[1] == "model" else 2])
 
 
-def drawn(root: Path, rooms: list[str], count: int, seed: int, without: set[Change] = frozenset()) -> list[Change]:
-    """`count` changes of the files in the modules `rooms`, drawn by a seed; none within another, none of `without`."""
+def drawn(root: Path, rooms: list[str], count: int, seed: int, without: set[Change] = frozenset(), kind=None) -> list[Change]:
+    """`count` changes of the files in the modules `rooms`, drawn by a seed; none within another, none of `without`. `kind`: all
+    changes of a file, those of `possible` if it is not given."""
     files = sorted(file.relative_to(root).as_posix() for room in rooms for file in (root / room).rglob("*.rs")
                    if not file.stem.endswith("tests") and "tests" not in file.parts)
-    everything = [change for file in files for change in possible(root, file)]
+    everything = [change for file in files for change in (kind or possible)(root, file)]
     random.Random(seed).shuffle(everything)
     taken: list[Change] = []
     for change in everything:
@@ -60,12 +61,17 @@ def possible(root: Path, file: str) -> list[Change]:
     """All changes of a file but for its tests."""
     text = (root / file).read_bytes()
     found: list[Change] = []
-    _walk(Parser(Language(tree_sitter_rust.language())).parse(text).root_node, text, file, found)
+    _walk(tree(text), text, file, found)
     return found
 
 
+def tree(text: bytes) -> Node:
+    """The syntax of a source text."""
+    return Parser(Language(tree_sitter_rust.language())).parse(text).root_node
+
+
 def _walk(node, text, file, found):
-    if node.type in CLOSED or _is_const(node, text) or _is_tests(node, text):
+    if node.type in CLOSED or is_const(node, text) or is_tests(node, text):
         return
     after = _changed(node, text)
     if after is not None:
@@ -98,12 +104,12 @@ def _changed(node, text):
     return None
 
 
-def _is_const(node, text):
+def is_const(node, text):
     return node.type == "function_item" and any(child.type == "function_modifiers" and b"const" in text[child.start_byte:child.end_byte]
                                                 for child in node.children)
 
 
-def _is_tests(node, text):
+def is_tests(node, text):
     return node.type == "mod_item" and text[node.start_byte:node.end_byte].startswith(b"mod tests")
 
 

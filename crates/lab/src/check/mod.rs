@@ -1,6 +1,6 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms, a browser or a machine without Rust; and one that looks
-//! for changes that no test notices.
+//! time, other hosts, other platforms, a browser or a machine without Rust; and two that
+//! look for changes of the source that no test, or no experiment of the evidence, notices.
 
 pub mod fuzz;
 pub mod memcheck;
@@ -24,6 +24,7 @@ pub fn commands() -> Vec<Command> {
         Command::of("questions", questions::QuestionsCommand::run),
         Command::of("memcheck", memcheck::MemcheckCommand::run).alias("memory"),
         scripts::MUTANTS.command(),
+        scripts::COEFFICIENTS.command(),
         scripts::HOSTS.command(),
         scripts::PLATFORMS.command(),
     ]

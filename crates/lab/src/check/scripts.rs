@@ -88,12 +88,32 @@ pub const MUTANTS: Script = Script {
             flag("write", "Also renew the report in docs/architecture.md"),
         ]
     },
-    needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter"]),
+    needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter, fmpy"]),
     file: "crates/lab/python/mutants/campaign.py",
     doing: "trying changes",
     folder: Some("mutants/{seed}-{count}"),
     given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
     sections: &[("docs/architecture.md", "mutants", "")],
+    ..DEFAULTS
+};
+
+/// Units with a wrong coefficient, held to the evidence that they carry.
+pub const COEFFICIENTS: Script = Script {
+    name: "coefficients",
+    about: "Makes coefficients of the physics 2 % larger, one at a time, and lists what `verify` notices",
+    options: || {
+        vec![
+            number("count", "COUNT", "20", "How many coefficients"),
+            number("seed", "SEED", "1", "By which they are drawn"),
+            flag("write", "Also renew docs/coefficients.csv"),
+        ]
+    },
+    needs: MUTANTS.needs,
+    file: "crates/lab/python/mutants/wrong_units.py",
+    doing: "verifying",
+    folder: Some("coefficients/{seed}-{count}"),
+    given: &[Given::Workspace, Given::Fmu, Given::Folder, Given::Value("count"), Given::Value("seed")],
+    sections: &[("docs/coefficients.csv", "", "coefficients.csv")],
     ..DEFAULTS
 };
 

@@ -1,0 +1,75 @@
+"""Builds all changes into one copy of the source, each asleep until it is chosen."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+from io import BytesIO
+
+from changes import build_in
+
+# in place of a change's number: those that a run reaches are written to a file
+WATCH = 4096
+SWITCH = f'''//! Which change acts, and which ones a test reaches.
+use std::io::Write;
+use std::sync::OnceLock;
+use std::sync::atomic::{{AtomicBool, Ordering}};
+static CHOSEN: OnceLock<u32> = OnceLock::new();
+static REACHED: [AtomicBool; {WATCH}] = [const {{ AtomicBool::new(false) }}; {WATCH}];
+/// Whether change `k` acts.
+#[inline]
+pub fn on(k: u32) -> bool {{
+    let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
+    if chosen == {WATCH} {{
+        reach(k);
+    }}
+    k == chosen
+}}
+#[cold]
+fn reach(k: u32) {{
+    if !REACHED[k as usize].swap(true, Ordering::Relaxed) {{
+        let file = std::env::var("MUTANTS_REACHED").expect("a file");
+        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(file).expect("can be written");
+        writeln!(file, "{{k}}").expect("can be written");
+    }}
+}}
+'''
+
+
+def built(repository, folder, draw, command):
+    """The changes that `draw(source, refused)` draws, and cargo's messages about what `command` builds with all of them in. What the
+    compiler refuses is replaced by other changes."""
+    source, refused = folder / "source", set()
+    for _ in range(20):
+        shutil.rmtree(source, ignore_errors=True)
+        archive = subprocess.run(["git", "archive", "HEAD"], cwd=repository, check=True, capture_output=True).stdout
+        tarfile.open(fileobj=BytesIO(archive)).extractall(source, filter="data")
+        changes = draw(source, refused)
+        places = build_in(source, changes)
+        (source / "src" / "mutants.rs").write_text(SWITCH, encoding="utf-8")
+        library = source / "src" / "lib.rs"
+        library.write_text(library.read_text(encoding="utf-8") + "\npub mod mutants;\n", encoding="utf-8")
+        print(f"progress 0.0 compiling {len(changes)} changes, {len(refused)} refused so far", file=sys.stderr, flush=True)
+        errors, messages = _compiled(source, folder, command)
+        wrong = {change for file, begin, end in errors for first, last, change in places.get(file, []) if begin < last and first < end}
+        if not errors:
+            return changes, messages
+        if not wrong:
+            raise SystemExit(f"the source does not compile: {errors[:3]}")
+        refused |= wrong
+    raise SystemExit("too many changes are no programs")
+
+
+def _compiled(source, folder, command):
+    """Places of errors (file, begin, end), and all messages."""
+    settings = {"CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "16", "RUSTFLAGS": "-Aunused -Anonstandard_style"}
+    words = [*command, "--release", "-p", "bevel-differential", "--message-format", "json", "--target-dir", str(folder.resolve() / "build")]
+    done = subprocess.run(words, cwd=source, env={**os.environ, **settings}, capture_output=True, text=True)
+    messages = [json.loads(line) for line in done.stdout.splitlines()]
+    errors = [(span["file_name"], span["byte_start"], span["byte_end"]) for message in messages
+              if message.get("reason") == "compiler-message" and message["message"]["level"] == "error" for span in message["message"]["spans"]]
+    if done.returncode and not errors:
+        raise SystemExit(done.stderr)
+    return errors, messages
