@@ -37,7 +37,7 @@ WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32
 LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2"}
 # bytes in the archive: of the library of each platform, about half as much again as they have now, and of all else together:
 # description, documentation, licences, icon
-MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6}, 0.8e6
+MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6}, 1.0e6
 # the page, which is packed along if it was made, and is not counted
 LIVE = "documentation/BevelDifferential.html"
 # what FMI-LS-REF recommends beside the documentation

@@ -62,8 +62,9 @@ def default_result(fmu_file):
     return "".join(f"{','.join(map(repr, row))}\n" for row in [record.dtype.names, *record.tolist()]).replace("'", "")
 
 
-def test_the_shipped_unit_passes_all_its_experiments(fmu_file, capsys):
-    assert main(["verify", fmu_file]) == 0
+@pytest.mark.parametrize("version", ["", "3"])
+def test_the_shipped_unit_passes_all_its_experiments(fmu_file, capsys, version):
+    assert main(["verify", fmu_file.replace(".fmu", f"{version}.fmu")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == f"{2 * len(SCENES)} experiments, {2 * len(SCENES)} passed"
     for name in SCENES:
