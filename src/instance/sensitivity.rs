@@ -24,6 +24,9 @@ impl Instance {
         if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
+        if unknowns.0.is_empty() {
+            return Ok(());
+        }
         let mut slopes = vec![0.0; unknowns.0.len()];
         self.with_columns(|columns| columns.write(&unknowns, known, &mut slopes))?;
         values.zip(slopes).for_each(|(value, slope)| value.write(slope));
@@ -42,6 +45,10 @@ impl Instance {
         let unknowns = Unknowns::of(unknown)?;
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
+        }
+        if unknowns.0.is_empty() {
+            values.for_each(|value| value.write(0.0));
+            return Ok(());
         }
         let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.is_felt(known)))).collect();
         let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], Vec::with_capacity(known.len()));
