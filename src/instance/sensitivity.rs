@@ -24,11 +24,8 @@ impl Instance {
         if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
-        if unknowns.0.is_empty() {
-            return Ok(());
-        }
         let mut slopes = vec![0.0; unknowns.0.len()];
-        self.with_columns(|columns| columns.write(&unknowns, known, &mut slopes))?;
+        self.with_columns(&unknowns, |columns| columns.write(&unknowns, known, &mut slopes))?;
         values.zip(slopes).for_each(|(value, slope)| value.write(slope));
         Ok(())
     }
@@ -46,17 +43,13 @@ impl Instance {
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
         }
-        if unknowns.0.is_empty() {
-            values.for_each(|value| value.write(0.0));
-            return Ok(());
-        }
         let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.is_felt(known)))).collect();
-        let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], Vec::with_capacity(known.len()));
-        self.with_columns(|columns| {
-            known.into_iter().try_for_each(|known| {
+        let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], vec![0.0; known.len()]);
+        self.with_columns(&unknowns, |columns| {
+            known.into_iter().zip(&mut sums).try_for_each(|(known, sum)| {
                 column.fill(0.0);
                 columns.write(&unknowns, std::iter::once(known), &mut column)?;
-                sums.push(column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum::<f64>());
+                *sum = column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum();
                 Ok(())
             })
         })?;
@@ -64,7 +57,11 @@ impl Instance {
         Ok(())
     }
 
-    fn with_columns(&mut self, act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
+    /// Lets `act` take derivatives, where any are asked for.
+    fn with_columns(&mut self, unknowns: &Unknowns, act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
+        if unknowns.0.is_empty() {
+            return Ok(());
+        }
         if self.now.phase == Phase::Initialization {
             return act(&Columns::Initial(&self.now, &self.cache));
         }

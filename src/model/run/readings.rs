@@ -79,22 +79,21 @@ impl Simulation {
 
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
-        self.forces_with(true)
+        self.forces_with(Extent::Parts)
     }
 
     /// The same for whoever does not read the parts of normal forces in space, which cost as much as all others.
     pub fn forces_without_parts(&mut self) -> &Forces {
-        self.forces_with(false)
+        self.forces_with(Extent::Loads)
     }
 
-    fn forces_with(&mut self, parts: bool) -> &Forces {
-        if self.forces.as_ref().is_none_or(|forces| parts && !forces.has_parts) {
+    fn forces_with(&mut self, extent: Extent) -> &Forces {
+        if self.forces.as_ref().is_none_or(|forces| extent == Extent::Parts && !forces.has_parts) {
             let mut shown = self.with_inputs_applied();
             if self.model.layout.ends() && self.state.pending_step.is_some() {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }
-            let extent = if parts { Extent::Parts } else { Extent::Loads };
             self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(extent));
         }
         self.forces.get_or_insert_default()
