@@ -135,7 +135,7 @@ mod tests {
     }
 
     /// What is wrong with the words.
-    fn told(words: &[&str]) -> String {
+    fn usage_error(words: &[&str]) -> String {
         match parsed(words).err() {
             Some(Stop::Wrong(line)) => line,
             _ => String::new(),
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn a_command_of_the_laboratory_is_told_where_it_is() {
         for words in [&["cost"][..], &["cost", "--quick"], &["help", "cost"]] {
-            assert_eq!(told(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
+            assert_eq!(usage_error(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
         }
     }
 
@@ -171,7 +171,7 @@ mod tests {
             (&["package", "--integer"], &["'--integer'", "'--integers'", "package --help"]),
             (&["--quik"], &["'--quik'"]),
         ] {
-            let line = told(words);
+            let line = usage_error(words);
             assert!(!line.contains('\n') && parts.iter().all(|part| line.contains(part)), "{words:?}: {line}");
         }
     }

@@ -55,11 +55,11 @@ fn the_same_seed_makes_the_same_calls() {
 fn a_tally_says_what_was_called() {
     let mut tally = Tally::default();
     fuzz::run(3, 100, &mut tally).unwrap();
-    let told = tally.json();
-    let rows = told["rows"].as_array().unwrap();
+    let tally_json = tally.json();
+    let rows = tally_json["rows"].as_array().unwrap();
     let statuses = rows.iter().flat_map(|row| row["statuses"].as_array().unwrap());
     assert_eq!(statuses.map(|count| count.as_u64().unwrap()).sum::<u64>(), 100);
-    assert!(told["longest"]["function"].as_str().unwrap().starts_with("fmi2"));
+    assert!(tally_json["longest"]["function"].as_str().unwrap().starts_with("fmi2"));
 }
 
 #[test]

@@ -86,11 +86,11 @@ pub fn shown(row: &Variable, value: f64) -> f64 {
 
 /// Text of the SI `value` in the display unit of `row`, with the name of the unit.
 pub fn text(row: &Variable, value: f64) -> String {
-    format!("{} {}", digits(shown(row, value)), name(row)).trim_end().to_owned()
+    format!("{} {}", six_digits(shown(row, value)), name(row)).trim_end().to_owned()
 }
 
 /// Text of a number with six significant digits.
-pub fn digits(value: f64) -> String {
+pub fn six_digits(value: f64) -> String {
     numbers::short(value, 6)
 }
 
