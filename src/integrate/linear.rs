@@ -227,7 +227,12 @@ mod tests {
             ([0.0; N], ())
         }
         fn linearise(&self, _: &Point<N>) -> Linearisation<N, ()> {
-            Linearisation { acceleration: [0.0; N], by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power: () }
+            Linearisation {
+                acceleration: [0.0; N],
+                by_position: [[0.0; N]; N],
+                by_velocity: [[0.0; N]; N],
+                ledger_rates: (),
+            }
         }
         fn weights(&self, _: &Point<N>) -> Point<N> {
             Point::ZERO

@@ -69,14 +69,14 @@ pub struct Linearisation<const N: usize, P> {
     /// ∂v̇/∂v.
     pub by_velocity: Matrix<N>,
     /// Ledger rates.
-    pub power: P,
+    pub ledger_rates: P,
 }
 
 impl<const N: usize, P: Default> Default for Linearisation<N, P> {
     #[inline]
     fn default() -> Self {
         let zero = [[0.0; N]; N];
-        Self { acceleration: [0.0; N], by_position: zero, by_velocity: zero, power: P::default() }
+        Self { acceleration: [0.0; N], by_position: zero, by_velocity: zero, ledger_rates: P::default() }
     }
 }
 

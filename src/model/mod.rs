@@ -35,8 +35,8 @@ pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
-    Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
-    six_digits,
+    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StencilReadings,
+    StepFailure, Update, six_digits,
 };
 pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;

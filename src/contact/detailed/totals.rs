@@ -1,6 +1,6 @@
 //! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
 
-use super::directions::Normal;
+use super::directions::NormalParts;
 use super::sums::{Rubbing, Sums};
 use super::{DetailedLoad, LOCAL, PairMotion};
 use crate::contact::Spot;
@@ -111,7 +111,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         &mut self,
         motion: &PairMotion<OPEN, SHARED>,
         sums: &Sums,
-        normal: &Normal,
+        normal: &NormalParts,
         spot: Spot,
     ) {
         let [planet, side, forward] = normal.parts;

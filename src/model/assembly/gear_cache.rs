@@ -100,8 +100,8 @@ impl GearCache {
 
     /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`.
     pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
-        let origin = (pair, p.geometry.root_fillet, elasticity(p));
-        self.means.get(&origin, || Ok(self.stiffness(p, pair)?.mesh_mean()))
+        let key = (pair, p.geometry.root_fillet, elasticity(p));
+        self.means.get(&key, || Ok(self.stiffness(p, pair)?.mesh_mean()))
     }
 
     /// Solid teeth of `pair` with given facets and errors, pressed together by the law `elastic` and `damping`.
@@ -112,8 +112,8 @@ impl GearCache {
         elastic: Impact,
         damping: Damping,
     ) -> SolidMesh {
-        let origin = (pair, spec, teeth, errors);
-        let mut mesh = self.solids.get(&origin, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
+        let key = (pair, spec, teeth, errors);
+        let mut mesh = self.solids.get(&key, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
         // the law does not shape the surfaces
         (mesh.elastic, mesh.damping) = (elastic, damping);
         mesh

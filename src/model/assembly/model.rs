@@ -171,16 +171,16 @@ fn teeth(
     // a tooth may neither bend by the working depth nor reach the next gap
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
-    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || body_effects.needs_loads();
+    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
     body_effects.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
     let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
-    (detailed.thrust, detailed.seats) = (body_effects.needs_loads(), plan.pins);
+    (detailed.thrust, detailed.seats) = (body_effects.needs_loads(), plan.has_pins);
     let effect_terms = EffectTerms {
         detailed,
         in_detail,
-        friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
+        friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
         planet_mass_moment: ideal.inertia.planet_mass_moment,

@@ -76,7 +76,7 @@ pub trait Acted<const N: usize> {
     /// Whether there is dry friction.
     fn rubs(&self) -> bool;
     /// Whether half-shafts have ends.
-    fn ends(&self) -> bool;
+    fn has_ends(&self) -> bool;
     /// Groups of planets that may stick on their pins, and how many planets are in each.
     fn sticking(&self) -> &[f64];
     /// Loads of the meshes on the surfaces of side gears and planets at `at`, where friction depends on them.
@@ -105,7 +105,7 @@ pub trait Acted<const N: usize> {
     }
 
     /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
-    fn forced(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
+    fn input_accelerations(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
     where
         Self: Copy,
     {
@@ -120,7 +120,7 @@ pub trait Acted<const N: usize> {
         Self: Copy,
     {
         let [first, second] = self.later(time).acting().input_derivatives.rates;
-        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        self.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     /// All positions and velocities as effects see them.
@@ -132,7 +132,7 @@ pub trait Acted<const N: usize> {
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
     #[inline]
     fn wheel(&self, s: usize) -> usize {
-        if self.ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
+        if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
     /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
@@ -188,12 +188,12 @@ pub trait Acted<const N: usize> {
         at: &Point<N>,
         surface_loads: &[SurfaceLoad; FRICTION_BODIES],
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         for i in bodies_with_friction(self) {
             let (friction, state, count) = self.friction_on(i);
-            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut power.heat);
-            power.limit[i] = torque * state.mode.direction();
+            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut ledger_rates.heat);
+            ledger_rates.limit[i] = torque * state.mode.direction();
             sum[self.freedom_of(i)] -= torque;
             if i < FRICTION_PLANETS {
                 sum[CARRIER] += torque;
@@ -302,14 +302,14 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
+    /// Drags the anchors of bodies that slide along to `at`, with the ledger rates there.
     #[inline]
-    fn drag_anchors(&self, at: &Point<N>, power: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.rubs() {
             return;
         }
         for i in bodies_with_friction(self).filter(|&i| self.acting().friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, power.limit[i]);
+            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, ledger_rates.limit[i]);
         }
     }
 

@@ -32,17 +32,23 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         loads: Option<&MeshLoads<G>>,
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         if self.rubs() {
-            self.rub_under(at, loads, sum, power);
+            self.rub_under(at, loads, sum, ledger_rates);
         }
     }
 
-    fn rub_under(&self, at: &Point<N>, loads: Option<&MeshLoads<G>>, sum: &mut [f64; N], power: &mut LedgerRates) {
+    fn rub_under(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<G>>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
         let mut all = by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
-        self.rub(at, &all, sum, power);
+        self.rub(at, &all, sum, ledger_rates);
     }
 
     /// Adds the torques of brakes that slide, which follow from the inputs alone.
@@ -143,11 +149,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         m[row][s] += sign * self.sum(|g| side * slopes(g, 0));
         for g in 0..self.groups() {
             m[row][self.planet(g)] += sign * turn * (slopes(g, 1) - slopes(g, 0));
-            if self.pins() {
+            if self.has_pins() {
                 m[row][self.pin(g)] -= sign * side * slopes(g, 0);
             }
         }
-        if self.pins() {
+        if self.has_pins() {
             m[row][self.seat(s)] += sign * self.sum(|g| slopes(g, 2));
         }
     }

@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::bias::Bias;
 use super::event::{Event, Pause};
 use super::pending_step::PendingStep;
+use super::torque_means::TorqueMeans;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
@@ -38,7 +38,7 @@ pub struct State {
     /// State of the dry friction: side gears, groups of planets, wheels.
     pub friction: [FrictionState; FRICTION_BODIES],
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
-    pub bias: Bias,
+    pub torque_means: TorqueMeans,
     /// Whether the tooth of the tooth fault is broken.
     pub fault: bool,
     /// Command of the lock as it acted in the last step, from 0 to 1.
@@ -74,7 +74,7 @@ impl State {
             work: 0.0,
             heat: [0.0; HEATS],
             friction: [FrictionState::default(); FRICTION_BODIES],
-            bias: Bias::default(),
+            torque_means: TorqueMeans::default(),
             fault: false,
             lock: 0.0,
             carrier_command: 0.0,
@@ -213,8 +213,8 @@ impl State {
             self.work,
             self.energy_at_start,
             self.control.last_error,
-            self.bias.time,
-            self.bias.since,
+            self.torque_means.elapsed,
+            self.torque_means.since,
             self.carrier_command,
         ];
         // a sum is not finite if a term is not
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
-        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], pins: false, attached: [false; _] };
+        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], has_pins: false, attached: [false; _] };
         for side in 0..2 {
             let mut state = State::at_rest(0.0, 1e-3);
             state.move_anchors(side, 2.0, &layout);

@@ -32,7 +32,7 @@ pub struct DryFriction {
     /// Whether the limit torque is a command, which may fall while a body is held.
     commanded: bool,
     /// Index of the heat that the spring becomes when the last source is switched off.
-    released: usize,
+    released_heat_index: usize,
 }
 
 impl DryFriction {
@@ -43,17 +43,17 @@ impl DryFriction {
         stiffness: 0.0,
         damping_time: 0.0,
         commanded: false,
-        released: 0,
+        released_heat_index: 0,
     };
 
-    /// No source yet; the energy that the spring loses when the last is switched off is heat `released`.
-    pub fn new(damping_time: f64, released: usize) -> Self {
-        Self { damping_time, released, ..Self::NONE }
+    /// No source yet; the energy that the spring loses when the last is switched off is heat `released_heat_index`.
+    pub fn new(damping_time: f64, released_heat_index: usize) -> Self {
+        Self { damping_time, released_heat_index, ..Self::NONE }
     }
 
     /// The same with a limit torque that is a command.
-    pub fn commanded(damping_time: f64, released: usize) -> Self {
-        Self { commanded: true, ..Self::new(damping_time, released) }
+    pub fn commanded(damping_time: f64, released_heat_index: usize) -> Self {
+        Self { commanded: true, ..Self::new(damping_time, released_heat_index) }
     }
 
     /// Adds a source.
@@ -122,7 +122,7 @@ impl DryFriction {
         for part in self.parts() {
             let torque = part.at(by);
             limit += torque;
-            heat[part.heat] += sliding * torque;
+            heat[part.heat_index] += sliding * torque;
         }
         direction * limit
     }
@@ -137,7 +137,7 @@ impl DryFriction {
         let whole = self.limit(by);
         for part in self.parts() {
             let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
-            heat[part.heat] += amount * share;
+            heat[part.heat_index] += amount * share;
         }
     }
 
@@ -275,7 +275,7 @@ impl DryFriction {
             *state = FrictionState::default();
         }
         state.stiffness = self.stiffness;
-        let cause = self.parts().first().map_or(self.released, |p| p.heat);
+        let cause = self.parts().first().map_or(self.released_heat_index, |p| p.heat_index);
         heat[cause] += count * (before - self.energy(state, slip.position));
     }
 }

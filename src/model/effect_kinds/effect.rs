@@ -83,7 +83,7 @@ pub struct Setting<'a> {
     /// Whether the effect is switched on.
     pub on: bool,
     /// Index of the effect's heat in the ledger.
-    pub heat: usize,
+    pub heat_index: usize,
 }
 
 /// What readings follow from.

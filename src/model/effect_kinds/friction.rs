@@ -24,8 +24,9 @@ impl Friction {
     /// Friction of `sources` with the lock at `lock`, under `inputs` and their derivatives. Brakes that are off add none.
     pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
         let mut all = Self::NONE;
-        let released = |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat);
-        all.side = DryFriction::new(DAMPING_TIME, released(|s| s.by_lock));
+        let heat_index_of =
+            |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat_index);
+        all.side = DryFriction::new(DAMPING_TIME, heat_index_of(|s| s.by_lock));
         all.planet = DryFriction::new(DAMPING_TIME, 0);
         for source in sources {
             if source.by_lock {
@@ -43,12 +44,15 @@ impl Friction {
     }
 
     fn add(&mut self, source: &FrictionSource) {
-        let &FrictionSource { heat, static_ratio, .. } = source;
+        let &FrictionSource { heat_index, static_ratio, .. } = source;
         let SideFriction { constant, per_thrust, per_torque, stiffness } = source.side;
-        self.side.push(FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, heat }, stiffness);
+        self.side
+            .push(FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, heat_index }, stiffness);
         let PlanetFriction { per_pin_force, per_thrust, stiffness } = source.planet;
-        self.planet
-            .push(FrictionPart { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat }, stiffness);
+        self.planet.push(
+            FrictionPart { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat_index },
+            stiffness,
+        );
     }
 
     fn brake(
@@ -61,11 +65,13 @@ impl Friction {
         let [first, second] = &input_derivatives.rates;
         let limits = [inputs, first, second].map(wheel.limit);
         for s in 0..2 {
-            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat);
+            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat_index);
             if limits.iter().any(|limit| limit[s] != 0.0) {
-                let (static_ratio, heat) = (source.static_ratio, source.heat);
-                self.wheel[s]
-                    .push(FrictionPart { per_load: 1.0, static_ratio, heat, ..FrictionPart::NONE }, wheel.stiffness);
+                let (static_ratio, heat_index) = (source.static_ratio, source.heat_index);
+                self.wheel[s].push(
+                    FrictionPart { per_load: 1.0, static_ratio, heat_index, ..FrictionPart::NONE },
+                    wheel.stiffness,
+                );
             }
         }
         self.wheel_limit = Some(wheel.limit);

@@ -13,12 +13,12 @@ pub struct FrictionPart {
     /// Limit while stuck over limit while sliding.
     pub static_ratio: f64,
     /// Index of its heat.
-    pub heat: usize,
+    pub heat_index: usize,
 }
 
 impl FrictionPart {
     /// No friction.
-    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, static_ratio: 1.0, heat: 0 };
+    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, static_ratio: 1.0, heat_index: 0 };
 
     pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load

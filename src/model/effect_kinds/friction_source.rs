@@ -41,7 +41,7 @@ pub struct WheelFriction {
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionSource {
     /// Index of its heat in the ledger.
-    pub heat: usize,
+    pub heat_index: usize,
     /// On each side gear.
     pub side: SideFriction,
     /// On each planet.
@@ -55,10 +55,10 @@ pub struct FrictionSource {
 }
 
 impl FrictionSource {
-    /// No friction; its heat has the index `heat`.
-    pub fn new(heat: usize) -> Self {
+    /// No friction; its heat has the index `heat_index`.
+    pub fn new(heat_index: usize) -> Self {
         let (side, planet) = (SideFriction::default(), PlanetFriction::default());
-        Self { heat, side, planet, wheel: None, static_ratio: 1.0, by_lock: false }
+        Self { heat_index, side, planet, wheel: None, static_ratio: 1.0, by_lock: false }
     }
 
     /// Whether the loads of the meshes matter.

@@ -67,7 +67,7 @@ impl Declare for BearingDragSpec {
 
 impl Effect for BearingDragSpec {
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        Some(Box::new(Drag { spec: *self, heat: setting.heat }))
+        Some(Box::new(Drag { spec: *self, heat_index: setting.heat_index }))
     }
 }
 
@@ -75,7 +75,7 @@ impl Effect for BearingDragSpec {
 #[derive(Clone, Copy, Debug)]
 struct Drag {
     spec: BearingDragSpec,
-    heat: usize,
+    heat_index: usize,
 }
 
 impl Drag {
@@ -101,7 +101,7 @@ impl BodyEffect for Drag {
         for i in 0..3 {
             let (torque, _) = self.drag(at, i);
             out.force[i] -= torque;
-            out.heat[self.heat] += torque * at.v[i];
+            out.heat[self.heat_index] += torque * at.v[i];
         }
     }
 

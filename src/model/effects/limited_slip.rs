@@ -81,6 +81,6 @@ impl Effect for LimitedSlipSpec {
             stiffness: self.stiffness,
             ..SideFriction::default()
         };
-        Some(FrictionSource { side, static_ratio: self.static_ratio, ..FrictionSource::new(setting.heat) })
+        Some(FrictionSource { side, static_ratio: self.static_ratio, ..FrictionSource::new(setting.heat_index) })
     }
 }

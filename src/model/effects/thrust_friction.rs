@@ -206,7 +206,7 @@ impl Effect for ThrustFrictionSpec {
                 per_thrust: self.coefficient * washer[0],
                 stiffness: self.stiffness * ratio * ratio,
             },
-            ..FrictionSource::new(setting.heat)
+            ..FrictionSource::new(setting.heat_index)
         })
     }
 }

@@ -56,6 +56,9 @@ impl Effect for ToothFrictionSpec {
     fn on_flanks(&self, setting: &Setting) -> Option<FlankFriction> {
         let material = setting.material;
         let modulus = material.young_modulus / (2.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
-        Some(FlankFriction { law: tooth_friction::ToothFriction { spec: *self, modulus }, heat: setting.heat })
+        Some(FlankFriction {
+            law: tooth_friction::ToothFriction { spec: *self, modulus },
+            heat_index: setting.heat_index,
+        })
     }
 }

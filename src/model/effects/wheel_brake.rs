@@ -70,6 +70,6 @@ impl Effect for WheelBrakeSpec {
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
         };
-        Some(FrictionSource { wheel: Some(wheel), ..FrictionSource::new(setting.heat) })
+        Some(FrictionSource { wheel: Some(wheel), ..FrictionSource::new(setting.heat_index) })
     }
 }

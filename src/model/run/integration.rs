@@ -170,14 +170,14 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
     let mut anchors = equations.acting().anchors();
     while switched && outcome.is_ok() {
         switched = false;
-        let State { control, statistics, work, heat, bias, .. } = state;
-        let mut sums = LedgerSums { begin, work, heat, bias, watched: &mut *watched };
+        let State { control, statistics, work, heat, torque_means, .. } = state;
+        let mut sums = LedgerSums { begin, work, heat, torque_means, watched: &mut *watched };
         let mut observe = |step: Step<N, LedgerRates>, pending: Option<&Pending<N, LedgerRates>>| {
             if !is_shown {
                 equations.check_deflection(step.end)?;
             }
             equations.record(model, (&step, pending), &mut sums);
-            equations.drag_anchors(step.end, &step.power[2], &mut anchors);
+            equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };

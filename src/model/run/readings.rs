@@ -90,9 +90,9 @@ impl Simulation {
     fn forces_with(&mut self, extent: Extent) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| extent == Extent::Parts && !forces.has_parts) {
             let mut shown = self.with_inputs_applied();
-            if self.model.layout.ends() && self.state.pending_step.is_some() {
+            if self.model.layout.has_ends() && self.state.pending_step.is_some() {
                 // means over mesh cycles count up to the present
-                shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
+                shown.get_or_insert_with(|| self.clone()).state.torque_means = self.completed().0.torque_means;
             }
             self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(extent));
         }

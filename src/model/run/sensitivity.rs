@@ -55,12 +55,12 @@ impl Direction {
 }
 
 /// Readings at the points of the central difference along a direction.
-pub struct Along<T> {
+pub struct StencilReadings<T> {
     read: [T; STENCIL.len()],
     apart: f64,
 }
 
-impl<T> Along<T> {
+impl<T> StencilReadings<T> {
     /// Derivative of a value of the readings.
     pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
         // the slope of a constant is exactly 0
@@ -132,24 +132,24 @@ impl Simulation {
                 slopes[i / n][i % n] = by(&row[..n], &direction.q[..n]) + by(&row[n..], &direction.v[..n]);
             }
         }
-        let forced = self.forced(direction);
+        let input_acceleration_slopes = self.input_acceleration_slopes(direction);
         for i in 0..n {
-            slopes[1][i] += forced[i];
+            slopes[1][i] += input_acceleration_slopes[i];
         }
         slopes
     }
 
     /// Derivatives of the accelerations by the inputs alone.
-    fn forced(&self, direction: &Direction) -> [f64; MAX_DOF] {
+    fn input_acceleration_slopes(&self, direction: &Direction) -> [f64; MAX_DOF] {
         let (inputs, state) = (&self.inputs, &self.state);
-        let mut forced = [0.0; MAX_DOF];
+        let mut input_acceleration_slopes = [0.0; MAX_DOF];
         let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
         let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
         with_equations!(self.model, state, inputs, |equations| {
-            let by_inputs = equations.forced(&state.point(), &change, &input_derivatives);
-            forced.iter_mut().zip(by_inputs).for_each(|(forced, by_inputs)| *forced = by_inputs);
+            let by_inputs = equations.input_accelerations(&state.point(), &change, &input_derivatives);
+            input_acceleration_slopes.iter_mut().zip(by_inputs).for_each(|(slope, by_inputs)| *slope = by_inputs);
         });
-        forced
+        input_acceleration_slopes
     }
 
     /// The direction in which state and inputs change with time.
@@ -175,7 +175,7 @@ impl Simulation {
     }
 
     /// Forces along `direction`. Meshes do not change where nothing moves, so they are left out there.
-    pub fn forces_along(&self, direction: &Direction) -> Along<Forces> {
+    pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
         if direction.moves() {
             self.along(direction, |displaced| displaced.forces_of_state(Extent::Parts))
         } else {
@@ -184,23 +184,23 @@ impl Simulation {
     }
 
     /// Loaded tooth pairs along `direction`.
-    pub fn pair_lines_along(&self, direction: &Direction) -> Along<PairLines> {
+    pub fn pair_lines_along(&self, direction: &Direction) -> StencilReadings<PairLines> {
         if direction.moves() {
             self.along(direction, Self::pair_lines_of_state)
         } else {
-            Along { read: Default::default(), apart: 1.0 }
+            StencilReadings { read: Default::default(), apart: 1.0 }
         }
     }
 
-    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> Along<T> {
-        let size = self.size(direction);
+    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> StencilReadings<T> {
+        let size = self.natural_size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
         let mut displaced = Self { forces: None, ..self.clone() };
         let read = STENCIL.map(|(place, _)| {
             self.displace(&mut displaced, direction, place * apart);
             read(&displaced)
         });
-        Along { read, apart }
+        StencilReadings { read, apart }
     }
 
     /// Rates of the ledger.
@@ -225,7 +225,7 @@ impl Simulation {
     }
 
     /// The largest change in `direction`, in natural magnitudes.
-    fn size(&self, direction: &Direction) -> f64 {
+    fn natural_size(&self, direction: &Direction) -> f64 {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {

@@ -40,7 +40,7 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     }
     for g in (0..layout.groups).filter(|_| follow || plan.spin_imposed) {
         v[layout.planet(g)] = spin;
-        if layout.pins {
+        if layout.has_pins {
             v[layout.pin(g)] = v[CARRIER];
         }
     }
@@ -88,7 +88,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
     // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
-    let otherwise = equations.in_detail() || equations.pins() || equations.bodies_of_gears().is_some();
+    let otherwise = equations.in_detail() || equations.has_pins() || equations.bodies_of_gears().is_some();
     let mut settled = true;
     if !plan.spin_imposed || otherwise {
         let found = settle(equations, &carried, &point);

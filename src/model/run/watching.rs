@@ -89,7 +89,11 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history
 
 /// A quantity that depends linearly on the motion.
 fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
-    let Extension { start, end, bends } = extension;
+    let Extension { start, end, coefficients } = extension;
     let nothing = of(&Point::ZERO);
-    Curve { start: of(start), end: of(end), bends: bends.each_ref().map(|bend| of(bend) - nothing) }
+    Curve {
+        start: of(start),
+        end: of(end),
+        coefficients: coefficients.each_ref().map(|coefficient| of(coefficient) - nothing),
+    }
 }

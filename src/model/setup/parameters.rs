@@ -48,7 +48,7 @@ impl Parameters {
             contact: &self.contact,
             teeth: None,
             on: false,
-            heat: 0,
+            heat_index: 0,
         };
         SceneEffects { effects: &self.effects, parameters: &self.specs, setting }
     }

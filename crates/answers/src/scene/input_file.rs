@@ -98,7 +98,8 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
         }
         match input(name, unit) {
             Ok(row) if columns.iter().any(|column| column.row.name == row.name) => {
-                problems.push(format!(", column {header_cell}: the input stands here twice; remove one of the columns"));
+                problems
+                    .push(format!(", column {header_cell}: the input stands here twice; remove one of the columns"));
             }
             Ok(row) => columns.push(Column {
                 place,

@@ -199,7 +199,10 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     let row = row.map_err(&mut report).ok()?;
     let mut numbers = |what: &str, entries: &[Value], read: &dyn Fn(&Value) -> Result<f64, String>| -> Vec<f64> {
         let entry_problem = |entry: &Value, problem: String| format!("{what} {}: {problem}", written(entry));
-        entries.iter().filter_map(|entry| read(entry).map_err(|problem| report(entry_problem(entry, problem))).ok()).collect()
+        entries
+            .iter()
+            .filter_map(|entry| read(entry).map_err(|problem| report(entry_problem(entry, problem))).ok())
+            .collect()
     };
     let values = numbers("value", &entry.value, &|value| real(row, value));
     let times = numbers("time", &entry.time, &seconds);

@@ -261,7 +261,10 @@ fn errors_are_reported_at_once_with_name_range_and_unit() {
     let message =
         refused(&["geometry.modul=4mm", "geometry.backlash=60mm", "geometry.planet_teeth=ten", "geometry.module"]);
     assert!(message.contains("no variable \"geometry.modul\"; did you mean geometry.module?"), "{message}");
-    assert!(message.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"), "{message}");
+    assert!(
+        message.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"),
+        "{message}"
+    );
     assert!(message.contains("geometry.planet_teeth = \"ten\": must be a whole number"), "{message}");
     assert!(message.contains("\"geometry.module\" is not of the form name=value"), "{message}");
     assert!(refused(&["module=4mm"]).contains("did you mean geometry.module?"));

@@ -118,7 +118,8 @@ fn kind(reply: &str) -> Option<String> {
         return Some("answer".into());
     }
     let problems = value["problems"].as_array().filter(|problems| !problems.is_empty())?;
-    let have_messages = problems.iter().all(|problem| problem["message"].as_str().is_some_and(|message| !message.is_empty()));
+    let have_messages =
+        problems.iter().all(|problem| problem["message"].as_str().is_some_and(|message| !message.is_empty()));
     value["kind"].as_str().filter(|_| have_messages).map(str::to_owned)
 }
 

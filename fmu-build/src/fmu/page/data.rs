@@ -1,7 +1,7 @@
 //! What the page knows of the library: variables from the table, scenes from their files, prices of effects.
 
 use anyhow::{Context, Result};
-use bevel_differential::model::effects::Declared;
+use bevel_differential::model::effects::EffectEntry;
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable, guid, table};
 use serde_json::{Map, Value, json};
@@ -64,7 +64,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
 }
 
 /// Whether the effect brings the output.
-fn gives(effect: &Declared, output: &str) -> bool {
+fn gives(effect: &EffectEntry, output: &str) -> bool {
     let heat = effect.heat.map(|heat| heat.output);
     heat.into_iter().chain(effect.readings.iter().map(|reading| reading.name)).any(|name| name == output)
 }
