@@ -58,7 +58,7 @@ struct CommandLine {
     study: StudyCommand,
 }
 
-/// A command of any room.
+/// A command of any group.
 #[derive(Subcommand)]
 #[allow(missing_docs)] // each command describes itself
 pub enum AnyCommand {
@@ -111,7 +111,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
 }
 
 fn program() -> Program {
-    let blank = || clap::Command::new("room");
+    let blank = || clap::Command::new("group");
     Program {
         call: PROGRAM,
         root: CommandLine::command(),

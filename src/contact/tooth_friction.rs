@@ -9,7 +9,7 @@ pub struct Sliding<T> {
     /// Sliding speed, with sign [m/s].
     pub sliding: T,
     /// Sum of both flanks' speeds along the profile, with sign [m/s].
-    pub rolling: T,
+    pub sum_speed: T,
     /// Load per width [N/m].
     pub load: T,
     /// Relative radius of curvature of both flanks [m].
@@ -41,7 +41,7 @@ impl ToothFriction {
     fn conditions<T: Scalar>(&self, at: &Sliding<T>) -> Conditions<T> {
         Conditions {
             sliding: at.sliding,
-            rolling: at.rolling.abs(),
+            sum_speed: at.sum_speed.abs(),
             line_load: at.load,
             radius: at.radius,
             modulus: self.modulus,

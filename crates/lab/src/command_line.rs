@@ -39,7 +39,7 @@ fn commands() -> impl Iterator<Item = Command> {
 
 fn program() -> Program {
     let group = |commands: Vec<Command>| {
-        clap::Command::new("room").subcommands(commands.into_iter().map(|command| command.declared))
+        clap::Command::new("group").subcommands(commands.into_iter().map(|command| command.declared))
     };
     let help = clap::Command::new("help").about("Shows this overview, or the options of a command").hide(true);
     Program {
