@@ -74,8 +74,8 @@ def section(run: Simulated) -> Section:
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
                     "of the solver, the picture only the communication points; "
                     "1000 is the most that a safety factor shows.", left=2))
-    if told := advice(run):
-        found.say(told)
+    if text := advice(run):
+        found.say(text)
     return found
 
 
