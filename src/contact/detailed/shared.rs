@@ -154,18 +154,18 @@ impl Detailed {
 
     /// Loads of both meshes of a planet.
     pub fn load_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<f64>; 2] {
-        self.load_and_look_shared(shared, states, self.thrust, None)
+        self.load_and_look_shared(shared, states, self.needs_thrust, None)
     }
 
     fn load_and_look_shared(
         &self,
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
-        thrust: bool,
+        needs_thrust: bool,
         look: Look,
     ) -> [DetailedLoad<f64>; 2] {
         let mut totals = [Totals::<0, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, thrust, look), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, needs_thrust, look), ());
         totals.map(|totals| totals.load())
     }
 
@@ -176,7 +176,7 @@ impl Detailed {
         states: &[DetailedState; 2],
     ) -> [DetailedLoad<Dual<WITH_OTHER>>; 2] {
         let mut totals = [Totals::<7, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.thrust, None), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.needs_thrust, None), ());
         totals.map(|totals| totals.linearised())
     }
 
@@ -226,7 +226,7 @@ impl Detailed {
         totals: &mut [Totals<ROWS, WITH_OTHER>; 2],
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
-        thrust: bool,
+        needs_thrust: bool,
         mut look: Look,
     ) {
         let mut see = |slice: &SliceLoad| {
@@ -276,7 +276,7 @@ impl Detailed {
             let touching =
                 Touching { name: &name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
             let engagement = shared.teeth[side].engagement;
-            self.add_touching((spring, engagement, thrust), &mut totals[side], touching, &mut see);
+            self.add_touching((spring, engagement, needs_thrust), &mut totals[side], touching, &mut see);
         }
     }
 }

@@ -17,7 +17,7 @@ pub struct BodyEffects {
     /// The half-shafts.
     pub half_shafts: HalfShafts,
     /// Whether there are effects; without any, a lock may still be commanded.
-    pub always: bool,
+    pub has_effects: bool,
     /// Whether wheels have brakes.
     pub has_brakes: bool,
 }
@@ -28,7 +28,7 @@ impl BodyEffects {
         let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
         Self {
             has_brakes: friction.iter().any(|source| source.wheel.is_some()),
-            always: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
+            has_effects: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
             friction,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),

@@ -106,8 +106,9 @@ impl Model {
         } else {
             None
         };
-        let mesh_history = BUILT && parameters.effects.mesh_history;
-        let watch = (strength.is_some() || mesh_history).then(|| Box::new(Watch { strength, mesh_history }));
+        let keeps_mesh_history = BUILT && parameters.effects.mesh_history;
+        let watch =
+            (strength.is_some() || keeps_mesh_history).then(|| Box::new(Watch { strength, keeps_mesh_history }));
         Ok(Self {
             parameters: *parameters,
             masses,
@@ -141,8 +142,8 @@ impl Model {
                 effect_terms.detailed.friction = effects.on_flanks().map(|friction| friction.law);
                 effect_terms.body_effects.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
-                effect_terms.detailed.thrust = effect_terms.body_effects.needs_loads();
-                effect_terms.in_detail |= effect_terms.detailed.thrust;
+                effect_terms.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
+                effect_terms.in_detail |= effect_terms.detailed.needs_thrust;
                 if let Some(together) = &mut self.together {
                     together.mesh.law.set_damping(damping);
                 }
@@ -172,11 +173,11 @@ fn teeth(
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
-    body_effects.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
+    body_effects.has_effects |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
     let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
-    (detailed.thrust, detailed.seats) = (body_effects.needs_loads(), plan.has_pins);
+    (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
     let effect_terms = EffectTerms {
         detailed,
         in_detail,
@@ -195,5 +196,5 @@ pub struct Watch {
     /// Stress and fatigue.
     pub strength: Option<GearStrength>,
     /// Peak-to-peak values over mesh cycles.
-    pub mesh_history: bool,
+    pub keeps_mesh_history: bool,
 }

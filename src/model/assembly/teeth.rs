@@ -44,7 +44,7 @@ impl Teeth {
     /// `None` where planets are not alike and plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
-        let is_plain = !self.effect_terms.body_effects.always
+        let is_plain = !self.effect_terms.body_effects.has_effects
             && self.layout.plain() == Some(false)
             && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))

@@ -33,7 +33,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) acting: Acting,
-    pub(in crate::model) fault: bool,
+    pub(in crate::model) is_tooth_broken: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
     /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
@@ -57,7 +57,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
             }
         }
         let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.effect_terms.body_effects), inputs, state);
-        Self { teeth, acting, fault: state.fault, offset, wrapped }
+        Self { teeth, acting, is_tooth_broken: state.is_tooth_broken, offset, wrapped }
     }
 
     /// Groups of planets.
@@ -138,8 +138,8 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// The same equations in the size that every scene fits in.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
-        let Self { teeth, acting, fault, offset, wrapped } = *self;
-        Largest { teeth, acting, fault, offset, wrapped }
+        let Self { teeth, acting, is_tooth_broken, offset, wrapped } = *self;
+        Largest { teeth, acting, is_tooth_broken, offset, wrapped }
     }
 
     /// State of the mesh of group `g` with side `s`.
@@ -309,10 +309,12 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
-        let one = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
-        let planets = self
-            .sum(|g| self.members(g) * (one(self.planet(g)) + if self.has_pins() { one(self.pin(g)) } else { 0.0 }));
-        let others = |range: std::ops::Range<usize>| range.map(one).sum::<f64>();
+        let twice_energy = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
+        let planets = self.sum(|g| {
+            self.members(g)
+                * (twice_energy(self.planet(g)) + if self.has_pins() { twice_energy(self.pin(g)) } else { 0.0 })
+        });
+        let others = |range: std::ops::Range<usize>| range.map(twice_energy).sum::<f64>();
         let behind = self.inner().end;
         0.5 * (others(0..self.planet(0)) + planets + others(behind..self.count()))
     }

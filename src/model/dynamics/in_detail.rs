@@ -87,12 +87,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
     #[inline]
     pub(in crate::model) fn in_detail(&self) -> bool {
-        self.teeth.effect_terms.in_detail || self.fault
+        self.teeth.effect_terms.in_detail || self.is_tooth_broken
     }
 
     /// Gaps of the teeth as they are now.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
-        self.teeth.effect_terms.gaps[usize::from(self.fault)].as_deref()
+        self.teeth.effect_terms.gaps[usize::from(self.is_tooth_broken)].as_deref()
     }
 
     /// State of the mesh of group `g` with side `s` in detail.

@@ -40,7 +40,7 @@ pub struct State {
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
     pub torque_means: TorqueMeans,
     /// Whether the tooth of the tooth fault is broken.
-    pub fault: bool,
+    pub is_tooth_broken: bool,
     /// Command of the lock as it acted in the last step, from 0 to 1.
     pub lock: f64,
     /// Command of the carrier's speed as it acted in the last step [rad/s].
@@ -75,7 +75,7 @@ impl State {
             heat: [0.0; HEATS],
             friction: [FrictionState::default(); FRICTION_BODIES],
             torque_means: TorqueMeans::default(),
-            fault: false,
+            is_tooth_broken: false,
             lock: 0.0,
             carrier_command: 0.0,
             input_derivatives: None,
@@ -238,8 +238,8 @@ impl BodyEffects {
     /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
     /// holds, derivatives of inputs.
     pub fn act_in(&self, state: &State) -> bool {
-        self.always
-            || state.fault
+        self.has_effects
+            || state.is_tooth_broken
             || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)

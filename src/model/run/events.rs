@@ -19,7 +19,7 @@ pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
 pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
-        state.fault = true;
+        state.is_tooth_broken = true;
         state.event.record(Happening::ToothBreaks, 0, state.time());
         state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
     }

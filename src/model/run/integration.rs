@@ -48,7 +48,7 @@ pub fn budget(model: &Model) -> u64 {
             ((in_detail + on_bodies) * teeth.layout.groups).max(1)
         }
     };
-    let effects = if teeth.effect_terms.body_effects.always { EFFECTS } else { 0 };
+    let effects = if teeth.effect_terms.body_effects.has_effects { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
     let freedoms = teeth.layout.count();
     let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };

@@ -160,7 +160,7 @@ impl Simulation {
         if let Some(strength) = self.model.strength() {
             strength.read_damage(&watched.fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
-        if self.model.watch.as_ref().is_some_and(|watch| watch.mesh_history) {
+        if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
             watched
                 .mesh_history
                 .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
@@ -233,7 +233,9 @@ impl Simulation {
         match &self.model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
             Gears::Ideal(_) => CostClass::Ideal,
-            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.fault => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.is_tooth_broken => {
+                CostClass::TeethInDetail
+            }
             Gears::Teeth(teeth) if teeth.effect_terms.body_effects.act_in(&self.state) => CostClass::TeethAndBodies,
             Gears::Teeth(_) => CostClass::Teeth,
         }

@@ -43,8 +43,8 @@ impl TestPageCommand {
             None => paths::page().join(FILE),
         };
         ensure!(page.is_file(), "{} is not there; make it: cargo run --release -- page", paths::shown(&page));
-        let node =
-            program_file(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
+        let node = program_file(OsStr::new("node"))
+            .context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
         let environment = environment(ENVIRONMENT, |what| progress.stage(what))?;
