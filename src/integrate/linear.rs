@@ -75,7 +75,7 @@ impl Shape {
     /// That of `system`.
     #[inline(always)]
     pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
-        let (Range { start, end }, count) = (system.inner(), system.freedoms().min(N));
+        let (Range { start, end }, count) = (system.inner(), system.degrees_of_freedom().min(N));
         Self { first: start.min(count), end: end.min(count), count }
     }
 

@@ -72,7 +72,7 @@ fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
         let mut simulation = Simulation::start(&parameters, &inputs, 0.0).expect(name);
         for stop in [1e-3, 4e-3, 9e-3] {
             simulation.advance(stop).expect(name);
-            let (state, n) = (simulation.state(), simulation.freedoms());
+            let (state, n) = (simulation.state(), simulation.degrees_of_freedom());
             let at = [state.q[..n].to_vec(), state.v[..n].to_vec()];
             let mut rows = vec![0.0; 4 * n * n];
             simulation.slopes(&at[0], &at[1], &mut rows);

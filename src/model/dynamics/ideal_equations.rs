@@ -165,7 +165,7 @@ impl Acted<MOST> for IdealEquations<'_> {
 impl SecondOrder<MOST> for IdealEquations<'_> {
     type Rates = LedgerRates;
 
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         self.count()
     }
 

@@ -40,7 +40,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     type Rates = LedgerRates;
 
     #[inline]
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         self.count()
     }
 

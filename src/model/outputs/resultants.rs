@@ -75,7 +75,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let has_parts = extent == Extent::Parts;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
-    let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, ledger_rates } =
+    let ForcesAtInstant { acceleration: a, on_sides, carrier_torque, spin_torque, ledger_rates } =
         equations.instant(point);
     let mut out =
         Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], has_parts, ..Forces::default() };
@@ -87,7 +87,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         } else {
             inputs.load_torque[s] + brakes[s] + teeth.rigid_end[s] * a[s]
         };
-        out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
+        out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     read_effects(&mut out, model, inputs, state);
     if extent == Extent::Bodies {
@@ -131,7 +131,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 struct ForcesAtInstant {
     acceleration: [f64; LARGEST],
     /// Torques of the meshes on the side gears, alone [N·m].
-    gears: [f64; 2],
+    on_sides: [f64; 2],
     /// Torque of the carrier's drive [N·m].
     carrier_torque: f64,
     /// Torque of what imposes the spin, all planets together [N·m].
@@ -143,7 +143,7 @@ impl Largest<'_> {
     fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
         let (mut sum, mut imposed, mut ledger_rates) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
-        let gears = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
+        let on_sides = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
@@ -154,7 +154,7 @@ impl Largest<'_> {
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut ledger_rates);
-        ForcesAtInstant { acceleration: sum, gears, carrier_torque, spin_torque, ledger_rates }
+        ForcesAtInstant { acceleration: sum, on_sides, carrier_torque, spin_torque, ledger_rates }
     }
 }
 

@@ -72,7 +72,7 @@ impl<T> StencilReadings<T> {
 
 impl Simulation {
     /// Number n of degrees of freedom.
-    pub fn freedoms(&self) -> usize {
+    pub fn degrees_of_freedom(&self) -> usize {
         self.model.ideal.plan.layout().count()
     }
 
@@ -81,7 +81,7 @@ impl Simulation {
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
             let (acceleration, _) = equations.evaluate(&at);
             dq[..n].copy_from_slice(&equations.rates(&at.v)[..n]);
             dv[..n].copy_from_slice(&acceleration[..n]);
@@ -93,7 +93,7 @@ impl Simulation {
     pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
             let linearisation = equations.linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);
@@ -113,7 +113,7 @@ impl Simulation {
     /// The same simulation at positions `q` and velocities `v`, for its outputs there; its ledger is unchanged.
     pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
         let mut moved = self.clone();
-        let n = self.freedoms();
+        let n = self.degrees_of_freedom();
         moved.state.q[..n].copy_from_slice(&q[..n]);
         moved.state.v[..n].copy_from_slice(&v[..n]);
         moved.forces = None;
@@ -122,7 +122,7 @@ impl Simulation {
 
     /// Derivatives of the rates of positions and velocities along `direction`.
     pub fn rate_slopes(&self, direction: &Direction) -> [[f64; MAX_DOF]; 2] {
-        let (n, state) = (self.freedoms(), &self.state);
+        let (n, state) = (self.degrees_of_freedom(), &self.state);
         let mut slopes = [[0.0; MAX_DOF]; 2];
         if direction.moves() {
             let mut rows = [0.0; 4 * MAX_DOF * MAX_DOF];
@@ -230,7 +230,7 @@ impl Simulation {
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {
             let weights = equations.weights(&state.point());
-            for i in 0..equations.freedoms() {
+            for i in 0..equations.degrees_of_freedom() {
                 largest = largest.max((weights.q[i] * direction.q[i]).abs());
                 largest = largest.max((weights.v[i] * direction.v[i]).abs());
             }

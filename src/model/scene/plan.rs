@@ -183,7 +183,7 @@ impl Plan {
     }
 
     /// Degrees of freedom, the imposed ones among them; there are twice as many states.
-    pub fn freedoms(&self) -> usize {
+    pub fn degrees_of_freedom(&self) -> usize {
         match self.contact {
             GearContact::Ideal => 2 + self.layout().attached().count(),
             _ => self.layout().count(),
@@ -221,7 +221,7 @@ impl Plan {
             side(1),
             self.planets,
             self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
-            2 * self.freedoms(),
+            2 * self.degrees_of_freedom(),
         )
     }
 }

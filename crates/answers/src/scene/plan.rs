@@ -65,7 +65,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     for (i, drive) in drives(scene).into_iter().enumerate() {
         line(if i == 0 { "drives" } else { "" }, &drive);
     }
-    let (freedoms, imposed) = (plan.freedoms(), plan.imposed());
+    let (freedoms, imposed) = (plan.degrees_of_freedom(), plan.imposed());
     line("size", &format!("{freedoms} degrees of freedom, {imposed} of them imposed; {} states", 2 * freedoms));
     line("cost class", meaning(simulation.cost()));
     if let Some(cost) = cost(scene) {
