@@ -56,8 +56,8 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
     }
     for (title, run, place) in [("Too coarse", answer.too_coarse, 1), ("Richer", answer.richer, 2)] {
         if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
-            let what = difference(&chosen.scene.parameters, &run.scene.parameters);
-            lines.push((title, format!("{what}: {}.", error_and_cost(answer, run, place))));
+            let changes = difference(&chosen.scene.parameters, &run.scene.parameters);
+            lines.push((title, format!("{changes}: {}.", error_and_cost(answer, run, place))));
         }
     }
     lines.push(("Reference", reference(answer)));
