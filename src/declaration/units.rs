@@ -183,6 +183,8 @@ units! {
     JOULE_PER_K = "J/K", per_kelvin(1, 2, -2, 0), [];
     /// Specific heat.
     JOULE_PER_KG_K = "J/(kg.K)", per_kelvin(0, 2, -2, 0), [];
+    /// Thermal contact coefficient.
+    EFFUSIVITY = "W.s^0.5/(m2.K)", None, [];
     /// Thermal conductance.
     WATT_PER_K = "W/K", per_kelvin(1, 2, -3, 0), [];
     /// Thermal conductance per angular speed.

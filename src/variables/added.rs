@@ -113,6 +113,11 @@ const ADDED: &[&str] = &[
     "temperature.case",
     "warm_up.stored",
     "warm_up.given_off",
+    "strength.thermal_contact_coefficient",
+    "strength.scuffing_temperature",
+    "temperature.flash",
+    "temperature.contact",
+    "safety.scuffing",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

@@ -1,9 +1,10 @@
 """Temperatures: heat of the ledger warms oil, gears, clutch packs, washers and case, and none of it is lost."""
 
-from math import exp
+from math import exp, log10
 
 import pytest
 import theory
+from bevel_differential import DifferentialError
 
 SLIP = {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, "effects.limited_slip": True}
 NODES = ["oil", "gears", "clutch", "washers", "case"]
@@ -72,3 +73,47 @@ def test_without_the_effect_all_has_the_temperature_of_the_oil(drive):
     driven.set({"oil.temperature": 330.0})
     driven.to(0.06, 1e-3)
     assert driven["temperature.clutch"] == 330.0
+
+
+def test_flanks_flash_and_scuff_by_the_temperatures_of_gears_and_oil(drive):
+    values = TURN | FRICTIONS | {"effects.strength": True, "effects.warm_up": True, "strength.scuffing_temperature": 600.0,
+                                 "warm_up.sump_given": True, "oil.temperature": 350.0}
+    driven, flashes = drive(values), []
+    for _ in range(40):
+        driven.step(1e-3)
+        flash, contact = driven["temperature.flash"], driven["temperature.contact"]
+        flashes.append(flash)
+        assert contact == pytest.approx(driven["temperature.gears"] + flash, rel=1e-12)
+        assert driven["safety.scuffing"] == pytest.approx(250.0 / (contact - 350.0), rel=1e-9)
+    # no pair slides at the pitch point; elsewhere flanks are warmed by some degrees at this speed
+    assert 0.0 <= min(flashes) < 0.5 * max(flashes) and 0.1 < max(flashes) < 200.0
+    # friction and heat twice as large
+    double = drive(values | {"tooth_friction.coefficient": 0.1})
+    double.to(0.02, 1e-3)
+    single = drive(values).to(0.02, 1e-3)
+    assert double["temperature.flash"] == pytest.approx(2.0 * single["temperature.flash"], rel=0.05)
+
+
+def test_a_cold_oil_drags_by_its_viscosity(drive):
+    rolling = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True,
+               "bearing_drag.carrier_torque": 0.0, "bearing_drag.side_torque": 0.0, "bearing_drag.carrier_churning": 0.0,
+               "bearing_drag.side_viscous": 0.0, "bearing_drag.carrier_viscous": 0.01, "carrier.speed_command": 30.0}
+    heats = []
+    for temperature in [353.15, 253.15]:
+        driven = drive(rolling | {"oil.temperature": temperature}).to(1.0, 1e-2)
+        heats.append(driven["heat.drag"])
+    assert heats[0] == pytest.approx(0.01 * 30.0**2, rel=1e-9)
+
+    # ASTM D341 through 100 mm2/s at 40 degC and 15 mm2/s at 100 degC, density 870 kg/m3 at 15 degC less 0.65 for each degree
+    def viscosity(kelvin):
+        ends = [log10(log10(of + 0.7)) for of in (100.0, 15.0)]
+        place = log10(kelvin / 313.15) / log10(373.15 / 313.15)
+        return (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7) * (870.0 - 0.65 * (kelvin - 288.15))
+
+    assert heats[1] / heats[0] == pytest.approx(viscosity(253.15) / viscosity(353.15), rel=1e-9)
+
+
+def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
+    with pytest.raises(DifferentialError) as refused:
+        drive({"oil.viscosity_100": 2e-4})
+    assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])

@@ -9,9 +9,8 @@
 //! φ makes friction judder, a rising one damps: dT/dω = T_k r φ′(v). Friction never falls below a part of its kinetic value
 //! ([`LEAST`]), which it meets smoothly.
 //!
-//! Source: the friction characteristic of the Modelica Standard Library, Mechanics.Rotational.Components.Clutch (μ over slip),
-//! with the curve of D. P. Hess and A. Soom, J. Tribology 112 (1990), p. 147, in its exponential form (Bo and Pavelescu, Wear
-//! 82 (1982), p. 277, with exponent 1).
+//! Sources: L. C. Bo and D. Pavelescu, Wear 82 (1982), p. 277, with the exponent 1; the clutch of the Modelica Standard
+//! Library, Mechanics.Rotational.Components.Clutch, for μ over slip.
 
 use crate::friction::smooth;
 use crate::numeric::Dual;

@@ -96,6 +96,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    let mut flash = 0.0;
     for g in 0..plan.groups().len() {
         for s in 0..2 {
             let mesh = &mut groups[g][s];
@@ -112,12 +113,17 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
                 });
+                if teeth.effect_terms.detailed.friction.is_some() {
+                    equations.detail(point, g, s, |slice| strength.add_flash(&mut flash, slice));
+                }
             }
         }
     }
     if let Some(strength) = model.strength() {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        strength.read_stresses(meshes, &mut out.readings[const { places_of("strength", Changes::Always) }]);
+        let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
+        strength.read_stresses(meshes, readings);
+        strength.read_flash(flash, &state.thermal.temperatures, readings);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];
