@@ -26,6 +26,11 @@ pub struct ToothFriction {
 }
 
 impl ToothFriction {
+    /// The same with oil of another viscosity [Pa·s].
+    pub fn with_viscosity(self, oil_viscosity: f64) -> Self {
+        Self { spec: ToothFrictionSpec { oil_viscosity, ..self.spec }, ..self }
+    }
+
     /// Coefficient of friction with the sign of the sliding speed.
     #[inline]
     pub fn signed<T: Scalar>(&self, at: &Sliding<T>) -> T {

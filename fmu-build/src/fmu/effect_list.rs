@@ -130,13 +130,24 @@ fn group(name: &str) -> &str {
     name.split_once('.').map_or(name, |(group, _)| group)
 }
 
-/// Every parameter of every effect.
+/// Every parameter of every effect; what several effects have alike stands once, as `*.parameter`.
 fn parameters() -> Table {
     let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
-    for row in EFFECTS.iter().flat_map(own_parameters) {
-        table.push([format!("`{}`", row.name), start_with_unit(row), brief(row.description).to_owned()]);
+    let all: Vec<&Variable> = EFFECTS.iter().flat_map(own_parameters).collect();
+    let told = |row: &Variable| (own_part(row.name), start_with_unit(row), row.description);
+    for (k, row) in all.iter().enumerate() {
+        let alike: Vec<usize> = (0..all.len()).filter(|&other| told(all[other]) == told(row)).collect();
+        if alike[0] == k {
+            let name = if alike.len() > 1 { format!("`*.{}`", own_part(row.name)) } else { format!("`{}`", row.name) };
+            table.push([name, start_with_unit(row), brief(row.description).to_owned()]);
+        }
     }
     table
+}
+
+/// The part of a variable's name after the first dot.
+fn own_part(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(_, own)| own)
 }
 
 /// Start value of a parameter with its unit.

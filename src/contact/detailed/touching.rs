@@ -42,7 +42,8 @@ impl Detailed {
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
-        let rubbing = self.friction.as_ref().map(|law| {
+        let warmed = self.friction.zip(motion.viscosity).map(|(law, viscosity)| law.with_viscosity(viscosity));
+        let rubbing = warmed.as_ref().or(self.friction.as_ref()).map(|law| {
             let arms = self.directions.arms(&arcs);
             Rubbing { law, speeds: motion.speeds(&arms), arms }
         });

@@ -12,7 +12,8 @@ use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::{BUILT, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
-use crate::model::setup::{CONTACT_HEAT, Parameters, SceneEffects, advice, validation};
+use crate::model::setup::{CONTACT_HEAT, HEAT_OUTPUTS, HEATS, Parameters, SceneEffects, advice, validation};
+use crate::model::thermal::Network;
 use crate::problem::Problem;
 
 /// How the gears are represented.
@@ -48,6 +49,8 @@ pub struct Model {
     pub gears: Gears,
     /// The teeth with planets that move as one until a tooth of one breaks.
     pub together: Option<Box<Teeth>>,
+    /// Nodes that warm up, where the scene asks for them.
+    pub thermal: Option<Box<Network<HEATS>>>,
     /// What steps are watched for beside the ledger, where the scene asks for anything.
     pub watch: Option<Box<Watch>>,
     /// Where each degree of freedom stands.
@@ -109,8 +112,10 @@ impl Model {
         let keeps_mesh_history = BUILT && parameters.effects.mesh_history;
         let watch =
             (strength.is_some() || keeps_mesh_history).then(|| Box::new(Watch { strength, keeps_mesh_history }));
+        let thermal = (BUILT && parameters.effects.warm_up).then(|| Box::new(network(parameters, &masses)));
         Ok(Self {
             parameters: *parameters,
+            thermal,
             masses,
             ideal,
             gears,
@@ -123,6 +128,14 @@ impl Model {
         })
     }
 
+    /// Effects that act on bodies.
+    pub fn body_effects(&self) -> &BodyEffects {
+        match &self.gears {
+            Gears::Ideal(ideal) => &ideal.body_effects,
+            Gears::Teeth(teeth) => &teeth.effect_terms.body_effects,
+        }
+    }
+
     /// Stress and fatigue, where the scene asks for them.
     pub fn strength(&self) -> Option<&GearStrength> {
         self.watch.as_ref()?.strength.as_ref()
@@ -131,6 +144,10 @@ impl Model {
     /// Takes over tunable parameters from `parameters`, which must differ in those alone.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
+        if let Some(thermal) = &mut self.thermal {
+            let start = thermal.start;
+            **thermal = Network { start, ..network(parameters, &self.masses) };
+        }
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
             Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),
@@ -150,6 +167,13 @@ impl Model {
             }
         }
     }
+}
+
+/// Nodes that warm up, with gears of these masses.
+fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
+    let [planet, side] = masses.map(|gear| gear.mass);
+    let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
+    p.specs.warm_up.network(gears, p.oil.temperature, HEAT_OUTPUTS)
 }
 
 /// What effects do to single teeth; solid teeth take their errors themselves.

@@ -378,7 +378,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
         let (mut sum, mut imposed, mut ledger_rates) = ([0.0; N], [0.0; N], LedgerRates::default());
-        self.add_brakes(&mut sum);
+        self.add_brakes(at, &mut sum);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         self.finish(at, &mut sum, &imposed, &mut ledger_rates);
         sum

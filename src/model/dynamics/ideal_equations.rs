@@ -215,7 +215,9 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&self.body_motion(at), &mut out);
         }
-        self.friction_slopes(&mut j);
+        if self.rubs() {
+            self.friction_slopes(at, &self.surface_loads(at, 0.0), &mut j);
+        }
         let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
         let ideal = self.ideal;

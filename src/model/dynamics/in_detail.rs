@@ -100,7 +100,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
         let [w, dw] = if self.has_pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
-        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
+        let (wrapped, viscosity) = (self.wrapped(g, s), self.acting.oil_viscosity);
+        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped, viscosity }
     }
 
     /// States of both meshes of group `g` in detail.
@@ -247,9 +248,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 self.add_blocks::<true>(&self.cross_blocks(loads), j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
-                self.friction_slopes_by_loads(loads, planets, j);
+                self.friction_slopes_by_loads(at, loads, planets, j);
                 self.friction_slopes_by_orbit(at, j);
             }
+            self.friction_slopes_under(at, surfaces.as_ref(), j);
         }
     }
 

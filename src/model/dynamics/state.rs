@@ -10,9 +10,10 @@ use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, PLANET,
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, OilSpec, PLANET,
 };
 use crate::model::setup::HEATS;
+use crate::model::thermal::Thermal;
 
 /// Number of periods above which a double no longer resolves a single period.
 const MOST_PERIODS: u64 = 1 << 53;
@@ -35,6 +36,8 @@ pub struct State {
     pub work: f64,
     /// Heat since the start by cause [J].
     pub heat: [f64; HEATS],
+    /// Temperatures.
+    pub thermal: Thermal,
     /// State of the dry friction: side gears, groups of planets, wheels.
     pub friction: [FrictionState; FRICTION_BODIES],
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
@@ -73,6 +76,7 @@ impl State {
             statistics: Statistics::default(),
             work: 0.0,
             heat: [0.0; HEATS],
+            thermal: Thermal::uniform(OilSpec::default().temperature),
             friction: [FrictionState::default(); FRICTION_BODIES],
             torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
@@ -222,6 +226,7 @@ impl State {
         let anchors: f64 = self.friction.iter().map(|f| f.anchor).sum();
         let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
         (sum(&self.q) + sum(&self.v) + sum(&numbers) + sum(&self.heat) + anchors).is_finite()
+            && self.thermal.is_finite()
             && input_derivatives
             && self.whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(&self.lock)

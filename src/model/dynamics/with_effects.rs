@@ -34,12 +34,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                     j.elastic_energy =
                         self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], ledger_rates);
                     self.add_friction(at, None, sum, ledger_rates);
+                    self.friction_slopes_under(at, None, j);
                 } else {
                     j.elastic_energy =
                         self.add_linearised(at, sum, [&mut *j.by_position, &mut j.by_rate], ledger_rates);
                     self.add_friction(at, None, sum, ledger_rates);
+                    self.friction_slopes_under(at, None, j);
                 }
-                self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, ledger_rates);
                 let mut imposed_by = [[0.0; N]; 2];
                 let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed_by);

@@ -15,6 +15,7 @@ mod thrust_friction;
 mod tooth_errors;
 mod tooth_fault;
 mod tooth_friction;
+mod warm_up;
 mod wheel_brake;
 
 use serde::{Deserialize, Serialize};
@@ -179,6 +180,7 @@ effects! {
         wheel_brake: wheel_brake::WheelBrakeSpec,
         body_compliance: body_compliance::BodyComplianceSpec,
         mesh_history: mesh_history::MeshHistorySpec,
+        warm_up: warm_up::WarmUpSpec,
     }
     commanded {
         lock: lock::LockSpec,

@@ -60,7 +60,8 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 /// Sets the readings of the effects that follow from the motion.
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
@@ -96,6 +97,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    let mut flash = 0.0;
     for g in 0..plan.groups().len() {
         for s in 0..2 {
             let mesh = &mut groups[g][s];
@@ -112,12 +114,17 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
                 });
+                if teeth.effect_terms.detailed.friction.is_some() {
+                    equations.detail(point, g, s, |slice| strength.add_flash(&mut flash, slice));
+                }
             }
         }
     }
     if let Some(strength) = model.strength() {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        strength.read_stresses(meshes, &mut out.readings[const { places_of("strength", Changes::Always) }]);
+        let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
+        strength.read_stresses(meshes, readings);
+        strength.read_flash(flash, &state.thermal.temperatures, readings);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];

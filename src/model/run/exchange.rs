@@ -195,14 +195,14 @@ impl Simulation {
                 // the motion in between is the host's: for stiff teeth no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
-                let State { work, heat, torque_means, .. } = state;
+                let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end);
                 if outcome.is_ok() {
-                    equations.record(
-                        model,
-                        (&step, None),
-                        &mut LedgerSums { begin: from.time, work, heat, torque_means, watched },
-                    );
+                    let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
+                    equations.record(model, (&step, None), sums);
+                    if sums.thermal.is_to_be_felt() {
+                        sums.thermal.feel();
+                    }
                 }
                 let mut anchors = equations.acting().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);

@@ -14,6 +14,7 @@ use crate::model::outputs::{LedgerReadings, Motion, resultants};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
+use crate::model::thermal::NODES;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::LineContact;
@@ -164,6 +165,11 @@ impl Simulation {
             watched
                 .mesh_history
                 .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+        }
+        let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
+        thermal[..NODES].copy_from_slice(&state.thermal.temperatures);
+        if let Some(network) = &self.model.thermal {
+            thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = state.friction[range].iter();

@@ -4,7 +4,7 @@
 //! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
 //! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
 
-use super::imposed::{add_impulse, body_effects, imposed_speeds};
+use super::imposed::{add_impulse, imposed_speeds};
 use super::{STATES, Simulation};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::Gears;
@@ -266,7 +266,7 @@ impl Simulation {
             let mut state = self.state;
             state.q[CARRIER] += place * APART * angle;
             let command = self.inputs.carrier_speed + place * APART * command;
-            body_effects(&self.model).carrier_speed(&state.q, command)
+            self.model.body_effects().carrier_speed(&state.q, command)
         };
         let here = at(0.0);
         STENCIL.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART

@@ -96,6 +96,11 @@ impl<'a> SceneEffects<'a> {
         self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
     }
 
+    /// Whether any asks for the viscosity of the oil.
+    pub fn oil_acts(&self) -> bool {
+        self.acting().any(|(_, _, effect)| effect.is_oiled())
+    }
+
     /// Dry friction.
     pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
         self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting))

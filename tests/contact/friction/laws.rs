@@ -60,6 +60,7 @@ fn coefficient_and_derivatives_are_finite_and_odd_for_all_finite_arguments() {
             stribeck_speed: random.any(),
             regularisation_speed: random.any(),
             oil_viscosity: random.any(),
+            viscosity_from_oil: false,
             lubricant_factor: random.any(),
             roughness: random.any(),
         };

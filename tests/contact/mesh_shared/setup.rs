@@ -200,6 +200,7 @@ pub fn random_states(random: &mut Lcg, pair: &Pair, w: f64) -> [DetailedState; 2
             ],
             rate: [between(random, 1.0), between(random, 1.0), axial[1]],
             wrapped: 0,
+            viscosity: None,
         }
     })
 }

@@ -54,6 +54,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
         "unit": row.unit.map(|unit| unit.name),
         "shown": units::name(row),
         "factor": row.display.map_or(1.0, |shown| shown.factor),
+        "offset": row.display.map_or(0.0, |shown| shown.offset),
         "min": row.range.map(|range| range.min),
         "max": row.range.map(|range| range.max),
         "start": start,
