@@ -1,6 +1,6 @@
 """Temperatures: heat of the ledger warms oil, gears, clutch packs, washers and case, and none of it is lost."""
 
-from math import exp, log10
+from math import exp
 
 import pytest
 import theory
@@ -83,7 +83,8 @@ def test_flanks_flash_and_scuff_by_the_temperatures_of_gears_and_oil(drive):
         driven.step(1e-3)
         flash, contact = driven["temperature.flash"], driven["temperature.contact"]
         flashes.append(flash)
-        assert contact == pytest.approx(driven["temperature.gears"] + flash, rel=1e-12)
+        # forces are those of the present, with the temperatures of the last completed step
+        assert contact == pytest.approx(driven["temperature.gears"] + flash, abs=1e-3)
         assert driven["safety.scuffing"] == pytest.approx(250.0 / (contact - 350.0), rel=1e-9)
     # no pair slides at the pitch point; elsewhere flanks are warmed by some degrees at this speed
     assert 0.0 <= min(flashes) < 0.5 * max(flashes) and 0.1 < max(flashes) < 200.0
@@ -104,13 +105,7 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
         heats.append(driven["heat.drag"])
     assert heats[0] == pytest.approx(0.01 * 30.0**2, rel=1e-9)
 
-    # ASTM D341 through 100 mm2/s at 40 degC and 15 mm2/s at 100 degC, density 870 kg/m3 at 15 degC less 0.65 for each degree
-    def viscosity(kelvin):
-        ends = [log10(log10(of + 0.7)) for of in (100.0, 15.0)]
-        place = log10(kelvin / 313.15) / log10(373.15 / 313.15)
-        return (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7) * (870.0 - 0.65 * (kelvin - 288.15))
-
-    assert heats[1] / heats[0] == pytest.approx(viscosity(253.15) / viscosity(353.15), rel=1e-9)
+    assert heats[1] / heats[0] == pytest.approx(theory.viscosity(253.15) / theory.viscosity(353.15), rel=1e-9)
 
 
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):

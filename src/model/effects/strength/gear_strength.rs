@@ -3,6 +3,7 @@
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
 use crate::contact::detailed::SliceLoad;
 use crate::contact::pair_load::PairLoad;
+use crate::contact::tooth_friction::Sliding;
 use crate::model::effect_kinds::Setting;
 use crate::model::thermal::{GEARS, NODES, OIL};
 use crate::problem::Problem;
@@ -82,10 +83,12 @@ impl GearStrength {
         }
     }
 
-    /// Raises `flash` to the flash temperature of a slice [K].
+    /// Raises `flash` to the flash temperature of a slice [K]; beyond the path's ends the radii there count, as for pressure.
     pub fn add_flash(&self, flash: &mut f64, slice: &SliceLoad) {
-        if let Some(sliding) = slice.sliding.as_ref().filter(|_| slice.normal > 0.0) {
-            *flash = flash.max(self.flash.temperature(sliding, slice.friction / slice.normal));
+        let radius = self.rating.contact.relative_radius(slice.s);
+        if let (Some(sliding), Some(radius)) = (slice.sliding.filter(|_| slice.normal > 0.0), radius) {
+            let sliding = Sliding { radius: radius * slice.cone, ..sliding };
+            *flash = flash.max(self.flash.temperature(&sliding, slice.friction / slice.normal));
         }
     }
 
