@@ -26,13 +26,16 @@ FACTORS = {
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
     "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
     "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
-    "solver.fixed_step": 10.0}
+    "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
+    "warm_up.gear_specific_heat": 2.0, "warm_up.clutch_capacity": 30.0, "warm_up.washer_capacity": 30.0, "warm_up.case_capacity": 30.0}
 # from zero (a tenth of the draws) up to this many times the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
     "limited_slip.preload": 10.0, "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
     "bearing_drag.carrier_viscous": 30.0, "bearing_drag.carrier_churning": 30.0, "bearing_drag.side_torque": 30.0,
-    "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0}
+    "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0,
+    **{f"warm_up.{name}": 10.0 for name in ("gears_to_oil", "gears_to_oil_per_speed", "clutch_to_oil", "washers_to_oil", "oil_to_case",
+                                           "case_to_ambient", "case_to_ambient_per_speed")}}
 # drawn evenly
 BANDS = {
     "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5),
@@ -43,6 +46,15 @@ BANDS = {
     "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
     "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "planet.spin_command": (-60.0, 60.0),
     "strength.tool_radius": (0.0, 0.3),
+    "oil.temperature": (250.0, 400.0), "warm_up.ambient_temperature": (243.0, 323.0), "oil.viscosity_40": (5e-05, 0.0003),
+    "oil.viscosity_100": (5e-06, 3e-05), "oil.density": (800.0, 950.0), "oil.density_fall": (0.5, 0.8),
+    "bearing_drag.reference_temperature": (330.0, 370.0), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
+    "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
+    "strength.scuffing_temperature": (450.0, 800.0),
+    # friction over speed and temperature, points of temperature in order
+    **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
+        "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
+        "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2)}.items()},
     # from the start for half
     "strength.rate_from": (-0.02, 0.02)}
 # lengths that follow the module, in modules

@@ -14,7 +14,22 @@ KINDS = ("wild", "bold", "plausible")
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
 # variables that came after the seeds were chosen, in that order: each is drawn by a generator of its own, so that the other draws
 # stay as they were
-LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"]
+LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from",
+         "oil.temperature", "oil.viscosity_40", "oil.viscosity_100", "oil.density", "oil.density_fall",
+         "tooth_friction.viscosity_from_oil", "bearing_drag.viscosity_from_oil", "bearing_drag.reference_temperature",
+         "limited_slip.mean_radius", "limited_slip.stribeck_speed", "limited_slip.slip_slope", "limited_slip.cold_temperature",
+         "limited_slip.cold_factor", "limited_slip.reference_temperature", "limited_slip.hot_temperature",
+         "limited_slip.hot_factor", "thrust_friction.static_ratio", "thrust_friction.stribeck_speed",
+         "thrust_friction.slip_slope", "thrust_friction.cold_temperature", "thrust_friction.cold_factor",
+         "thrust_friction.reference_temperature", "thrust_friction.hot_temperature", "thrust_friction.hot_factor",
+         "wheel_brake.static_ratio", "wheel_brake.mean_radius", "wheel_brake.temperature", "wheel_brake.stribeck_speed",
+         "wheel_brake.slip_slope", "wheel_brake.cold_temperature", "wheel_brake.cold_factor",
+         "wheel_brake.reference_temperature", "wheel_brake.hot_temperature", "wheel_brake.hot_factor", "effects.warm_up",
+         "warm_up.ambient_temperature", "warm_up.sump_given", "warm_up.oil_capacity", "warm_up.gear_specific_heat",
+         "warm_up.clutch_capacity", "warm_up.washer_capacity", "warm_up.case_capacity", "warm_up.gears_to_oil",
+         "warm_up.gears_to_oil_per_speed", "warm_up.clutch_to_oil", "warm_up.washers_to_oil", "warm_up.oil_to_case",
+         "warm_up.case_to_ambient", "warm_up.case_to_ambient_per_speed", "warm_up.oil_share",
+         "strength.thermal_contact_coefficient", "strength.scuffing_temperature"]
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 

@@ -10,7 +10,7 @@ from bevel_differential import DifferentialError
 
 # powers of m, kg and s
 SYMBOLS = {"1": (0, 0, 0), "rad": (0, 0, 0), "m": (1, 0, 0), "kg": (0, 1, 0), "s": (0, 0, 1), "Hz": (0, 0, -1), "N": (1, 1, -2),
-           "Pa": (-1, 1, -2), "J": (2, 1, -2), "W": (2, 1, -3)}
+           "Pa": (-1, 1, -2), "J": (2, 1, -2), "W": (2, 1, -3), "K": (0, 0, 0)}
 FACTOR = re.compile(r"([A-Za-z]+|1)(?:\^?(\d+(?:\.\d+)?))?")
 # its unit is N/m^e with the exponent of the law
 STIFFNESS, EXPONENT = "contact.stiffness", "contact.exponent"
@@ -27,8 +27,8 @@ RATIOS, TORQUES = ("torque_bias_ratio", "locking_value"), ("left.shaft_torque", 
 
 
 def dimension(unit):
-    """Powers of m, kg and s of a unit such as N.m.s2/rad2 or N/m^1.5."""
-    over, _, under = unit.partition("/")
+    """Powers of m, kg and s of a unit such as N.m.s2/rad2, N/m^1.5 or J/(kg.K)."""
+    over, _, under = unit.replace("(", "").replace(")", "").partition("/")
     powers = np.zeros(3)
     for sign, part in ((1.0, over), (-1.0, under)):
         while part:

@@ -10,7 +10,7 @@ from driving import STEADY_TURN
 from effects_list import effects
 
 EFFECTS = {effect.name: effect for effect in effects(os.environ["FMU"])}
-OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.speed",
+OUTPUTS = ["temperature.gears", "left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.speed",
            "carrier.torque", "carrier.acceleration", "planet[1].spin_angle", "planet[1].left_normal_force",
            "planet[2].right_normal_force", "planet[1].left_transmission_error", "heat.contact", "solver.steps",
            "solver.energy_residual", "locking_value", "stress.contact_max", "damage.planet",

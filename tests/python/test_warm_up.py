@@ -63,8 +63,8 @@ def test_a_clutch_fades_as_it_warms_up(drive):
     driven.to(1.0, 1e-2)
     slip, fall = 20.0 * theory.RATIO, (1.0 - hot) / 120.0
     rise = (1.0 - exp(-2.0 * preload * slip * fall / capacity * 1.0)) / fall
-    # friction follows temperature in steps of 0.1 K
-    assert driven["temperature.clutch"] - 353.15 == pytest.approx(rise, abs=0.1)
+    # friction follows temperature in steps of 0.5 K
+    assert driven["temperature.clutch"] - 353.15 == pytest.approx(rise, abs=0.5)
 
 
 def test_without_the_effect_all_has_the_temperature_of_the_oil(drive):

@@ -76,7 +76,7 @@ macro_rules! slip_rows {
         [
             row(
                 concat!($effect, ".stribeck_speed"),
-                "Sliding speed at which the static excess has fallen to 1/e; 0 = friction jumps to the kinetic value",
+                "Sliding speed at which the static excess has fallen to 1/e; 0 = a jump",
             )
             .when(concat!($effect, ".static_ratio > 1"))
             .real(units::M_PER_S, (0.0, 100.0), |p: &mut Self| &mut p.$field.stribeck_speed),

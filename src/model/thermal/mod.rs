@@ -23,7 +23,7 @@ pub const WASHERS: usize = 3;
 pub const CASE: usize = 4;
 
 /// Change of a temperature that friction does not feel yet [K]: limit torques follow in steps of this size.
-const UNFELT: f64 = 0.1;
+const UNFELT: f64 = 0.5;
 
 /// Temperatures of all nodes, and the heat that made them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
