@@ -38,7 +38,7 @@ pub struct Thermal {
     pub given_off: f64,
     /// Time since friction last felt a change [s].
     pub since: f64,
-    /// Longest step in which temperatures change by as much as friction does not feel, as they did last [s].
+    /// Longest step: temperatures, at their last rate, change by what friction does not feel [s].
     pub longest: f64,
 }
 

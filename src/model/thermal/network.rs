@@ -8,7 +8,7 @@
 //!
 //! with the heat q_i that the ledger has for each node. Conductances may grow with a speed, as convection does. A step of the
 //! solver is taken by the implicit midpoint rule in parts that are short against the fastest node; what leaves one node enters
-//! another to the last bit, so that heat is lost nowhere.
+//! another, so that heat is lost nowhere.
 //!
 //! Source: the thermal balance of ISO/TR 14179-2, and thermal networks of axles and gear units (C. Changenet, X.
 //! Oviedo-Marlot, P. Velex, J. Mechanical Design 128 (2006), p. 1128).
@@ -93,7 +93,7 @@ impl<const H: usize> Network<H> {
     ) {
         let begin = thermal.temperatures;
         let inertia: [f64; NODES] = std::array::from_fn(|i| 2.0 * self.capacity[i] / h);
-        // of every other node halfway: (known + conductance θ_oil)/sum
+        // halfway a node has (known + conductance θ_oil)/sum
         let known: [f64; NODES] = std::array::from_fn(|i| {
             let ambient = if i == CASE { to_ambient * self.ambient } else { 0.0 };
             inertia[i] * begin[i] + power[i] + ambient
@@ -108,17 +108,17 @@ impl<const H: usize> Network<H> {
             }
             of / by
         });
-        let (mut to_oil_now, mut halfway) = (power[OIL], [oil; NODES]);
+        let (mut into_oil, mut halfway) = (power[OIL], [oil; NODES]);
         for i in GEARS_TO_CASE {
             halfway[i] = (known[i] + to_oil[i] * oil) / sum[i];
-            to_oil_now += to_oil[i] * (halfway[i] - oil);
+            into_oil += to_oil[i] * (halfway[i] - oil);
             thermal.temperatures[i] = 2.0 * halfway[i] - begin[i];
         }
         thermal.given_off += h * to_ambient * (halfway[CASE] - self.ambient);
         match self.sump {
             None => thermal.temperatures[OIL] = 2.0 * oil - begin[OIL],
             Some(given) => {
-                thermal.given_off += h * to_oil_now - self.capacity[OIL] * (given - begin[OIL]);
+                thermal.given_off += h * into_oil - self.capacity[OIL] * (given - begin[OIL]);
                 thermal.temperatures[OIL] = given;
             }
         }
