@@ -15,15 +15,15 @@
 use crate::friction::smooth;
 use crate::numeric::Dual;
 
-/// Least part of the kinetic value; up to twice of it the curve is unchanged.
+/// Least part of the kinetic value; down to twice this the curve is unchanged.
 const LEAST: f64 = 0.1;
 
-/// What friction is over its kinetic value, by slip speed.
+/// Friction over its kinetic value, by slip speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipLaw {
     /// Radius at which the surface slides [m].
     pub radius: f64,
-    /// Static over kinetic value less 1, where the curve falls.
+    /// Static over kinetic value, less 1.
     pub excess: f64,
     /// Stribeck speed v_S [m/s]; 0 = no curve.
     pub stribeck_speed: f64,
