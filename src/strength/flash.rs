@@ -15,7 +15,7 @@ use crate::numeric::{PI, sqrt};
 /// C, of a heat flow spread as a half ellipse.
 const ELLIPSE: f64 = 0.785_983_4;
 
-/// Flanks that heat each other.
+/// Constants of the formula.
 #[derive(Clone, Copy, Debug)]
 pub struct Flash {
     /// E* of the contact [Pa].
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_contact_by_hand() {
-        // 400 N/mm, R = 10 mm, 3 and 1 m/s, μ = 0.05 of steel: b = 0.2122 mm, 40 kW/m
+        // steel, 400 N/mm, R = 10 mm, 3 and 1 m/s, μ = 0.05: b = 0.2122 mm, 40 kW/m
         let flash = Flash { modulus: 1.130_769e11, coefficient: 13_800.0 };
         let at = Sliding { sliding: 2.0, sum_speed: 4.0, load: 4e5, radius: 0.01 };
         let b: f64 = (4.0 * 4e5 * 0.01 / (PI * 1.130_769e11)).sqrt();
