@@ -1,5 +1,5 @@
 //! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the heat of
-//! the ledger. Heat of brakes, half-shafts and of the final drive arises elsewhere and stays outside.
+//! the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
 //!
 //! Frictions whose values depend on temperature (`effect_kinds::slip_spec`) feel that of their node. Without this effect all
 //! nodes have the temperature `oil.temperature`.
