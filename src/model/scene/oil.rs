@@ -19,7 +19,7 @@ const DENSITY_POINT: f64 = 288.15;
 const WALTHER: f64 = 0.7;
 /// Square metres per second in a square millimetre per second.
 const MM2: f64 = 1e-6;
-/// Least density over the given one, far from any oil.
+/// Least density over the given one, below any oil's.
 const LEAST_DENSITY: f64 = 0.1;
 
 spec! {
@@ -86,7 +86,7 @@ mod tests {
         let oil = OilSpec::default();
         assert!((oil.kinematic_viscosity(313.15) / 100e-6 - 1.0).abs() < 1e-9);
         assert!((oil.kinematic_viscosity(373.15) / 15e-6 - 1.0).abs() < 1e-9);
-        // by hand: (log log 100.7, log log 15.7) = (0.301 702, 0.077 612), A = 7.646 43, B = 2.943 62
+        // by hand: (log log 100.7, log log 15.7) = (0.301 687, 0.077 695), A = 7.644 69, B = 2.942 20
         let by_hand = |t: f64| {
             let (y0, y1) = (100.7_f64.log10().log10(), 15.7_f64.log10().log10());
             let (x0, x1) = (313.15_f64.log10(), 373.15_f64.log10());
