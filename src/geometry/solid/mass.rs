@@ -1,7 +1,7 @@
 //! Mass properties of a gear: mass and moments of inertia of its solid, by parry3d.
 //!
 //! The solid is the one that is exported (`manifold`). A gear consists of z sectors of one tooth: its mass and
-//! its moments about the axis and the apex are z times the sector's; across the axis the mean of any two at a right angle.
+//! its moments are z times the sector's, across the axis z times the mean of any two at a right angle.
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
@@ -9,8 +9,8 @@ use parry3d_f64::math::Vector;
 use super::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
-/// Units of length per metre, millimetres or less. parry3d's tolerances are absolute: where moments of inertia have less than about
-/// [`LEAST`] in kilograms and units, as those of gears within a centimetre, units are smaller.
+/// Units of length per metre, millimetres or less. parry3d's tolerances are absolute: where moments of inertia in kilograms
+/// and units are below about [`LEAST`], as of gears within a centimetre, units are smaller.
 const MM: f64 = 1e3;
 const LEAST: f64 = 0.5;
 /// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
