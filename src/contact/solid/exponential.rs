@@ -3,7 +3,7 @@
 use super::turned::Partials;
 use crate::numeric::sqrt;
 
-/// Added to a number below 2⁵¹ it leaves whole numbers alone, the lowest bits of the sum.
+/// Its sum with a number below 2⁵¹ has that number, rounded, in its lowest bits.
 const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
 /// ln 2 in two parts, the first short enough for whole multiples of it to be exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
