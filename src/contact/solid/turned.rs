@@ -250,7 +250,7 @@ impl<const N: usize> Both<N> {
     }
 }
 
-/// Twice the products of first derivatives that belong to the second ones.
+/// Twice the products of first derivatives, in the order of the second.
 #[inline(always)]
 fn products(a: &[f64; 2], b: &[f64; 2]) -> [f64; 3] {
     [2.0 * a[0] * b[0], a[0] * b[1] + a[1] * b[0], 2.0 * a[1] * b[1]]
