@@ -82,7 +82,7 @@ macro_rules! with_spring {
 }
 pub(crate) use with_spring;
 
-/// What of any law follows from the place alone.
+/// What follows from the place alone, for any law.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyPlace {
     /// Nothing.
@@ -93,7 +93,7 @@ pub enum AnyPlace {
     LineWeber(<LineWeber as Spring>::Place),
 }
 
-/// The law is asked for at each response: for sums that steps do not take, which thus are compiled once for all laws.
+/// The law is looked up at each response, so that sums outside the steps are compiled once for all laws.
 impl Spring for AnySpring {
     type Place = AnyPlace;
 
