@@ -18,7 +18,7 @@ use crate::numeric::{asin, cos, sin, tan};
 const ELEMENTS: usize = 5;
 /// Their lengths grow by this factor from the surface down.
 const GROWTH: f64 = 1.5;
-/// Below this many decay lengths sin φ/n nothing is felt of harmonic n.
+/// Depth, in decay lengths sin φ/n, at which harmonic n has decayed.
 const DECAYED: f64 = 9.0;
 /// Gauss points and weights.
 const GAUSS: [(f64, f64); 3] =
