@@ -97,8 +97,8 @@ impl LineOfAction {
     }
 
     /// Turns a contact's vectors from the frame of the mesh into that of gear `i`: z along its axis from apex to heel, x
-    /// along the middle of the tooth from which `tooth_azimuth` [rad] counts to the tooth in contact. What lies on the
-    /// flank at the same height in the frame of the mesh then lies on the error-free flank of that tooth.
+    /// along the middle of the tooth from which `tooth_azimuth` [rad] counts to the tooth in contact. The
+    /// contact then lies on the error-free flank of that tooth.
     pub fn in_gear(&self, contact: &Contact, i: usize, tooth_azimuth: f64, turn: f64) -> Contact {
         let angle = self.rotation(contact, i, tooth_azimuth, turn);
         let [axis, toward] = self.axes(i);
