@@ -1,7 +1,7 @@
 //! What follows from gears and material alone, kept for the next start with the same ones.
 //!
 //! Masses, tables of gaps and tables of compliances take most of a start, and loads and drives do not change them.
-//! Each is kept by the bits of all that the function which makes it is given, so that it has the same bits as if made anew.
+//! The key of each is the bits of all arguments of the function that makes it, so that it has the same bits as made anew.
 
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,7 +19,7 @@ use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
-/// A pair, and what its geometry lets one object to.
+/// A pair, with errors and warnings of its geometry.
 #[derive(Debug)]
 pub struct CheckedPair {
     /// The pair.
@@ -36,7 +36,7 @@ pub struct OnBodies {
     /// Stiffness of a pair alone, teeth and bodies.
     pub stiffness: PairStiffness,
     /// How pairs move each other.
-    pub bodies: Arc<PairCouplings>,
+    pub couplings: Arc<PairCouplings>,
 }
 
 /// What is kept.
@@ -89,12 +89,12 @@ impl GearCache {
             let supports = [Support::FreeBore(bores[0]), Support::Bore(bores[1])];
             let mesh = MeshOnBodies::new(pair, &teeth, supports, planets)?;
             let stiffness = PairStiffness::of_gears(pair, &teeth, load, |i, roll| mesh.gear(i, roll))?;
-            let bodies = Arc::new(PairCouplings::new(
+            let couplings = Arc::new(PairCouplings::new(
                 &mesh,
                 [stiffness.path, stiffness.range],
                 (pair.centred_position(), pair.base_pitch),
             ));
-            Ok(Arc::new(OnBodies { stiffness, bodies }))
+            Ok(Arc::new(OnBodies { stiffness, couplings }))
         })
     }
 
@@ -137,7 +137,7 @@ fn common() -> MutexGuard<'static, Common> {
     COMMON.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A share in what is kept in common; it is released with the last share.
+/// A share in what is kept in common, which is released with the last share.
 #[derive(Debug)]
 pub struct Share(Arc<GearCache>);
 

@@ -123,7 +123,7 @@ fn of_teeth<S>(
         return Ok((law(&*cache.stiffness(p, pair)?), None));
     }
     let gears = cache.on_bodies(p, pair)?;
-    Ok((law(&gears.stiffness), Some(gears.bodies.clone())))
+    Ok((law(&gears.stiffness), Some(gears.couplings.clone())))
 }
 
 fn impact(p: &Parameters, pair: &Pair) -> Impact {
