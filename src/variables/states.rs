@@ -31,12 +31,12 @@ const SHIFTS: Kind = Kind { units: [units::METRE, units::M_PER_S, units::M_PER_S
 
 /// Deflection of teeth as the angle of a gear [rad].
 const DEFLECTION: f64 = 1e-3;
-/// A turn of the carrier [rad].
-const TURN: f64 = 1.0;
+/// Angle of the carrier [rad].
+const ANGLE: f64 = 1.0;
 /// Twist of a half-shaft [rad].
 const TWIST: f64 = 1e-2;
-/// Axial play [m].
-const PLAY: f64 = 1e-5;
+/// Shift of seats [m].
+const AXIAL: f64 = 1e-5;
 /// Speed of gears [rad/s].
 const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
@@ -56,9 +56,9 @@ fn states(body: Body) -> [State; 2] {
     let (kind, what, names, nominal) = match body {
         Body::Side(0) => (&TURNS, "Left side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
         Body::Side(_) => (&TURNS, "Right side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
-        Body::Carrier => (&TURNS, "Carrier", ["angle", "speed"], [TURN, SPEED]),
-        Body::Seat(0) => (&SHIFTS, "Left side gear along its axis, away from the apex", SEAT, [PLAY, AXIAL_SPEED]),
-        Body::Seat(_) => (&SHIFTS, "Right side gear along its axis, away from the apex", SEAT, [PLAY, AXIAL_SPEED]),
+        Body::Carrier => (&TURNS, "Carrier", ["angle", "speed"], [ANGLE, SPEED]),
+        Body::Seat(0) => (&SHIFTS, "Left side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
+        Body::Seat(_) => (&SHIFTS, "Right side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
         Body::Planet(_) => (&TURNS, "Planet on its pin", ["spin_angle", "spin_speed"], [DEFLECTION, SPEED]),
         Body::Pin(_) => {
             (&TURNS, "Pin, its angle counted from the carrier", ["pin_angle", "pin_speed"], [DEFLECTION, SPEED])
