@@ -4,7 +4,7 @@
 //! A slice at cone distance R_j penetrates by d_j = R_j (a − g) − e(R_j, s) − w ν(s): w is the side gear's
 //! displacement away from the apex, ν = cosδ_bs sin(ψ_s − s) the axial component of the flank's normal. V = Σ_k Σ_j J_j Φ(d_j/R_j, s)
 //! over tooth pairs k and points j of the face (`face`). Friction μ F along the flank has the moment arms R cosδ_b sinψ about
-//! both axes and opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the travels of both
+//! both axes and opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the speeds of both
 //! flanks along the line of action.
 //!
 //! What belongs to a pair is found once per pair (`directions`, `pair`); `sums` go over the face by the pair's own

@@ -22,17 +22,17 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     /// ∂²E/∂x² and ∂²E/∂x∂w.
     pub opening_twice: [f64; 2],
     /// ∂Ȧ/∂(q, x) and ∂Ė/∂(x, w).
-    turn: [f64; 2],
-    spread: [f64; 2],
+    rate_slope: [f64; 2],
+    opening_rate_slope: [f64; 2],
     rate: [f64; 2],
     /// ∂a of the own arc by q, x, w of its mesh and of the planet's other one, where others move it.
     pub own: [[f64; 3]; 2],
-    /// Viscosity of the oil, as of the state [Pa·s].
+    /// Viscosity of the oil, from the state [Pa·s].
     pub viscosity: Option<f64>,
 }
 
 impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
-    /// Motion of `pair` with all of its `opening`, `axial` being ν and ∂ν/∂s.
+    /// Motion of `pair` with its `opening`, `axial` being ν and ∂ν/∂s.
     #[inline(always)]
     pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
         let [dq, dx, dw] = state.rate;
@@ -52,8 +52,8 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
             s_slope,
             opening: [by_x, nu],
             opening_twice: twice,
-            turn: [qq * (dq + dx), qq * dq + xx * dx],
-            spread: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
+            rate_slope: [qq * (dq + dx), qq * dq + xx * dx],
+            opening_rate_slope: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
             rate: [dq, dx],
             own: [[0.0; 3]; 2],
             viscosity: state.viscosity,
@@ -67,22 +67,22 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
         let mut slopes = [0.0; WIDE];
         let of_arc = if SHARED { self.own[0] } else { [q, x, 0.0] };
         let local = if OPEN {
-            let by_w = even * ew + opening_rate * self.spread[1];
+            let by_w = even * ew + opening_rate * self.opening_rate_slope[1];
             [
-                arc * of_arc[0] + rate * self.turn[0],
+                arc * of_arc[0] + rate * self.rate_slope[0],
                 arc * of_arc[1]
                     + even * ex
                     + place * self.s_slope
-                    + rate * self.turn[1]
-                    + opening_rate * self.spread[0],
+                    + rate * self.rate_slope[1]
+                    + opening_rate * self.opening_rate_slope[0],
                 if SHARED { by_w + arc * of_arc[2] } else { by_w },
                 rate * q,
                 rate * x + opening_rate * ex,
                 opening_rate * ew,
             ]
         } else {
-            let by_x = arc * of_arc[1] + place * self.s_slope + rate * self.turn[1];
-            [arc * of_arc[0] + rate * self.turn[0], by_x, 0.0, rate * q, rate * x, 0.0]
+            let by_x = arc * of_arc[1] + place * self.s_slope + rate * self.rate_slope[1];
+            [arc * of_arc[0] + rate * self.rate_slope[0], by_x, 0.0, rate * q, rate * x, 0.0]
         };
         slopes[..LOCAL].copy_from_slice(&local);
         if SHARED {
@@ -93,9 +93,9 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
         slopes
     }
 
-    /// Travels of the flanks of planet and side gear along the line of action [rad/s].
+    /// Speeds of the flanks of planet and side gear along the line of action [rad/s].
     #[inline(always)]
-    fn travel(&self) -> [f64; 2] {
+    fn travel_rates(&self) -> [f64; 2] {
         let [dq, dx] = self.rate;
         [-self.sign * dx, -self.sign * (dx + dq)]
     }
@@ -103,14 +103,14 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
     /// Sliding speed over R, and the sum of both flanks' speeds over R [rad/s].
     #[inline(always)]
     pub fn speeds(&self, arms: &Arms) -> [f64; 2] {
-        let ([p, s], [planet, side]) = (self.travel(), arms.arm);
+        let ([p, s], [planet, side]) = (self.travel_rates(), arms.arm);
         [planet * p - side * s, planet * p + side * s]
     }
 
     /// Derivatives of both by x, and by the rates of q and x.
     #[inline(always)]
     pub fn speed_slopes(&self, arms: &Arms) -> [[f64; 3]; 2] {
-        let ([p, s], [planet, side], [dp, ds]) = (self.travel(), arms.arm, arms.arm_slope);
+        let ([p, s], [planet, side], [dp, ds]) = (self.travel_rates(), arms.arm, arms.arm_slope);
         [
             [(dp * p - ds * s) * self.s_slope, self.sign * side, self.sign * (side - planet)],
             [(dp * p + ds * s) * self.s_slope, -self.sign * side, -self.sign * (side + planet)],
