@@ -2,10 +2,10 @@
 
 /// Numbers below this are shown with a power of ten.
 const SMALL: f64 = 1e-3;
-/// Numbers from here on are shown with a power of ten where zeros are trimmed.
+/// Numbers from here on are shown with a power of ten by [`short`].
 const LARGE: f64 = 1e7;
 
-/// `value` with at least `digits` significant digits; whole numbers keep all of theirs.
+/// `value` with `digits` significant digits; more if whole, one less with a power of ten.
 pub fn significant(value: f64, digits: u32) -> String {
     if !value.is_finite() {
         return "–".into();
