@@ -72,7 +72,7 @@ fn per_evaluation(p: &Parameters) -> f64 {
     price(base) + on.map(|switch| effect(switch.name()).max(0.0)).sum::<f64>()
 }
 
-/// Evaluations of `p` that cost so much.
+/// Evaluations of `p` for `cost`.
 pub fn evaluations(p: &Parameters, cost: f64) -> f64 {
     cost / per_evaluation(p).max(LEAST)
 }
