@@ -2,7 +2,7 @@
 //!
 //! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here teeth are solid
 //! (`scene.gear_contact = solid`), every loaded section of planet 1's left mesh is followed over one whole engagement
-//! ([`sample`]), mapped to the flank as it is and given its Hertz pressure; the largest that a spot ever sees is the
+//! ([`sample`]), placed on the flank and given its Hertz pressure; the largest that a spot ever sees is the
 //! pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] what they show in numbers.
 
 pub mod cases;
