@@ -25,7 +25,7 @@ class Tyre(Part):
 @dataclass
 class Motor(Part):
     """A motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order; above the knee
-    its power is constant. With `ratio` = 1 and a long `lag` it is any source of torque."""
+    its power is constant. With `ratio` = 1 it stands for any source of torque."""
 
     ratio: float = parameter(9.0, "1", "Speed of the motor by the speed of the carrier", 0.0)
     inertia: float = parameter(0.03, "kg.m2", "Rotor and what turns with it, at the motor's speed", 0.0)
