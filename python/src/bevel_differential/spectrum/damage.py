@@ -12,7 +12,7 @@ from ..values import DifferentialError, Value
 MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
 OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max",
            "left.tangential_force", "right.tangential_force", "planet[1].spin_angle")
-# first the differential settles, and then it is looked at [s]
+# settling, which does not count, and the whole first run [s]
 SETTLING, LOOK = 0.1, 0.5
 POINTS = 50
 # mesh cycles of the steady state: first so many, then twice as many until both halves agree to STEADY
@@ -71,7 +71,7 @@ def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -
     """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
     nothing, and it and its arguments can be sent to other processes."""
     found = _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
-    # what the FMU cannot feel in this event would be taken in silence; a signal that stays has its value from the start
+    # the FMU takes without an error what it cannot feel in this event; a signal that stays has its value from the start
     changing = {name for name, (_, values) in event.signals.items() if np.ptp(values) > 0.0}
     for name, why in differential.unfelt.items():
         if name in event.values or name in changing:
@@ -109,7 +109,7 @@ def _steady(differential, event, teeth):
 def _history(differential, event, teeth):
     """Damage while teeth roll; while they stand, their stress."""
     record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
-    # of the planets, whose place does not change as teeth bend under a load, as that of the side gears does
+    # of the planets, which stay where side gears turn as teeth bend under a load
     angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
     pushed = pushed_along(angle, pitch)
     rolls = _rolls(pushed, pitch)
