@@ -26,6 +26,7 @@ ADAPTIVE, FIXED_STEP, GLEASON, EXPLICIT = 1, 2, 2, 4
 TIGHT = {"solver.relative_tolerance": 1e-11}
 # of lengths, masses and times
 ALL, NO_LENGTH, NO_TIME, NONE = [1.31, 0.77, 1.19], [1.0, 0.77, 1.19], [1.31, 0.77, 1.0], [1.0, 1.0, 1.0]
+ONLY_MASS = [1.0, 0.77, 1.0]
 # all that is calculated but what the solver did; and of that the whole numbers, beside which step sizes are of rounding errors, too
 OUTPUTS, COUNTS = r"(?!solver\.)", r"solver\.(steps|rejected|rhs_calls)"
 DIMENSIONS = ["lengths", "masses", "times"]
@@ -56,6 +57,8 @@ CARRIERS = {
                   "N/mm, mm, m/s, mPa.s and um under powers"),
     "xu_kahraman": (BLOWS | {"effects.tooth_friction": True, "tooth_friction.law": "xu_kahraman"}, STEPS, NONE, OUTPUTS,
                     "GPa, m, m/s and mPa.s under powers"),
+    "oil": (BLOWS | {"effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "oil.temperature": 320.0}, STEPS, ONLY_MASS,
+            OUTPUTS, "0.7 mm2/s in the line of ASTM D341"),
     "thrust_friction": (WHEELS | {"effects.thrust_friction": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "limited_slip": (WHEELS | {"effects.limited_slip": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "lock": (WHEELS | {"lock.command": 1.0}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
@@ -92,6 +95,7 @@ def homogeneous(start):
     """A plausible scene without what carries units."""
     start = start | {f"effects.{name}": False for name in CARRIERS if f"effects.{name}" in start}
     start |= {"lock.command": 0.0, "tooth_friction.law": 1, "tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
+              "bearing_drag.viscosity_from_oil": False,
               "material.density": min(start["material.density"], 10e3), **TIGHT}
     if start["geometry.addendum_system"] == GLEASON:
         start["geometry.addendum_system"] = EXPLICIT

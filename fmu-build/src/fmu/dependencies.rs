@@ -7,7 +7,7 @@ const BY_OWN_LOAD: &str = ".twist";
 /// Endings of names of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
 /// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
-const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
+const BY_MOTION_OF_TEETH: [&str; 4] = ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing"];
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
 const COMMANDS: [&str; 2] = ["carrier.speed_command", "planet.spin_command"];

@@ -75,7 +75,7 @@ macro_rules! heat {
 
 impl Declare for WarmUpSpec {
     const DESCRIPTION: &'static str =
-        "Temperatures of oil, gears, clutch packs, washers and case, by the heat of all frictions";
+        "Temperatures of oil, gears, clutch packs, washers and case, by the heat of frictions in the case";
     const READINGS: &'static [Reading] = &[
         temperature!("oil", "the oil"),
         temperature!("gears", "the gears"),

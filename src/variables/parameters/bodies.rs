@@ -33,10 +33,10 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_100),
         row("oil.density", "Density of the oil at 15 degC")
             .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
-            .real(units::KG_PER_M3, (500.0, 2000.0), |p| &mut p.oil.density),
+            .real(units::KG_PER_M3, (1.0, 1e5), |p| &mut p.oil.density),
         row("oil.density_fall", "Fall of the density of the oil per temperature")
             .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
-            .real(units::KG_PER_M3_K, (0.0, 2.0), |p| &mut p.oil.density_fall),
+            .real(units::KG_PER_M3_K, (0.0, 1e3), |p| &mut p.oil.density_fall),
         row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
             .switch(|p| &mut p.inertia.from_geometry),
         row("inertia.carrier", "Carrier with ring gear and cross-shaft about its axis, without planets").real(
