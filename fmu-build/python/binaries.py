@@ -41,6 +41,12 @@ def of_linux(file):
     return exported, needed, max(glibc)
 
 
+def processor_of_linux(file):
+    """ELF's name of the processor."""
+    with open(file, "rb") as stream:
+        return ELFFile(stream)["e_machine"]
+
+
 def of_windows(file):
     """Exported symbols and libraries."""
     image = pefile.PE(str(file))

@@ -1,5 +1,6 @@
 """An instance in the library of another processor: far.c in an emulator, told call by call what to do."""
 
+import contextlib
 import ctypes
 import subprocess
 from functools import partial
@@ -15,10 +16,10 @@ LETTERS = {"Real": "r", "Integer": "n", "Boolean": "b"}
 ITEM = {"Real": 8, "Integer": 4, "Boolean": 4}
 
 
-def compiled(zig, folder, target):
-    """far.c, built by zig for a target such as aarch64-linux-gnu.2.17."""
-    program = Path(folder) / f"far-{target}"
-    subprocess.run([*zig, "cc", "-target", target, "-O2", "-o", program, Path(__file__).with_name("far.c"), "-ldl"], check=True)
+def compiled(compiler, folder):
+    """far.c, built by a compiler with its options."""
+    program = Path(folder) / "far"
+    subprocess.run([*compiler, "-O2", "-o", program, Path(__file__).with_name("far.c"), "-ldl"], check=True)
     return program
 
 
@@ -43,8 +44,10 @@ class Emulated(Instance):
 
     def _ask(self, letter, count=0, sent=b"", answer=0, to=None):
         """A call with its bytes; its status. Bytes of an answer go to an address."""
-        self._far.stdin.write(letter.encode() + count.to_bytes(4, "little") + sent)
-        self._far.stdin.flush()
+        # a host that has ended takes nothing, and answers nothing
+        with contextlib.suppress(BrokenPipeError):
+            self._far.stdin.write(letter.encode() + count.to_bytes(4, "little") + sent)
+            self._far.stdin.flush()
         got = self._far.stdout.read(4 + answer)
         if len(got) != 4 + answer:
             raise SystemExit(f"the emulated host has ended with status {self._far.wait()}")
@@ -66,6 +69,7 @@ class Emulated(Instance):
         """Ends the emulator, and the instance with it."""
         if self._component:
             self._component = None
-            self._far.stdin.close()
+            with contextlib.suppress(BrokenPipeError):
+                self._far.stdin.close()
             self._far.wait()
             self._far.stdout.close()

@@ -33,7 +33,7 @@ def platform(name, fmu, tools, folder):
     if name.startswith("win64"):
         return platform_hosts.Windows(name, fmu, tools["wine"])
     if name.startswith("aarch64-linux"):
-        host = emulated.compiled([tools["zig"], "-m", "ziglang"], folder, ARM)
+        host = emulated.compiled([tools["zig"], "-m", "ziglang", "cc", "-target", ARM], folder)
         return platform_hosts.Arm(name, fmu, tools["qemu"], host)
     if name.startswith("darwin64"):
         return platform_hosts.MacOS(name, fmu)
