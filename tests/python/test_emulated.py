@@ -36,14 +36,14 @@ def recorded(instance, outputs):
     for step in range(20):
         rows.append(instance.read(outputs))
         if step == 10:
-            instance.set({"left.brake_torque": 300.0, "lock.command": True})
+            instance.set({"left.brake_torque": 300.0, "lock.command": 1.0})
         instance.step(1e-3)
     return np.array(rows, dtype=float)
 
 
 def test_the_host_gives_the_bits_of_this_process_and_takes_every_kind_of_value(far, fmu):
     outputs = [variable.name for variable in fmu.variables.values() if variable.causality == "output"]
-    outputs += ["lock.command", "geometry.planet_count", "scene.planet_spin"]
+    outputs += ["effects.axle_lock", "geometry.planet_count", "scene.planet_spin"]
     assert {fmu.variable(name).kind for name in outputs} == {"Real", "Boolean", "Integer", "Enumeration"}
     with fmu.open() as near:
         wanted = recorded(near, outputs)
