@@ -24,14 +24,14 @@ described=$(echo "$folder"/../linux/lib/python3*/site-packages/ziglang/lib/libc/
 for name in libSystem libc libm libiconv; do
     sed 's/arm64e\.x1-/arm64e-/g' "$described" > "$folder/sdk/usr/lib/$name.tbd"
 done
-# names the library by its file, not by where it is built; leaves out what nothing calls and names that are not exported; signs
+# names the library by its file, not by where it is built; leaves out names that are not exported, and places of debuggers; signs
 cat > "$folder/bin/ld64.lld" <<END
 #!/bin/bash
 for given in "\$@"; do
     [[ \$before == -o ]] && built=\${given##*/}
     before=\$given
 done
-exec '$linker' "\$@" -install_name "@rpath/\$built" -dead_strip -x -S -adhoc_codesign
+exec '$linker' "\$@" -install_name "@rpath/\$built" -x -S -adhoc_codesign
 END
 chmod +x "$folder/bin/ld64.lld"
 "$folder/bin/ld64.lld" --version

@@ -55,7 +55,7 @@ fn an_old_rust_is_refused_before_anything_is_downloaded() -> Result<()> {
 
 #[test]
 fn a_package_that_is_gone_is_told_with_what_to_do() -> Result<()> {
-    for script in ["rust.sh", "windows.sh"] {
+    for script in ["rust.sh", "windows.sh", "aarch64.sh"] {
         for new in ["1.89.0", "1.96.1", "2.0.0"] {
             let said = said(script, new)?;
             assert!(said.starts_with("downloading; E: 404") && said.contains("apt-get update"), "{script}: {said}");

@@ -29,6 +29,8 @@ class Platform:
     """An FMU with one library, which runs in this process."""
 
     run_by = "this machine"
+    # what compiles and links
+    built_by = property(lambda self: "Rust, zig" if "glibc" in self.name else "Rust, gcc")
     # whether its times are those of a processor
     is_timed = True
 
@@ -111,7 +113,7 @@ class Platform:
 class Windows(Platform):
     """One that runs in fmpy's server under wine."""
 
-    run_by = "wine"
+    run_by, built_by = "wine", "Debian's Rust, MinGW"
 
     def __init__(self, name, fmu, wine):
         super().__init__(name, fmu)
@@ -162,7 +164,7 @@ class Windows(Platform):
 class Arm(Platform):
     """One for ARM, which runs in a host in C under qemu."""
 
-    run_by, is_timed = "qemu", False
+    run_by, built_by, is_timed = "qemu", "Debian's Rust, zig", False
 
     def __init__(self, name, fmu, emulator, host):
         super().__init__(name, fmu)
@@ -175,7 +177,7 @@ class Arm(Platform):
 class MacOS(Platform):
     """One for macOS, which nothing here runs."""
 
-    run_by = None
+    run_by, built_by = None, "Debian's Rust, lld"
 
     def described(self):
         found = binaries.of_macos(self.binary)
