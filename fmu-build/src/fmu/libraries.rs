@@ -91,15 +91,12 @@ pub fn build() -> Result<Libraries> {
         left_out.push(format!("the FMU holds {} alone", HOST.0));
         return Ok(Libraries { built, left_out, ships });
     }
-    for (name, library) in [("win64", windows()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)]
-    {
-        match library {
-            Some(library) => {
-                built.push(library);
-                ships = true;
-            }
-            None => left_out.push(format!("{name} is left out")),
-        }
+    let others = [("win64", windows()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)];
+    ships |= others.iter().any(|(_, library)| library.is_some());
+    let missing: Vec<&str> = others.iter().filter(|(_, library)| library.is_none()).map(|(name, _)| *name).collect();
+    built.extend(others.into_iter().filter_map(|(_, library)| library));
+    if !missing.is_empty() {
+        left_out.push(format!("left out: {}", missing.join(", ")));
     }
     if let Some(last) = left_out.last_mut() {
         last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
