@@ -8,7 +8,6 @@ bits differ, or if a library for macOS is not as it must be. A line "progress FR
 """
 
 import sys
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -77,16 +76,19 @@ def tables(platforms, scenes):
     run = [each for each in platforms if each.run_by]
     text, same, values = comparison(run, scenes)
     described = [each.described() for each in platforms]
-    rows = [["library", "built by", "run by", "other bits", "MB", "packed", "oldest system"]]
-    needs = ""
+    rows = [["library", "built by", "run by", "other bits", "MB", "oldest system"]]
+    needs = {}
     for each, (_, needed, oldest) in zip(platforms, described):
         bits = "–" if each is run[0] or not each.run_by else "none" if same else "see below"
-        rows.append([each.name, each.built_by, each.run_by or "nothing, inspected", bits, *sizes(each.binary), oldest])
-        needs += f"- {each.name}: {', '.join(needed)}\n"
+        size = f"{each.binary.stat().st_size / 1e6:.2f}"
+        rows.append([each.name, each.built_by, each.run_by or "nothing, inspected", bits, size, oldest])
+        # several of one platform may be alike
+        needs.setdefault(", ".join(needed), each.name)
     counts = " or ".join(sorted({str(len(exported)) for exported, *_ in described}))
     foreign = ", ".join(sorted({name for exported, *_ in described for name in exported if not name.startswith(("fmi2", "fmi3"))}))
-    head = markdown(rows, left=(0, 1, 2, 3, 6)) + "\n"
-    head += f"Each exports {counts} functions, {'not of FMI: ' + foreign if foreign else 'all of FMI'}. They need:\n\n{needs}\n"
+    head = markdown(rows, left=(0, 1, 2, 3, 5)) + "\n"
+    head += f"Each exports {counts} functions, {'not of FMI: ' + foreign if foreign else 'all of FMI'}. They need:\n\n"
+    head += "".join(f"- {name}: {needed}\n" for needed, name in needs.items()) + "\n"
     head += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
     text = head + text + timed(run, scenes)
     statuses = {tuple(each.refuses()) for each in run}
@@ -94,12 +96,6 @@ def tables(platforms, scenes):
     text += (f"\nAn unknown variable, a step before initialisation and a module that is NaN return status {words} "
              f"{'in all that run' if len(statuses) == 1 else '(NOT alike)'}.\n")
     return text, same and len(statuses) == 1
-
-
-def sizes(binary):
-    """A library's megabytes, as it is and in an archive."""
-    content = binary.read_bytes()
-    return [f"{len(bytes_) / 1e6:.2f}" for bytes_ in (content, zlib.compress(content, 9))]
 
 
 def comparison(run, scenes):
