@@ -23,6 +23,8 @@ from tools import WORKSPACE, say
 FMU = WORKSPACE / "target" / "fmu" / "BevelDifferential.fmu"
 # what is timed, each as one step of this length [s]
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects, impact": 0.05}
+# beginnings of the libraries that every program of its system has
+C_LIBRARIES = ("libc.so", "libm.so", "libdl.so", "libpthread.so", "ld-linux", "/usr/lib/libSystem.B.dylib")
 TOOLS = ("wine", "qemu", "zig")
 # for which far.c is built
 ARM = "aarch64-linux-gnu.2.17"
@@ -81,14 +83,14 @@ def tables(platforms, scenes):
     for each, (_, needed, oldest) in zip(platforms, described):
         bits = "–" if each is run[0] or not each.run_by else "none" if same else "see below"
         size = f"{each.binary.stat().st_size / 1e6:.2f}"
-        rows.append([each.name, each.built_by, each.run_by or "nothing, inspected", bits, size, oldest])
+        rows.append([each.name, each.built_by, each.run_by or "inspected alone", bits, size, oldest])
         # several of one platform may be alike
-        needs.setdefault(", ".join(needed), each.name)
+        needs.setdefault(", ".join(name for name in needed if not name.startswith(C_LIBRARIES)), each.name)
     counts = " or ".join(sorted({str(len(exported)) for exported, *_ in described}))
     foreign = ", ".join(sorted({name for exported, *_ in described for name in exported if not name.startswith(("fmi2", "fmi3"))}))
     head = markdown(rows, left=(0, 1, 2, 3, 5)) + "\n"
-    head += f"Each exports {counts} functions, {'not of FMI: ' + foreign if foreign else 'all of FMI'}. They need:\n\n"
-    head += "".join(f"- {name}: {needed}\n" for needed, name in needs.items()) + "\n"
+    head += f"Each exports {counts} functions, {'not of FMI: ' + foreign if foreign else 'all of FMI'}. Beside the system's C library "
+    head += "; ".join(f"{name} needs {needed}" for needed, name in needs.items() if needed) + ".\n\n"
     head += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
     text = head + text + timed(run, scenes)
     statuses = {tuple(each.refuses()) for each in run}
