@@ -144,8 +144,8 @@ def scipy_ivp(method):
 
 
 def scipy_odeint(rhs, jacobian, u0, at, rtol, atol):
-    states, told = odeint(rhs, u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=MOST_STEPS, full_output=True)
-    return states, "" if "successful" in told["message"] else told["message"]
+    states, info = odeint(rhs, u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=MOST_STEPS, full_output=True)
+    return states, "" if "successful" in info["message"] else info["message"]
 
 
 def sundae(solver):

@@ -16,7 +16,7 @@ SKIPPED = 10.0
 # whose cost the others are compared with
 OURS = ("this program, `tooth`, `impact`", "tolerance 1e-6")
 CASES = tuple(cases.CASES)
-PLACES = {"cost": "CPU s per s", "ripple": "ripple peak to peak, %", "ripple_rms": "ripple rms, %",
+CSV_COLUMNS = {"cost": "CPU s per s", "ripple": "ripple peak to peak, %", "ripple_rms": "ripple rms, %",
           "speed_error": "mean speed off the gear law, %", "slip": "slip, deg", "force": "sum of normal forces, N",
           "calls": "of the cost: calls that do nothing, s per s"}
 
@@ -95,11 +95,11 @@ def keeps_teeth(result):
 def write_csv(path, results):
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        names = [f"{text}{side}" for key, text in PLACES.items() for side in (sides(key))]
+        names = [f"{text}{side}" for key, text in CSV_COLUMNS.items() for side in (sides(key))]
         writer.writerow(["tool", "setting", "case", *names, "smallest cost", "largest cost"])
         for result in results:
             for name, case in result["cases"].items():
-                values = [value for key in PLACES for value in as_list(case.get(key, ""))]
+                values = [value for key in CSV_COLUMNS for value in as_list(case.get(key, ""))]
                 writer.writerow([result["row"].group, result["row"].label, name, *values, min(case["costs"]),
                                  max(case["costs"])])
 

@@ -58,7 +58,7 @@ struct CommandLine {
     study: StudyCommand,
 }
 
-/// A command of any room.
+/// A command of any group.
 #[derive(Subcommand)]
 #[allow(missing_docs)] // each command describes itself
 pub enum AnyCommand {
@@ -111,7 +111,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
 }
 
 fn program() -> Program {
-    let blank = || clap::Command::new("room");
+    let blank = || clap::Command::new("group");
     Program {
         call: PROGRAM,
         root: CommandLine::command(),
@@ -135,7 +135,7 @@ mod tests {
     }
 
     /// What is wrong with the words.
-    fn told(words: &[&str]) -> String {
+    fn usage_error(words: &[&str]) -> String {
         match parsed(words).err() {
             Some(Stop::Wrong(line)) => line,
             _ => String::new(),
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn a_command_of_the_laboratory_is_told_where_it_is() {
         for words in [&["cost"][..], &["cost", "--quick"], &["help", "cost"]] {
-            assert_eq!(told(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
+            assert_eq!(usage_error(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
         }
     }
 
@@ -171,7 +171,7 @@ mod tests {
             (&["package", "--integer"], &["'--integer'", "'--integers'", "package --help"]),
             (&["--quik"], &["'--quik'"]),
         ] {
-            let line = told(words);
+            let line = usage_error(words);
             assert!(!line.contains('\n') && parts.iter().all(|part| line.contains(part)), "{words:?}: {line}");
         }
     }

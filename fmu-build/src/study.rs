@@ -43,9 +43,9 @@ impl StudyCommand {
             .arg(&fmu)
             .arg("--out")
             .arg(text::shown(&folder));
-        let told = script::follow(&mut study, "the study", &progress)?;
+        let output = script::follow(&mut study, "the study", &progress)?;
         progress.finish();
-        print!("{told}");
+        print!("{output}");
         println!("FMU: {}", paths::shown(&fmu));
         let program = paths::shown(&environment.launcher(&fmu)?);
         println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");

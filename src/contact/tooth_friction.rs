@@ -9,7 +9,7 @@ pub struct Sliding<T> {
     /// Sliding speed, with sign [m/s].
     pub sliding: T,
     /// Sum of both flanks' speeds along the profile, with sign [m/s].
-    pub rolling: T,
+    pub sum_speed: T,
     /// Load per width [N/m].
     pub load: T,
     /// Relative radius of curvature of both flanks [m].
@@ -26,6 +26,11 @@ pub struct ToothFriction {
 }
 
 impl ToothFriction {
+    /// The same with oil of another viscosity [Pa·s].
+    pub fn with_viscosity(self, oil_viscosity: f64) -> Self {
+        Self { spec: ToothFrictionSpec { oil_viscosity, ..self.spec }, ..self }
+    }
+
     /// Coefficient of friction with the sign of the sliding speed.
     #[inline]
     pub fn signed<T: Scalar>(&self, at: &Sliding<T>) -> T {
@@ -41,7 +46,7 @@ impl ToothFriction {
     fn conditions<T: Scalar>(&self, at: &Sliding<T>) -> Conditions<T> {
         Conditions {
             sliding: at.sliding,
-            rolling: at.rolling.abs(),
+            sum_speed: at.sum_speed.abs(),
             line_load: at.load,
             radius: at.radius,
             modulus: self.modulus,

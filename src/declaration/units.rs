@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Exponents of the SI base units kg, m, s and of the radian.
+/// Exponents of the SI base units kg, m, s and K, and of the radian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Base {
     /// Exponent of kg.
@@ -13,15 +13,31 @@ pub struct Base {
     pub s: i32,
     /// Exponent of rad.
     pub rad: i32,
+    /// Exponent of K.
+    pub k: i32,
 }
 
-/// A unit other than SI in which values are shown: `shown = factor · SI value`.
+/// A unit other than SI in which values are shown: `shown = factor · SI value + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayUnit {
     /// Name as shown.
     pub name: &'static str,
     /// How many of this unit make one SI unit.
     pub factor: f64,
+    /// Value shown for 0 in SI.
+    pub offset: f64,
+}
+
+impl DisplayUnit {
+    /// The value to show for `value` in SI.
+    pub fn show(&self, value: f64) -> f64 {
+        value * self.factor + self.offset
+    }
+
+    /// The value in SI that is shown as `shown`.
+    pub fn read(&self, shown: f64) -> f64 {
+        (shown - self.offset) / self.factor
+    }
 }
 
 /// An SI unit with its display units.
@@ -52,11 +68,15 @@ impl From<(Unit, DisplayUnit)> for Shown {
 }
 
 const fn base(kg: i32, m: i32, s: i32, rad: i32) -> Option<Base> {
-    Some(Base { kg, m, s, rad })
+    Some(Base { kg, m, s, rad, k: 0 })
+}
+
+const fn per_kelvin(kg: i32, m: i32, s: i32, rad: i32) -> Option<Base> {
+    Some(Base { kg, m, s, rad, k: -1 })
 }
 
 const fn shown(name: &'static str, factor: f64) -> DisplayUnit {
-    DisplayUnit { name, factor }
+    DisplayUnit { name, factor, offset: 0.0 }
 }
 
 /// Millimetre.
@@ -85,6 +105,10 @@ pub const N_PER_MM_UM: DisplayUnit = shown("N/(mm.um)", 1e-9);
 pub const MILLI_PA_S: DisplayUnit = shown("mPa.s", 1e3);
 /// Kilometre per hour.
 pub const KM_PER_H: DisplayUnit = shown("km/h", 3.6);
+/// Square millimetre per second.
+pub const MM2_PER_S: DisplayUnit = shown("mm2/s", 1e6);
+/// Degree Celsius.
+pub const DEG_C: DisplayUnit = DisplayUnit { name: "degC", factor: 1.0, offset: -273.15 };
 /// Kilonewton.
 pub const KN: DisplayUnit = shown("kN", 1e-3);
 /// Kilonewton-metre.
@@ -135,6 +159,8 @@ units! {
     SECOND = "s", base(0, 0, 1, 0), [];
     /// Speed.
     M_PER_S = "m/s", base(0, 1, -1, 0), [KM_PER_H];
+    /// Change per speed.
+    S_PER_METRE = "s/m", base(0, -1, 1, 0), [];
     /// Acceleration.
     M_PER_S2 = "m/s2", base(0, 1, -2, 0), [];
     /// Line load, and linear stiffness.
@@ -147,6 +173,22 @@ units! {
     NMS_PER_RAD = "N.m.s/rad", base(1, 2, -1, -1), [];
     /// Torque per square of angular speed.
     NMS2_PER_RAD2 = "N.m.s2/rad2", base(1, 2, 0, -2), [];
+    /// Temperature.
+    KELVIN = "K", Some(Base { kg: 0, m: 0, s: 0, rad: 0, k: 1 }), [DEG_C];
+    /// Change of density per temperature.
+    KG_PER_M3_K = "kg/(m3.K)", per_kelvin(1, -3, 0, 0), [];
+    /// Kinematic viscosity.
+    M2_PER_S = "m2/s", base(0, 2, -1, 0), [MM2_PER_S];
+    /// Heat capacity.
+    JOULE_PER_K = "J/K", per_kelvin(1, 2, -2, 0), [];
+    /// Specific heat.
+    JOULE_PER_KG_K = "J/(kg.K)", per_kelvin(0, 2, -2, 0), [];
+    /// Thermal contact coefficient.
+    EFFUSIVITY = "W.s^0.5/(m2.K)", None, [];
+    /// Thermal conductance.
+    WATT_PER_K = "W/K", per_kelvin(1, 2, -3, 0), [];
+    /// Thermal conductance per angular speed.
+    WATT_S_PER_K_RAD = "W.s/(K.rad)", per_kelvin(1, 2, -2, -1), [];
     /// Viscosity.
     PA_S = "Pa.s", base(1, -1, -1, 0), [MILLI_PA_S];
 }

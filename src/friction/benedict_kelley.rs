@@ -24,7 +24,7 @@ fn roughness_factor(ra: f64) -> f64 {
 /// Argument of the logarithm.
 fn argument<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
     // 1e-3: N/m to N/mm
-    at.line_load * (29_700.0 * 1e-3 / spec.centipoise()) / (at.sliding * at.rolling * at.rolling)
+    at.line_load * (29_700.0 * 1e-3 / spec.centipoise()) / (at.sliding * at.sum_speed * at.sum_speed)
 }
 
 /// Coefficient at positive speeds, load and radius; 0.0127 times the roughness factor where the film is full.

@@ -19,7 +19,7 @@ pub struct Conditions<T> {
     /// Sliding speed u₁ − u₂ [m/s], signed.
     pub sliding: T,
     /// Sum speed v_Σ = u₁ + u₂ of the surfaces past the contact [m/s], of either sign; the entraining speed is half of it.
-    pub rolling: T,
+    pub sum_speed: T,
     /// Line load w: normal force per width [N/m].
     pub line_load: T,
     /// Relative radius of curvature ρ, 1/ρ = 1/ρ₁ + 1/ρ₂ [m].
@@ -38,7 +38,7 @@ impl<T: Scalar> Conditions<T> {
     pub(super) fn regularised(&self, slowest: f64) -> Self {
         Self {
             sliding: magnitude(limited(self.sliding), slowest),
-            rolling: magnitude(limited(self.rolling), slowest),
+            sum_speed: magnitude(limited(self.sum_speed), slowest),
             line_load: smooth::hold(self.line_load, LINE_LOAD),
             radius: smooth::hold(self.radius, RADIUS),
             modulus: self.modulus.clamp(MODULUS[0], MODULUS[1]),

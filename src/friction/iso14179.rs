@@ -21,7 +21,7 @@ const SOURCE: &str = "ISO/TR 14179-2";
 /// Coefficient at positive speeds, load and radius.
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
     let load = smooth::floor(at.line_load, LEAST_LOAD, 0.1 * LEAST_LOAD) * 1e-3; // N/mm
-    let speed = smooth::ceiling(at.rolling, FASTEST, 0.1 * FASTEST);
+    let speed = smooth::ceiling(at.sum_speed, FASTEST, 0.1 * FASTEST);
     let radius = at.radius * 1e3; // mm
     // η^−0.05 is taken into the fifth root, R_a^0.25 is a root of a root: one power instead of three
     let fourth_root = |x: f64| sqrt(sqrt(x));
@@ -32,5 +32,5 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
 /// The quantity outside the published range of the formula, if any.
 pub fn outside(at: &Conditions<f64>) -> Option<Outside> {
     Outside::test(("line load w", "N/mm"), at.line_load * 1e-3, [LEAST_LOAD * 1e-3, f64::INFINITY], SOURCE)
-        .or_else(|| Outside::test(("sum speed v_Σ", "m/s"), at.rolling, [0.0, FASTEST], SOURCE))
+        .or_else(|| Outside::test(("sum speed v_Σ", "m/s"), at.sum_speed, [0.0, FASTEST], SOURCE))
 }

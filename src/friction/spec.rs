@@ -33,6 +33,8 @@ spec! {
         /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]:
         /// the quantity that all three published laws use, so that no temperature is needed.
         pub oil_viscosity: f64 = 0.02,
+        /// Whether the viscosity is that of `oil` at its temperature.
+        pub viscosity_from_oil: bool = false,
         /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
         /// phosphate esters, 1.5 traction fluids.
         pub lubricant_factor: f64 = 1.0,

@@ -33,7 +33,7 @@ fn rms(spec: &ToothFrictionSpec) -> f64 {
 
 /// Coefficient at positive speeds, load and radius.
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
-    let entraining = at.rolling * 0.5;
+    let entraining = at.sum_speed * 0.5;
     let ratio = smooth::ceiling(at.sliding / entraining, MOST_SLIDING[0], MOST_SLIDING[1]);
     let pressure = at.pressure() * 1e-9; // GPa
     // below 1 cP the logarithm changes its sign and the exponential grows without bound
@@ -53,7 +53,7 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
 /// The quantity outside the range of the fit, if any. The numbers were not checked against the thesis's own
 /// table of cases.
 pub fn outside(spec: &ToothFrictionSpec, at: &Conditions<f64>) -> Option<Outside> {
-    let entraining = 0.5 * at.rolling;
+    let entraining = 0.5 * at.sum_speed;
     [
         (("entraining speed V_e", "m/s"), entraining, [1.0, 20.0]),
         (("slide-to-roll ratio SR", "1"), at.sliding / entraining, [0.0, 1.0]),

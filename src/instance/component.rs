@@ -3,7 +3,7 @@
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::phase::Call;
+use super::phase::LegalCall;
 use super::{CallError, CallResult, ComponentPointer, HostMemory, Instance, Status, panic_guard};
 
 /// What a host's pointer points to.
@@ -36,7 +36,7 @@ impl Component {
 ///
 /// # Safety
 /// `component` is NULL or comes from [`Component::into_pointer`] and was not freed.
-pub unsafe fn run<C: Call>(
+pub unsafe fn run<C: LegalCall>(
     component: ComponentPointer,
     call: C,
     body: impl FnOnce(&mut Instance, &HostMemory) -> CallResult,
@@ -64,7 +64,7 @@ pub unsafe fn run<C: Call>(
 
 /// Logs why a call failed and returns its status.
 #[cold]
-fn report(instance: &mut Instance, call: impl Call, outcome: Result<CallResult, String>) -> Status {
+fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallResult, String>) -> Status {
     let error = match outcome {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(error)) => error,

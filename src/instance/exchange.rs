@@ -112,13 +112,13 @@ impl Instance {
 }
 
 /// Writes `numbers` into `values` unless the host has room for another count of `what`, or one of them is not finite, of which
-/// `told` says why it is refused.
-fn fill(what: &str, numbers: &[f64], values: OutputArray<f64>, told: impl Fn(usize) -> String) -> CallResult {
+/// `reason` says why it is refused.
+fn fill(what: &str, numbers: &[f64], values: OutputArray<f64>, reason: impl Fn(usize) -> String) -> CallResult {
     if numbers.len() != values.len() {
         return Err(wrong_count(what, numbers.len(), values.len()));
     }
     if let Some(k) = numbers.iter().position(|x| !x.is_finite()) {
-        return Err(CallError::discard(told(k)));
+        return Err(CallError::discard(reason(k)));
     }
     numbers.iter().zip(values.iter()).for_each(|(number, value)| value.write(*number));
     Ok(())

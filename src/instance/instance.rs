@@ -184,25 +184,29 @@ impl Instance {
     }
 
     /// The simulation; in initialisation mode it is built on demand from the values set so far.
+    #[inline]
     pub fn simulation(&mut self) -> CallResult<&mut Simulation> {
-        let now = &mut self.now;
-        if now.simulation.is_none() {
-            match now.phase {
-                Phase::Initialization => {
-                    now.simulation = Some(now.start(&self.cache).map_err(|p| initial_problems(&p))?)
-                }
-                phase => {
-                    return Err(CallError::error(format!(
-                        "outputs have no values in the state \"{}\": initialisation was not completed",
-                        phase.name()
-                    )));
-                }
-            }
+        if self.now.simulation.is_none() {
+            self.build_simulation()?;
         }
-        now.simulation.as_mut().ok_or_else(|| CallError::error("there is no simulation"))
+        self.now.simulation.as_mut().ok_or_else(|| CallError::error("there is no simulation"))
+    }
+
+    #[cold]
+    fn build_simulation(&mut self) -> CallResult {
+        let now = &mut self.now;
+        if now.phase != Phase::Initialization {
+            return Err(CallError::error(format!(
+                "outputs have no values in the state \"{}\": initialisation was not completed",
+                now.phase.name()
+            )));
+        }
+        now.simulation = Some(now.start(&self.cache).map_err(|p| initial_problems(&p))?);
+        Ok(())
     }
 
     /// A step from the current time to `point` + `h` [s].
+    #[inline]
     pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
         let stop = self.now.stop_time;
         let time = self.simulation()?.time();
@@ -213,33 +217,36 @@ impl Instance {
         if until <= time {
             return Ok(());
         }
-        let input_derivatives = self.now.input_derivatives.as_ref();
-        let is_driven = input_derivatives.is_some();
-        if let Some(simulation) = &mut self.now.simulation
-            && simulation.input_derivatives() != input_derivatives
-        {
-            simulation.set_input_derivatives(input_derivatives.copied());
+        let now = &mut self.now;
+        let Some(simulation) = &mut now.simulation else { return Ok(()) };
+        if simulation.input_derivatives() != now.input_derivatives.as_ref() {
+            simulation.set_input_derivatives(now.input_derivatives);
         }
-        let simulation = self.simulation()?;
         let outcome = simulation.advance(until);
-        if is_driven {
-            let (inputs, input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
-            (self.now.inputs, self.now.input_derivatives) = (inputs, input_derivatives);
+        if now.input_derivatives.is_some() {
+            (now.inputs, now.input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
         }
-        self.now.derivatives_set = 0;
-        let Err(failure) = outcome else {
-            self.warn_while_running();
-            if stop.is_some_and(|stop| until + time_tolerance(stop, h) >= stop) {
-                self.warn_at_end();
-            }
-            return Ok(());
-        };
-        Err(self.step_failed(&failure))
+        now.derivatives_set = 0;
+        if let Err(failure) = outcome {
+            return Err(self.step_failed(&failure));
+        }
+        self.warn_while_running();
+        if stop.is_some_and(|stop| until + time_tolerance(stop, h) >= stop) {
+            self.warn_at_end();
+        }
+        Ok(())
     }
 
     /// Logs warnings about the time up to now, each once in a run.
+    #[inline]
     pub fn warn_while_running(&mut self) {
-        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning)) {
+        if self.log.is_on(Category::Warning) {
+            self.log_unreported();
+        }
+    }
+
+    fn log_unreported(&mut self) {
+        if let Some(simulation) = &self.now.simulation {
             for warning in simulation.unreported(&mut self.reported) {
                 self.log.warning(&warning.to_string());
             }

@@ -87,6 +87,7 @@ impl Log {
     }
 
     /// Whether messages of a call that returns OK are logged in `category`.
+    #[inline]
     pub fn is_on(&self, category: Category) -> bool {
         self.logging_on && self.is_chosen(category)
     }

@@ -37,6 +37,6 @@ pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};
 pub use panic_guard::catch;
 pub(crate) use phase::calls;
-pub use phase::{Call as LegalCall, Phase};
+pub use phase::{LegalCall, Phase};
 pub use snapshot::Snapshot;
 pub use steps::{Allowed, Discrete, Ended};

@@ -80,7 +80,7 @@ impl Phase {
 }
 
 /// A function of FMI that is legal in certain states only.
-pub trait Call: Copy {
+pub trait LegalCall: Copy {
     /// The version of FMI that has it.
     const FACE: &'static Face;
 

@@ -2,7 +2,7 @@
 
 use super::values::{finite, row, wrong_type};
 use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
-use crate::model::{Along, Direction, Forces, GearCache, Inputs, PairLines, STATES, STENCIL, Simulation};
+use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, STENCIL, Simulation, StencilReadings};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
 /// One-sided differences of order 4: positions and weights.
@@ -152,8 +152,8 @@ pub struct Slopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
     motion: Option<crate::model::Motion>,
-    forces: Option<Along<Forces>>,
-    pairs: Option<Along<PairLines>>,
+    forces: Option<StencilReadings<Forces>>,
+    pairs: Option<StencilReadings<PairLines>>,
     states: Option<[f64; STATES]>,
     rates: Option<[f64; STATES]>,
 }

@@ -73,7 +73,7 @@ impl<const N: usize> ComplexBlock<N> {
     /// Factorises a I − J; `None` if it is singular.
     #[inline]
     pub fn new<E: SecondOrder<N> + ?Sized>(system: &E, lin: &Linearisation<N, E::Rates>, a: Complex) -> Option<Self> {
-        let (n, mut product) = (system.freedoms(), lin.by_position);
+        let (n, mut product) = (system.degrees_of_freedom(), lin.by_position);
         system.times_rates(&mut product);
         let per_a = a.inverse();
         let mut m = [[Complex::ZERO; N]; N];
@@ -106,7 +106,7 @@ impl<const N: usize> ComplexBlock<N> {
     /// Solves for the right-hand side `re` + i `im` in place.
     #[inline]
     pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: &E, k: &Matrix<N>, re: &mut Point<N>, im: &mut Point<N>) {
-        let (n, m, per_a) = (system.freedoms(), &self.m, self.per_a);
+        let (n, m, per_a) = (system.degrees_of_freedom(), &self.m, self.per_a);
         let mut b = [Complex::ZERO; N];
         for i in 0..n {
             let mut pull = Complex::ZERO;

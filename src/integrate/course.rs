@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::Point;
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
-/// ends and bends b. One that does not change in the step keeps its bits.
+/// ends and coefficients b. One that does not change in the step keeps its bits.
 #[inline]
-pub fn bent(start: f64, end: f64, bends: [f64; 3], fraction: f64) -> f64 {
-    let bend = bends[0] + fraction * (bends[1] + fraction * bends[2]);
-    start + fraction * ((end - start) + (1.0 - fraction) * bend)
+pub fn extended(start: f64, end: f64, coefficients: [f64; 3], fraction: f64) -> f64 {
+    let inner = coefficients[0] + fraction * (coefficients[1] + fraction * coefficients[2]);
+    start + fraction * ((end - start) + (1.0 - fraction) * inner)
 }
 
 /// Continuous extension of a step.
@@ -22,22 +22,22 @@ pub struct Extension<const N: usize> {
     pub start: Point<N>,
     /// Its end.
     pub end: Point<N>,
-    /// Bends of the way in between, see [`bent`].
-    pub bends: [Point<N>; 3],
+    /// Coefficients of the way in between, see [`extended`].
+    pub coefficients: [Point<N>; 3],
 }
 
 impl<const N: usize> Extension<N> {
     /// The motion after a fraction of the step.
     #[inline]
     pub fn at(&self, fraction: f64) -> Point<N> {
-        let Self { start, end, bends } = self;
+        let Self { start, end, coefficients } = self;
         if fraction == 1.0 {
             return *end;
         }
         let mut at = Point::ZERO;
-        let (start, end, bends) = (start.row(), end.row(), bends.each_ref().map(Point::row));
+        let (start, end, coefficients) = (start.row(), end.row(), coefficients.each_ref().map(Point::row));
         for (i, at) in at.row_mut().iter_mut().enumerate() {
-            *at = bent(start[i], end[i], [bends[0][i], bends[1][i], bends[2][i]], fraction);
+            *at = extended(start[i], end[i], [coefficients[0][i], coefficients[1][i], coefficients[2][i]], fraction);
         }
         at
     }
@@ -46,13 +46,13 @@ impl<const N: usize> Extension<N> {
     /// there, less what the extension does.
     #[inline]
     pub fn defect(&self, slope: &Point<N>, h: f64) -> Point<N> {
-        let Self { start, end, bends } = self;
+        let Self { start, end, coefficients } = self;
         let per_h = 1.0 / h;
         let rise = |from: f64, to: f64, one: f64, two: f64| per_h * ((to - from) + 0.25 * (one + two));
         let mut defect = Point::ZERO;
-        let (start, end, bends) = (start.row(), end.row(), bends.each_ref().map(Point::row));
+        let (start, end, coefficients) = (start.row(), end.row(), coefficients.each_ref().map(Point::row));
         for (i, (defect, slope)) in defect.row_mut().iter_mut().zip(slope.row()).enumerate() {
-            *defect = slope - rise(start[i], end[i], bends[1][i], bends[2][i]);
+            *defect = slope - rise(start[i], end[i], coefficients[1][i], coefficients[2][i]);
         }
         defect
     }
@@ -83,7 +83,7 @@ pub struct Pending<const N: usize, P> {
     /// The motion in it.
     pub extension: Extension<N>,
     /// Ledger rates at its begin and halfway.
-    pub power: [P; 2],
+    pub ledger_rates: [P; 2],
     /// Kinetic and stored energy at its begin.
     pub energy: [f64; 2],
     /// Part of the step that is taken: all of it, unless the equations end within it.

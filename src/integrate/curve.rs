@@ -1,8 +1,8 @@
 //! A quantity within a step of the integrator, by the continuous extension: its extremes, and where it takes a value.
 
-use super::course::bent;
+use super::course::extended;
 
-/// A component of the continuous extension of a step, or a linear combination of components; see [`bent`].
+/// A component of the continuous extension of a step, or a linear combination of components; see [`extended`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// Value at the begin of the step.
@@ -10,18 +10,18 @@ pub struct Curve {
     /// Value at its end.
     pub end: f64,
     /// Coefficients b of the extension, 0 for a straight line.
-    pub bends: [f64; 3],
+    pub coefficients: [f64; 3],
 }
 
 impl Curve {
     /// Value after a fraction of the step.
     pub fn at(&self, fraction: f64) -> f64 {
-        if fraction == 1.0 { self.end } else { bent(self.start, self.end, self.bends, fraction) }
+        if fraction == 1.0 { self.end } else { extended(self.start, self.end, self.coefficients, fraction) }
     }
 
     /// Coefficients of the derivative by the fraction, a cubic.
     fn slope(&self) -> [f64; 4] {
-        let Self { start, end, bends: [a, b, c] } = *self;
+        let Self { start, end, coefficients: [a, b, c] } = *self;
         [end - start + a, 2.0 * (b - a), 3.0 * (c - b), -4.0 * c]
     }
 

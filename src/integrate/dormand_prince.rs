@@ -83,12 +83,12 @@ impl Method for DormandPrince {
         combine(&mut quartic, &QUARTIC, h, &k);
         let mut change = end;
         combine(&mut change, &[-1.0], 1.0, &[*start]);
-        let mut bends = [Point::ZERO; 3];
-        combine(&mut bends[0], &[h, -1.0], 1.0, &[k[0], change]);
-        combine(&mut bends[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
-        combine(&mut bends[2], &[-1.0], 1.0, &[quartic]);
+        let mut coefficients = [Point::ZERO; 3];
+        combine(&mut coefficients[0], &[h, -1.0], 1.0, &[k[0], change]);
+        combine(&mut coefficients[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
+        combine(&mut coefficients[2], &[-1.0], 1.0, &[quartic]);
         let size = norm.judge(&error, &end);
-        let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+        let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
         Some(trial.looked_into(system, (time, h), norm, counts, |defect| {
             let rates = std::mem::replace(defect, Point::ZERO);
             combine(defect, &[DURATION], h, &[rates]);

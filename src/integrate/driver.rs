@@ -40,7 +40,7 @@ pub struct Step<'a, const N: usize, P> {
     /// State at the end.
     pub end: &'a Point<N>,
     /// Ledger rates at begin, middle and end.
-    pub power: [P; 3],
+    pub ledger_rates: [P; 3],
 }
 
 /// Decision of the observer after an accepted step.
@@ -155,19 +155,19 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             }
             let end = pending.extension.at(pending.part);
             let halfway = if pending.part == 1.0 {
-                pending.power[1]
+                pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;
                 system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
             begin = (!done).then(|| linearise(method, system, (&end, reached), &mut lin, Some(statistics)));
             let (last, energy) = match begin {
-                Some(energy) => (lin.power, energy),
+                Some(energy) => (lin.ledger_rates, energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
             };
             statistics.evaluations += u64::from(done);
-            let power = [pending.power[0], halfway, last];
-            let imbalance = system.imbalance([pending.energy, energy], h, &power) / (LEDGER * tolerance);
+            let ledger_rates = [pending.ledger_rates[0], halfway, last];
+            let imbalance = system.imbalance([pending.energy, energy], h, &ledger_rates) / (LEDGER * tolerance);
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
                 statistics.rejected_ledger += 1;
@@ -181,7 +181,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             statistics.accepted += 1;
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
-            let step = Step { h, time: reached, start: &start, end: &end, power };
+            let step = Step { h, time: reached, start: &start, end: &end, ledger_rates };
             let flow = observe(step, pending);
             course.pending = None;
             let flow = flow.map_err(Failure::Refused)?;
@@ -219,8 +219,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if error <= 1.0 {
                 (switch_at, in_a_row) = (f64::INFINITY, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
-                let (power, energy) = ([lin.power, halfway.power], energy);
-                course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
+                let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
+                course.pending = Some(Pending { attempt, extension, ledger_rates, energy, part: 1.0 });
                 continue;
             }
         }
@@ -280,7 +280,7 @@ fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
     if method.is_implicit() {
         return system.linearise_with_energy(point, time, lin);
     }
-    (lin.acceleration, lin.power) = system.evaluate_at(point, time);
+    (lin.acceleration, lin.ledger_rates) = system.evaluate_at(point, time);
     system.energy(point)
 }
 

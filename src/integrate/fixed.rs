@@ -38,7 +38,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     let begin = *time;
     let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
     let h = (until - begin) / steps;
-    let mut power = system.evaluate_at(point, begin).1;
+    let mut at_begin = system.evaluate_at(point, begin).1;
     statistics.evaluations += 1;
     let mut done = 0.0;
     while done < steps {
@@ -49,16 +49,16 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
             v: std::array::from_fn(|i| 0.5 * (point.v[i] + end.v[i])),
         };
         let halfway = *time + 0.5 * h;
-        let powers = [power, system.evaluate_at(&middle, halfway).1, system.evaluate_at(&end, *time + h).1];
+        let ledger_rates = [at_begin, system.evaluate_at(&middle, halfway).1, system.evaluate_at(&end, *time + h).1];
         statistics.evaluations += 2;
         statistics.accepted += 1;
-        power = powers[2];
+        at_begin = ledger_rates[2];
         done += 1.0;
         let start = *point;
         *point = end;
         *time = if done < steps { begin + done * h } else { until };
         let flow =
-            observe(Step { h, time: *time, start: &start, end: point, power: powers }).map_err(Failure::Refused)?;
+            observe(Step { h, time: *time, start: &start, end: point, ledger_rates }).map_err(Failure::Refused)?;
         if flow == AfterStep::Stop {
             break;
         }

@@ -75,7 +75,7 @@ impl Shape {
     /// That of `system`.
     #[inline(always)]
     pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
-        let (Range { start, end }, count) = (system.inner(), system.freedoms().min(N));
+        let (Range { start, end }, count) = (system.inner(), system.degrees_of_freedom().min(N));
         Self { first: start.min(count), end: end.min(count), count }
     }
 
@@ -227,7 +227,12 @@ mod tests {
             ([0.0; N], ())
         }
         fn linearise(&self, _: &Point<N>) -> Linearisation<N, ()> {
-            Linearisation { acceleration: [0.0; N], by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power: () }
+            Linearisation {
+                acceleration: [0.0; N],
+                by_position: [[0.0; N]; N],
+                by_velocity: [[0.0; N]; N],
+                ledger_rates: (),
+            }
         }
         fn weights(&self, _: &Point<N>) -> Point<N> {
             Point::ZERO

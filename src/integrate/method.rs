@@ -12,7 +12,7 @@ pub struct Trial<const N: usize, P> {
     pub error: Point<N>,
     /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`].
     pub size: f64,
-    /// The motion halfway; none where the end is in error, upon which nobody asks for bends either.
+    /// The motion halfway; none where the end is in error, upon which nobody asks for the extension either.
     pub halfway: Option<Halfway<P>>,
 }
 
@@ -22,7 +22,7 @@ pub struct Halfway<P> {
     /// Error of the motion there, as a fraction of the allowed one.
     pub size: f64,
     /// Ledger rates.
-    pub power: P,
+    pub ledger_rates: P,
 }
 
 /// How much more an error halfway counts than one at the end: the middle is but one place of the motion in between, and
@@ -47,11 +47,11 @@ impl<const N: usize, P: Copy> Trial<N, P> {
         }
         counts.evaluations += 1;
         let middle = self.extension.at(0.5);
-        let (acceleration, power) = system.evaluate_at(&middle, time + 0.5 * h);
+        let (acceleration, ledger_rates) = system.evaluate_at(&middle, time + 0.5 * h);
         let mut error = self.extension.defect(&Point { q: system.rates(&middle.v), v: acceleration }, h);
         solve(&mut error);
         let size = BETWEEN * norm.judge(&error, &middle);
-        Self { halfway: Some(Halfway { size, power }), ..self }
+        Self { halfway: Some(Halfway { size, ledger_rates }), ..self }
     }
 }
 

@@ -21,7 +21,7 @@ mod statistics;
 mod system;
 
 pub use compared::Compared;
-pub use course::{Attempt, Course, Extension, Pending, bent};
+pub use course::{Attempt, Course, Extension, Pending, extended};
 pub use curve::Curve;
 pub use dormand_prince::DormandPrince;
 pub use driver::{AfterStep, Control, Failure, SolverContext, Step, advance, proceed};

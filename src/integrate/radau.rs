@@ -142,13 +142,13 @@ impl Method for Radau {
             real.solve((system, shape), &mut error);
             counts.evaluations += 1;
         }
-        let mut bends = [Point::ZERO; 3];
-        for (bend, weights) in bends.iter_mut().zip(&BENDS) {
-            combine(bend, weights, 1.0, &z);
+        let mut coefficients = [Point::ZERO; 3];
+        for (coefficient, weights) in coefficients.iter_mut().zip(&EXTENSION) {
+            combine(coefficient, weights, 1.0, &z);
         }
         let end = shifted(start, &z[2]);
         let size = norm.judge(&error, &end);
-        let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+        let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
         Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve((system, shape), defect)))
     }
 }
@@ -160,30 +160,30 @@ fn shifted<const N: usize>(from: &Point<N>, by: &Point<N>) -> Point<N> {
     to
 }
 
-/// Weights of the Z_i in the bends b₀ and b₁ of the collocation polynomial, from b₀ + c_i b₁ = (Z_i/c_i − Z_3)/(1 − c_i) for
-/// the first two stages.
-const BENDS: [[f64; 3]; 2] = bends();
+/// Weights of the Z_i in the coefficients b₀ and b₁ of the collocation polynomial, from
+/// b₀ + c_i b₁ = (Z_i/c_i − Z_3)/(1 − c_i) for the first two stages.
+const EXTENSION: [[f64; 3]; 2] = extension_weights();
 
-const fn bends() -> [[f64; 3]; 2] {
-    let mut bends = [[0.0; 3]; 2];
+const fn extension_weights() -> [[f64; 3]; 2] {
+    let mut weights = [[0.0; 3]; 2];
     let per_distance = 1.0 / (C[1] - C[0]);
     let mut i = 0;
     while i < 2 {
         let (own, other) = (1.0 / (C[i] * (1.0 - C[i])), C[1 - i]);
         let sign = if i == 0 { -1.0 } else { 1.0 };
-        bends[1][i] = sign * per_distance * own;
-        bends[0][i] = -sign * per_distance * own * other;
-        bends[1][2] -= sign * per_distance / (1.0 - C[i]);
-        bends[0][2] += sign * per_distance * other / (1.0 - C[i]);
+        weights[1][i] = sign * per_distance * own;
+        weights[0][i] = -sign * per_distance * own * other;
+        weights[1][2] -= sign * per_distance / (1.0 - C[i]);
+        weights[0][2] += sign * per_distance * other / (1.0 - C[i]);
         i += 1;
     }
-    bends
+    weights
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::bent;
+    use crate::integrate::extended;
 
     fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
@@ -207,12 +207,12 @@ mod tests {
     }
 
     #[test]
-    fn error_estimate_and_bends_are_exact_for_what_they_should_be() {
+    fn error_estimate_and_extension_are_exact_for_what_they_should_be() {
         for n in 1..=3 {
             let sum = |weights: &[f64; 3]| -> f64 { (0..3).map(|i| weights[i] * C[i].powi(n)).sum() };
             for at in [0.1, 0.5, 0.9] {
-                let bends = [sum(&BENDS[0]), sum(&BENDS[1]), 0.0];
-                assert!((bent(0.0, 1.0, bends, at) - at.powi(n)).abs() < 1e-14);
+                let coefficients = [sum(&EXTENSION[0]), sum(&EXTENSION[1]), 0.0];
+                assert!((extended(0.0, 1.0, coefficients, at) - at.powi(n)).abs() < 1e-14);
             }
             // h f(y₀) + Σ e_i Z_i is h⁴ for y = t, t², t³
             let slope = if n == 1 { 1.0 } else { 0.0 };

@@ -52,11 +52,11 @@ const RODAS4: Tableau<6> = Tableau {
             -6.058_818_238_834_054,
         ],
     ],
-    bends: &BENDS,
+    extension: &EXTENSION,
 };
 
 /// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ H₃U)).
-const BENDS: [[f64; 6]; 2] = [
+const EXTENSION: [[f64; 6]; 2] = [
     [
         10.126_235_083_445_86,
         -7.487_995_877_610_167,

@@ -76,11 +76,11 @@ const RODAS5P: Tableau<8> = Tableau {
             -9.488_616_523_096_27,
         ],
     ],
-    bends: &BENDS,
+    extension: &EXTENSION,
 };
 
 /// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ (H₃U + Θ H₄U))).
-const BENDS: [[f64; 8]; 3] = [
+const EXTENSION: [[f64; 8]; 3] = [
     [
         25.948_786_856_663_858,
         -2.557_972_484_584_623_5,

@@ -23,8 +23,8 @@ pub struct Tableau<const S: usize> {
     pub a: &'static [&'static [f64]],
     /// c_ij from the second stage on.
     pub c: &'static [&'static [f64]],
-    /// Weights of the stages in the bends of the continuous extension; those that are left out are zero.
-    pub bends: &'static [[f64; S]],
+    /// Weights of the stages in the coefficients of the continuous extension; those that are left out are zero.
+    pub extension: &'static [[f64; S]],
 }
 
 impl<const S: usize> Tableau<S> {
@@ -90,15 +90,15 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
         u[stage] = r;
     }
     let error = u[S - 1];
-    let (mut end, mut bends) = (y, [Point::ZERO; 3]);
+    let (mut end, mut coefficients) = (y, [Point::ZERO; 3]);
     combine(&mut end, &[1.0], 1.0, &[error]);
     let size = norm.judge(&error, &end);
     if size <= 1.0 {
-        for (bend, weights) in bends.iter_mut().zip(tableau.bends) {
-            combine(bend, weights, 1.0, &u);
+        for (coefficient, weights) in coefficients.iter_mut().zip(tableau.extension) {
+            combine(coefficient, weights, 1.0, &u);
         }
     }
-    let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+    let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
     counts.evaluations += tableau.c.len() as u64;
     let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
     Some(trial.looked_into(system, (time, h), norm, counts, solve))

@@ -69,14 +69,14 @@ pub struct Linearisation<const N: usize, P> {
     /// ∂v̇/∂v.
     pub by_velocity: Matrix<N>,
     /// Ledger rates.
-    pub power: P,
+    pub ledger_rates: P,
 }
 
 impl<const N: usize, P: Default> Default for Linearisation<N, P> {
     #[inline]
     fn default() -> Self {
         let zero = [[0.0; N]; N];
-        Self { acceleration: [0.0; N], by_position: zero, by_velocity: zero, power: P::default() }
+        Self { acceleration: [0.0; N], by_position: zero, by_velocity: zero, ledger_rates: P::default() }
     }
 }
 
@@ -86,14 +86,14 @@ impl<const N: usize, P: Default> Default for Linearisation<N, P> {
 /// leaves the three functions of time as they are here, and nothing is computed for them.
 ///
 /// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster. A system
-/// may be smaller than its type: what lies beyond [`Self::freedoms`] is zero and stays zero.
+/// may be smaller than its type: what lies beyond [`Self::degrees_of_freedom`] is zero and stays zero.
 pub trait SecondOrder<const N: usize> {
     /// Ledger rates: powers that are integrated along with the motion but do not act on it.
     type Rates: Copy + Default;
 
     /// Degrees of freedom, `N` or less.
     #[inline]
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         N
     }
 

@@ -1,6 +1,7 @@
 //! The differential as a mechanical system. Its modules; each uses only those before it:
 //!
 //! - `scene`: drives, inputs, material, integration, and the plan of bodies,
+//! - `thermal`: temperatures,
 //! - `effect_kinds`: what effects are made of: forces on bodies, dry friction, changes to teeth,
 //! - `effects`: the effects, one file each, and their list,
 //! - `setup`: all parameters, and contradictions between them,
@@ -17,6 +18,7 @@ mod outputs;
 mod run;
 mod scene;
 mod setup;
+mod thermal;
 
 pub use crate::contact::tooth_load::{ToothLoad, Touch};
 pub use assembly::gear_cache::{GearCache, Share};
@@ -35,8 +37,8 @@ pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
-    Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
-    six_digits,
+    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StencilReadings,
+    StepFailure, Update, six_digits,
 };
 pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;

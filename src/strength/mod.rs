@@ -7,6 +7,7 @@
 pub mod counting;
 mod damage;
 pub mod face_load;
+pub mod flash;
 pub mod hertz;
 pub mod material;
 pub mod mean_stress;

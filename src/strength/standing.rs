@@ -32,7 +32,7 @@ impl StandingTeeth {
     }
 
     /// Adds a force on the teeth, positive on the drive flank [N].
-    pub fn bend(&mut self, rating: &Rating, force: f64) {
+    pub fn add_force(&mut self, rating: &Rating, force: f64) {
         let Self { history, roots } = self;
         if history.is_empty() {
             let weakest = rating.root[0].per_force.max(rating.root[1].per_force);
@@ -42,7 +42,7 @@ impl StandingTeeth {
     }
 
     /// Other teeth come into mesh, with a history of their own.
-    pub fn change(&mut self, rating: &Rating) {
+    pub fn next_teeth(&mut self, rating: &Rating) {
         let Self { history, roots } = self;
         history.rest(|cycle| count(rating, roots, &cycle));
         *history = Rainflow::default();
@@ -50,7 +50,7 @@ impl StandingTeeth {
 
     /// Damage sums of the worse root of planet and side gear. Cycles that are still open count as the halves that they
     /// are, so that the sum does not depend on rounding of two equal peaks.
-    pub fn worst(&self, rating: &Rating) -> [f64; 2] {
+    pub fn worst_sums(&self, rating: &Rating) -> [f64; 2] {
         let mut roots = self.roots;
         self.history.rest(|cycle| count(rating, &mut roots, &cycle));
         roots.map(|[drive, coast]| drive.sum.max(coast.sum))

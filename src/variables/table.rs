@@ -62,7 +62,7 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     let mut text = format!("{value} {unit} is outside [{min}, {max}] {unit}");
     // the commonest mistake: a value given in the unit people think in
     if let Some(shown) = row.display {
-        let meant = value / shown.factor;
+        let meant = shown.read(value);
         if (min..=max).contains(&meant) {
             let _ = write!(text, "; did you mean {value} {} = {meant:.6} {unit}?", shown.name);
         }

@@ -25,7 +25,7 @@ impl SecondOrder<1> for Wall {
     fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
         let (d, rate) = (at.q[0], at.v[0]);
         if d <= 0.0 {
-            return Linearisation { acceleration: [0.0], by_position: [[0.0]], by_velocity: [[0.0]], power: () };
+            return Linearisation { acceleration: [0.0], by_position: [[0.0]], by_velocity: [[0.0]], ledger_rates: () };
         }
         let slope = self.stiffness * self.exponent * d.powf(self.exponent - 1.0);
         let f = self.damping.apply(slope * d / self.exponent, slope, d, rate);
@@ -33,7 +33,7 @@ impl SecondOrder<1> for Wall {
             acceleration: [-f.total / self.mass],
             by_position: [[-f.by_depth / self.mass]],
             by_velocity: [[-f.by_rate / self.mass]],
-            power: (),
+            ledger_rates: (),
         }
     }
 

@@ -31,7 +31,7 @@ impl<const N: usize> SecondOrder<N> for Alike<N> {
 
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], f64) {
         let lin = self.linearise(at);
-        (lin.acceleration, lin.power)
+        (lin.acceleration, lin.ledger_rates)
     }
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, f64> {
         let (mut by_position, mut by_velocity, mut acceleration) = ([[0.0; N]; N], [[0.0; N]; N], [0.0; N]);
@@ -54,7 +54,7 @@ impl<const N: usize> SecondOrder<N> for Alike<N> {
             by_position[0][j] = -Self::MEMBERS * by_d / 3.0;
             by_velocity[0][j] = -Self::MEMBERS * by_v / 3.0;
         }
-        Linearisation { acceleration, by_position, by_velocity, power: acceleration[0] * at.v[0] }
+        Linearisation { acceleration, by_position, by_velocity, ledger_rates: acceleration[0] * at.v[0] }
     }
     fn weights(&self, _: &Point<N>) -> Point<N> {
         Point { q: [1.0; N], v: [0.5; N] }
@@ -73,7 +73,10 @@ fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
     advance(&Rodas5P, &s, &mut point, &mut time, 4.0, context, |step| {
         let Point { q, v } = step.end;
         assert!((1..N).all(|j| (q[j], v[j]) == (q[1], v[1])), "twins stay twins");
-        bits.push([q[0], q[1], v[0], v[1], step.power[0], step.power[1], step.power[2]].map(f64::to_bits));
+        bits.push(
+            [q[0], q[1], v[0], v[1], step.ledger_rates[0], step.ledger_rates[1], step.ledger_rates[2]]
+                .map(f64::to_bits),
+        );
         Ok::<_, ()>(AfterStep::Continue)
     })
     .unwrap();

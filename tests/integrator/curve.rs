@@ -9,13 +9,13 @@ fn curves() -> Vec<Curve> {
         (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
     let mut all: Vec<Curve> = (0..300)
-        .map(|_| Curve { start: draw(), end: draw(), bends: [8.0 * draw(), 8.0 * draw(), 8.0 * draw()] })
+        .map(|_| Curve { start: draw(), end: draw(), coefficients: [8.0 * draw(), 8.0 * draw(), 8.0 * draw()] })
         .collect();
     // of lower degrees too
     all.extend((0..300).map(|i| Curve {
         start: draw(),
         end: draw(),
-        bends: [if i % 2 == 0 { draw() } else { 0.0 }, if i % 3 == 0 { draw() } else { 0.0 }, 0.0],
+        coefficients: [if i % 2 == 0 { draw() } else { 0.0 }, if i % 3 == 0 { draw() } else { 0.0 }, 0.0],
     }));
     all
 }
@@ -46,7 +46,7 @@ fn a_crossing_is_where_the_curve_takes_the_value() {
 #[test]
 fn negated_curves_have_negated_extremes_to_the_last_bit() {
     for curve in curves() {
-        let negated = Curve { start: -curve.start, end: -curve.end, bends: curve.bends.map(|b| -b) };
+        let negated = Curve { start: -curve.start, end: -curve.end, coefficients: curve.coefficients.map(|b| -b) };
         let [mut one, mut other] = [Vec::new(), Vec::new()];
         curve.visit_extremes([0.0, 1.0], |x| one.push(x));
         negated.visit_extremes([0.0, 1.0], |x| other.push(-x));

@@ -50,7 +50,7 @@ impl SecondOrder<1> for Driven {
         self.asked.set(self.asked.get() + 1);
         let lin = forced(self.lambda).linearise(&Self::with_clock(at, time));
         let (by_position, by_velocity) = ([[lin.by_position[0][0]]], [[lin.by_velocity[0][0]]]);
-        Linearisation { acceleration: [lin.acceleration[0]], by_position, by_velocity, power: () }
+        Linearisation { acceleration: [lin.acceleration[0]], by_position, by_velocity, ledger_rates: () }
     }
     fn drift(&self, at: &Point<1>, time: f64) -> [f64; 1] {
         [forced(self.lambda).linearise(&Self::with_clock(at, time)).by_position[0][1]]

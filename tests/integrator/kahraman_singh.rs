@@ -77,10 +77,10 @@ impl SecondOrder<2> for Oscillator {
     }
 
     fn linearise(&self, at: &Point<2>) -> Linearisation<2, [f64; 2]> {
-        let (acceleration, power) = self.evaluate(at);
+        let (acceleration, ledger_rates) = self.evaluate(at);
         let slope = self.mesh.linearise(&Self::state(at)).1.by_position[0][0];
         let by_position = [[slope, self.load(at.q[1])[1]], [0.0; 2]];
-        Linearisation { acceleration, by_position, by_velocity: [[-2.0 * ZETA, 0.0], [0.0; 2]], power }
+        Linearisation { acceleration, by_position, by_velocity: [[-2.0 * ZETA, 0.0], [0.0; 2]], ledger_rates }
     }
 
     fn weights(&self, _: &Point<2>) -> Point<2> {
@@ -131,7 +131,7 @@ impl Sweep {
             };
             let until = f64::from(until) * period;
             advance(&Rodas5P, &self.oscillator, &mut self.point, &mut time, until, context, |step| {
-                let [begin, middle, end] = step.power;
+                let [begin, middle, end] = step.ledger_rates;
                 for i in 0..2 {
                     sums[i] += weight * step.h / 6.0 * (begin[i] + 4.0 * middle[i] + end[i]);
                 }

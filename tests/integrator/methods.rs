@@ -96,8 +96,8 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
     let lin = if M::METHOD.is_implicit() {
         s.linearise_at(at, time)
     } else {
-        let (acceleration, power) = s.evaluate_at(at, time);
-        Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
+        let (acceleration, ledger_rates) = s.evaluate_at(at, time);
+        Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], ledger_rates }
     };
     let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
     M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()

@@ -20,7 +20,7 @@ impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N>
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, ()> {
         let (acceleration, by_position, by_velocity) = (self.acceleration)(at);
-        Linearisation { acceleration, by_position, by_velocity, power: () }
+        Linearisation { acceleration, by_position, by_velocity, ledger_rates: () }
     }
 
     fn weights(&self, _: &Point<N>) -> Point<N> {
@@ -84,7 +84,7 @@ impl SecondOrder<2> for Logarithmic {
 
     fn evaluate(&self, at: &Point<2>) -> ([f64; 2], f64) {
         let lin = self.linearise(at);
-        (lin.acceleration, lin.power)
+        (lin.acceleration, lin.ledger_rates)
     }
 
     fn linearise(&self, at: &Point<2>) -> Linearisation<2, f64> {
@@ -101,7 +101,7 @@ impl SecondOrder<2> for Logarithmic {
             acceleration: times(&from, &force),
             by_position: product(&product(&from, &by_y), &to),
             by_velocity: product(&product(&from, &by_rate), &product(&to, &B)),
-            power: at.v[0] * at.q[1],
+            ledger_rates: at.v[0] * at.q[1],
         }
     }
 

@@ -23,7 +23,12 @@ impl SecondOrder<1> for Kinked {
     }
     fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
         let slope = if self.side > 0.0 { -1.0 } else { -4.0 };
-        Linearisation { acceleration: self.evaluate(at).0, by_position: [[slope]], by_velocity: [[0.0]], power: () }
+        Linearisation {
+            acceleration: self.evaluate(at).0,
+            by_position: [[slope]],
+            by_velocity: [[0.0]],
+            ledger_rates: (),
+        }
     }
     fn weights(&self, _: &Point<1>) -> Point<1> {
         Point { q: [1.0], v: [1.0] }

@@ -24,6 +24,12 @@ fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
+/// The same with brakes that slide.
+fn braked((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
+    inputs.brake_torque = [40.0, 60.0];
+    (p, inputs)
+}
+
 fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     let line = |p: &mut Parameters| p.contact.law = ContactLaw::Line;
     let bodies = |p: &mut Parameters| (p.contact.law, p.effects.body_compliance) = (ContactLaw::LineWeber, true);
@@ -33,6 +39,19 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     };
     let friction = |p: &mut Parameters| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true);
     let pins = |p: &mut Parameters| p.effects.pin_compliance = true;
+    // friction that falls and rises with the speed of sliding, on washers, pins, plates and linings
+    let by_speed = |p: &mut Parameters| {
+        (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
+        let specs = &mut p.specs;
+        (specs.thrust_friction.static_ratio, specs.limited_slip.static_ratio) = (1.6, 1.3);
+        for (sliding, speed, slope) in [
+            (&mut specs.thrust_friction.sliding, 0.05, -0.8),
+            (&mut specs.limited_slip.sliding, 0.2, 0.3),
+            (&mut specs.wheel_brake.sliding, 0.0, -0.05),
+        ] {
+            (sliding.stribeck_speed, sliding.slip_slope) = (speed, slope);
+        }
+    };
     vec![
         ("plain", turn(|_| {})),
         ("lumped", turn(|p| p.scene.gear_contact = GearContact::Lumped)),
@@ -41,6 +60,8 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         ("errors", turn(|p| (line(p), errors(p)).0)),
         ("friction", turn(|p| (line(p), friction(p)).0)),
         ("pins", turn(|p| (line(p), pins(p)).0)),
+        ("by speed", braked(turn(by_speed))),
+        ("by speed, bodies, pins", braked(turn(|p| (bodies(p), by_speed(p), pins(p)).0))),
         ("bodies", turn(bodies)),
         ("bodies, errors", turn(|p| (bodies(p), errors(p)).0)),
         ("bodies, friction", turn(|p| (bodies(p), friction(p)).0)),
@@ -72,7 +93,7 @@ fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
         let mut simulation = Simulation::start(&parameters, &inputs, 0.0).expect(name);
         for stop in [1e-3, 4e-3, 9e-3] {
             simulation.advance(stop).expect(name);
-            let (state, n) = (simulation.state(), simulation.freedoms());
+            let (state, n) = (simulation.state(), simulation.degrees_of_freedom());
             let at = [state.q[..n].to_vec(), state.v[..n].to_vec()];
             let mut rows = vec![0.0; 4 * n * n];
             simulation.slopes(&at[0], &at[1], &mut rows);

@@ -291,7 +291,7 @@ fn a_tooth_breaks_on_time_between_communication_points() {
         let mut simulation = scene.start();
         for &point in &points {
             simulation.advance(point).unwrap();
-            assert_eq!(simulation.state().fault, point >= 0.01234 - 1e-15, "at {point}");
+            assert_eq!(simulation.state().is_tooth_broken, point >= 0.01234 - 1e-15, "at {point}");
         }
     }
 }

@@ -10,6 +10,7 @@ RUN       tolerances of the solver, of what was turned over, by which the moment
 
 import numpy as np
 import outline_solids
+import theory
 
 INSTANT, SOLIDS, RUN = 1e-9, 2e-5, 10.0
 SIDES = ["left", "right"]
@@ -33,7 +34,7 @@ class Momentum:
         self.ends = opened.read([f"inertia.{s}_end" for s in SIDES])
         self.drag = {name: opened.get(f"bearing_drag.{name}") for name in
                      ["carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous",
-                      "breakaway_speed"]}
+                      "breakaway_speed", "viscosity_from_oil", "reference_temperature"]}
         self.pins = [f"planet[{i + 1}].pin_speed" if self.on["effects.pin_compliance"] else "carrier.speed"
                      for i in range(self.planets)]
         self.bodies = ["carrier.speed", *self.pins, "left.speed", "right.speed"]
@@ -70,10 +71,14 @@ class Momentum:
         if not self.on["effects.bearing_drag"]:
             return np.zeros(3)
         d = self.drag
+        thick = 1.0
+        if d["viscosity_from_oil"]:
+            oil, points = self.opened.get("temperature.oil"), [self.opened.get(f"oil.{name}") for name in theory.OIL]
+            thick = theory.viscosity(oil, *points) / theory.viscosity(d["reference_temperature"], *points)
         built_up = np.tanh(speeds / d["breakaway_speed"])
-        carrier = d["carrier_torque"] * built_up[0] + d["carrier_viscous"] * speeds[0]
+        carrier = d["carrier_torque"] * built_up[0] + thick * d["carrier_viscous"] * speeds[0]
         carrier += d["carrier_churning"] * speeds[0] * abs(speeds[0])
-        return np.array([carrier, *(d["side_torque"] * built_up[1:] + d["side_viscous"] * speeds[1:])])
+        return np.array([carrier, *(d["side_torque"] * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
 
     def check(self):
         """Asserts the balance at the present instant."""

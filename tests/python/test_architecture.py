@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-ROOMS = ("src", "crates", "fmu-build", "python", "tests", "benches", "scenes", "examples")
+FOLDERS = ("src", "crates", "fmu-build", "python", "tests", "benches", "scenes", "examples")
 SOURCES = {".rs", ".py", ".toml", ".js", ".h", ".c", ".csv"}
-FILES = {file.relative_to(ROOT).as_posix(): file for room in ROOMS for file in (ROOT / room).rglob("*")
+FILES = {file.relative_to(ROOT).as_posix(): file for folder in FOLDERS for file in (ROOT / folder).rglob("*")
          if file.suffix in SOURCES and file != Path(__file__) and not {"target", "node_modules"} & set(file.parts)}
 TEXT = "\n".join(file.read_text(encoding="utf-8") for path, file in FILES.items() if not path.endswith(".csv"))
 PATH = re.compile(r"[\w./*-]+")

@@ -102,8 +102,8 @@ def test_figures_of_the_ladder_are_means_ranges_and_peaks():
     speed = np.array([1.0, 3.0, 2.0])
     points = dict(zip(["time", *ladder.OUTPUTS, "heat"],
                       [np.array([0.0, 1.0, 2.0]), speed, 7.0 + 0.0 * speed, 100.0 * speed, -speed, 1e-6 * speed, np.array([0.0, 1.0, 2.0])]))
-    assert ladder.Turn.looked(points) == pytest.approx([2.0, 200.0, 300.0, 1.0, 2e-6, 2e-6, 2.0])
-    assert ladder.Clunk.looked(points) == pytest.approx([7.0, -1.0, 0.0, math.sqrt(14.0 / 3.0), 300.0, 2.0])
+    assert ladder.Turn.quantities_of(points) == pytest.approx([2.0, 200.0, 300.0, 1.0, 2e-6, 2e-6, 2.0])
+    assert ladder.Clunk.quantities_of(points) == pytest.approx([7.0, -1.0, 0.0, math.sqrt(14.0 / 3.0), 300.0, 2.0])
 
 
 def test_every_rung_of_the_ladder_is_richer_than_the_one_before():

@@ -48,7 +48,7 @@ def test_optimise_says_that_it_would_optimise_the_blow(fmu, tmp_path):
         file = tmp_path / "problem.toml"
         file.write_text(f"description = \"some gears\"\nscene = \"scene.toml\"\nobjectives = [{objectives}]\n"
                         "[vary]\ngeometry.module = \"4 mm..6 mm\"\n")
-        return Problem.load(file, fmu).rates_start()
+        return Problem.load(file, fmu).start_warning()
 
     assert "safety.root_min" in problem("rolling") and "strength.rate_from" in problem("rest")
     assert not problem("equilibrium")

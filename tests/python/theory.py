@@ -1,6 +1,6 @@
 """Closed forms for the default gears, written here from the formulas and not taken from the program."""
 
-from math import asin, atan2, cos, pi, radians, sin
+from math import asin, atan2, cos, log10, pi, radians, sin
 
 MODULE, PLANET_TEETH, SIDE_TEETH = 4.5e-3, 10, 16
 FACE_WIDTH, PRESSURE_ANGLE, BACKLASH = 20e-3, radians(20.0), 1e-4
@@ -48,3 +48,16 @@ def half_play():
 def largest_wind_up():
     """Rotation of a side gear [rad] under the load if one pair of each mesh carries it alone."""
     return (normal_force() / STIFFNESS) ** (1.0 / EXPONENT) / MEAN_CONE / SIDE_LEVER
+
+
+# what the viscosity of an oil hangs on, in the order of `viscosity`
+OIL = ["viscosity_40", "viscosity_100", "density", "density_fall"]
+
+
+def viscosity(kelvin, at_40=1e-4, at_100=1.5e-5, density=870.0, fall=0.65):
+    """Dynamic viscosity of an oil at a temperature [Pa.s]: ASTM D341 through the kinematic ones at 40 and 100 degC [m2/s], and
+    its density at 15 degC less its fall [kg/m3]."""
+    ends = [log10(log10(1e6 * of + 0.7)) for of in (at_40, at_100)]
+    place = log10(kelvin / 313.15) / log10(373.15 / 313.15)
+    kinematic = 1e-6 * (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7)
+    return kinematic * (density - fall * (kelvin - 288.15))

@@ -231,7 +231,7 @@ fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
 #[test]
 fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
     // scene.start: equilibrium, rolling, rest
-    for (start, from, strength, told) in
+    for (start, from, strength, has_note) in
         [(3, 0.0, 1, true), (2, 0.0, 1, true), (1, 0.0, 1, false), (2, 0.05, 1, false), (2, 0.0, 0, false)]
     {
         let values = [("planet.spin_command", 3.5), ("strength.rate_from", from)];
@@ -244,8 +244,8 @@ fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
             || host.log().into_iter().filter(|line| line.message.contains("strength.rate_from")).collect::<Vec<_>>();
         assert!(about().is_empty());
         assert_eq!(host.terminate(), Status::Ok);
-        assert_eq!(about().len(), usize::from(told), "start {start}, from {from}: {:?}", host.log());
-        if told {
+        assert_eq!(about().len(), usize::from(has_note), "start {start}, from {from}: {:?}", host.log());
+        if has_note {
             assert_contains(
                 &about()[0].message,
                 &["not in equilibrium", &format!("roots was {safety:.3} at t = 0.00")],

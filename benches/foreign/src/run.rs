@@ -47,7 +47,7 @@ impl Run {
             assign_all(later, &mut p, &mut inputs)?;
             start = Simulation::resume(&p, &inputs, state).map_err(listed)?;
         }
-        let magnitudes = vec![1.0; 2 * start.freedoms()];
+        let magnitudes = vec![1.0; 2 * start.degrees_of_freedom()];
         Ok(Self { start, inputs, magnitudes, entries: None, counts: [0; 2], message: CString::default() })
     }
 

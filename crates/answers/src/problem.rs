@@ -39,16 +39,16 @@ impl Problem {
     }
 
     /// The same error with unit and range of `row`.
-    pub fn at(mut self, row: &Variable) -> Self {
+    pub fn about(mut self, row: &Variable) -> Self {
         self.variable.get_or_insert_with(|| row.name.to_owned());
         self.unit = row.unit.map(|unit| unit.name);
         self.range = row.range.map(|range| [range.min, range.max]);
         self
     }
 
-    /// The same error with `place` in front of its message.
-    pub fn in_place(mut self, place: &str) -> Self {
-        self.message = format!("{place}{}", self.message);
+    /// The same error with `prefix` in front of its message.
+    pub fn prefixed(mut self, prefix: &str) -> Self {
+        self.message = format!("{prefix}{}", self.message);
         self
     }
 }
@@ -65,7 +65,7 @@ impl From<&bevel_differential::problem::Problem> for Problem {
     fn from(found: &bevel_differential::problem::Problem) -> Self {
         let problem = Self { variable: Some(found.variable.to_owned()), ..Self::from(found.to_string()) };
         match bevel_differential::variables::named(found.variable) {
-            Some(row) => problem.at(row),
+            Some(row) => problem.about(row),
             None => problem,
         }
     }
@@ -110,6 +110,6 @@ impl Problems {
 }
 
 /// The error of a question that makes no sense, in one sentence.
-pub fn wrong(what: impl Into<String>) -> anyhow::Error {
+pub fn question_error(what: impl Into<String>) -> anyhow::Error {
     Problems::from(Problem::from(what.into())).into()
 }

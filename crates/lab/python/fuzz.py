@@ -21,12 +21,12 @@ HEAD = ["function", "calls", "OK", "warning", "discard", "error", "mean, µs", "
 
 
 class Worker:
-    """A process that works off rounds from a seed on. `round`: the seed of the present one; `rounds`: how many were begun; `told`: what
+    """A process that works off rounds from a seed on. `round`: the seed of the present one; `rounds`: how many were begun; `tally`: what
     it counted; `why`: what went wrong."""
 
     def __init__(self, program, seed, rounds, calls, command):
         self.again = f"{command} fuzz --calls {calls} --seed "
-        self.round, self.rounds, self.told, self.why, self.since = seed, 0, None, None, time.monotonic()
+        self.round, self.rounds, self.tally, self.why, self.since = seed, 0, None, None, time.monotonic()
         self.process = subprocess.Popen([program, "fuzz", "--worker", "--seed", str(seed), "--calls", str(rounds * calls)], text=True,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
@@ -37,10 +37,10 @@ class Worker:
             if line.startswith("round "):
                 self.round, self.rounds = int(line.split()[1]), self.rounds + 1
             else:
-                self.told = json.loads(line)
+                self.tally = json.loads(line)
         messages = self.process.stderr.read().rstrip().removeprefix("error: ")
         status = self.process.wait()
-        if self.told is None and self.why is None:
+        if self.tally is None and self.why is None:
             crash = f"crashed (signal {-status})\nagain: {self.again}{self.round}\n" if status < 0 else ""
             self.why = f"{crash}{messages}" or "a worker reported no counts"
         ended.put(self)
@@ -68,12 +68,12 @@ def worked(workers, rounds, calls):
             for worker in left:
                 if time.monotonic() - worker.since > PATIENCE:
                     worker.stop(f"a round took more than {PATIENCE:g} s\nagain: {worker.again}{worker.round}")
-        done = sum(worker.rounds - (worker.told is None) for worker in workers)
+        done = sum(worker.rounds - (worker.tally is None) for worker in workers)
         say(max(done, 0) / max(rounds, 1), f"{max(done, 0) * calls} calls")
     failures = [worker.why for worker in workers if worker.why]
     if failures:
         raise SystemExit("\n\n".join(failures))
-    return [worker.told for worker in workers]
+    return [worker.tally for worker in workers]
 
 
 def page(tallies):

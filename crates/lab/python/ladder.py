@@ -32,13 +32,13 @@ TURN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.plan
 class Turn:
     """The study's turn: one mesh cycle, after one to settle. Names and units of the quantities, times [s], start values."""
 
-    name, settled, end, every = "turn", 0.18, 0.36, 5e-4
-    values, later = TURN, {}
+    name, settled, end, interval = "turn", 0.18, 0.36, 5e-4
+    values, changes = TURN, {}
     quantities = {"mean speed, left": "rad/s", "mean mesh force": "N", "peak mesh force": "N", "speed ripple, left": "1",
                   "mean deflection": "m", "deflection, peak to peak": "m", "heat of one tooth": "J"}
 
     @staticmethod
-    def looked(points):
+    def quantities_of(points):
         """Values of the quantities in a record."""
         speed, force, deflection = (points[name] for name in (OUTPUTS[0], OUTPUTS[2], OUTPUTS[4]))
         return [np.mean(speed), np.mean(force), np.max(force), np.ptp(speed) / np.mean(speed), np.mean(deflection), np.ptp(deflection),
@@ -49,7 +49,7 @@ class Clunk:
     """The scene clunk with the study's gears, damped by restitution, and with its inputs from the start on: with gears as light and
     undamped as the scene has them, teeth rattle on and solutions that differ by rounding diverge."""
 
-    name, settled, end, every = "clunk", 0.0, 0.02, 1e-5
+    name, settled, end, interval = "clunk", 0.0, 0.02, 1e-5
     quantities = {"speed of the carrier at the end": "rad/s", "peak shaft torque": "N.m", "time of the peak": "s",
                   "speed of the left gear, rms": "rad/s", "peak mesh force": "N", "heat": "J"}
 
@@ -57,10 +57,10 @@ class Clunk:
         study = {name: fmu.variable(name).start for name in ("inertia.side_gear", "inertia.planet")}
         with Scene.load("clunk", fmu=fmu) as scene:
             self.values = {**scene.values, **study, "contact.damping_model": "restitution"}
-            self.later = {name: value for _, values in scene.changes for name, value in values.items()}
+            self.changes = {name: value for _, values in scene.changes for name, value in values.items()}
 
     @staticmethod
-    def looked(points):
+    def quantities_of(points):
         """Values of the quantities in a record."""
         torque = points[OUTPUTS[3]]
         return [points[OUTPUTS[1]][-1], np.max(torque), points["time"][np.argmax(torque)], math.sqrt(np.mean(points[OUTPUTS[0]] ** 2)),
@@ -72,11 +72,11 @@ def record(fmu, scene, values):
     heats = [name for name in fmu.variables if name.startswith("heat.")]
     rows = []
     with fmu.open() as instance:
-        instance.initialise(values).set(scene.later)
-        for k in range(round(scene.end / scene.every)):
-            time = (k + 1) * scene.every
-            instance.do_step(k * scene.every, time - k * scene.every)
-            if time >= scene.settled - 0.5 * scene.every:
+        instance.initialise(values).set(scene.changes)
+        for k in range(round(scene.end / scene.interval)):
+            time = (k + 1) * scene.interval
+            instance.do_step(k * scene.interval, time - k * scene.interval)
+            if time >= scene.settled - 0.5 * scene.interval:
                 read = instance.read([*OUTPUTS, *heats])
                 rows.append([time, *read[:len(OUTPUTS)], sum(read[len(OUTPUTS):])])
     return dict(zip(["time", *OUTPUTS, "heat"], np.array(rows).T))
@@ -87,30 +87,30 @@ def measure(fmu, folder, short, begin, end):
     scenes, calls, runs = [Turn(), Clunk(fmu)], Calls(folder), []
     for scene in scenes:
         values = dict(scene.values)
-        for name, (words, more) in RUNGS.items():
+        for name, (description, more) in RUNGS.items():
             values |= more
-            runs.append((scene, name, words, dict(values)))
+            runs.append((scene, name, description, dict(values)))
     found = []
     for done, (scene, name, _, values) in enumerate(runs):
         say(begin + 0.2 * (end - begin) * done / len(runs), f"ladder: {scene.name}, {name}")
         try:
-            found.append(("ok", "", list(map(float, scene.looked(record(fmu, scene, values))))))
+            found.append(("ok", "", list(map(float, scene.quantities_of(record(fmu, scene, values))))))
         except DifferentialError as why:
             found.append(("failed", str(why), [math.nan] * len(scene.quantities)))
 
     def take(run, _):
         (scene, *_, values), (status, *_) = run
-        return [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.later)] if status == "ok" else []
+        return [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.changes)] if status == "ok" else []
 
     bar = begin + 0.2 * (end - begin), end
     seconds = in_turn(list(zip(runs, found)), 1 if short else ROUNDS, take, bar, "ladder: times")
     rows = [HEAD]
-    for place, ((scene, name, words, _), (status, message, values)) in enumerate(zip(runs, found)):
+    for place, ((scene, name, description, _), (status, message, values)) in enumerate(zip(runs, found)):
         first = place // len(RUNGS) * len(RUNGS)
         median, low, high = quartiles(seconds[place])
         unit, richest = quartiles(seconds[first])[0], found[first + len(RUNGS) - 1][2]
         for (quantity, unit_of), value, best in zip(scene.quantities.items(), values, richest):
-            rows.append([scene.name, name, words, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
+            rows.append([scene.name, name, description, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
                          len(seconds[place]), median, low, high, median / unit])
     write_measured(folder / "fidelity_ladder.csv", [
         "error: difference from the richest rung over its value; cost: cpu_s over that of the ideal rung",

@@ -22,7 +22,7 @@ STEPS = 100
 # how often a step is timed
 REPEATS = 3
 # port of fmpy's server, time limit of its start [s], and pause between checks [s]
-PORT, PATIENCE, PAUSE = 8080, 60.0, 0.1
+PORT, START_TIMEOUT, PAUSE = 8080, 60.0, 0.1
 
 
 class Platform:
@@ -142,7 +142,7 @@ class Windows(Platform):
 
     def serve(self):
         """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + START_TIMEOUT
         while is_listening():
             self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
         library = "Z:" + str(self.binary).replace("/", "\\")
@@ -157,7 +157,7 @@ class Windows(Platform):
     @staticmethod
     def wait(deadline, problem):
         if time.monotonic() > deadline:
-            sys.exit(f"{problem}: no success after {PATIENCE:g} s")
+            sys.exit(f"{problem}: no success after {START_TIMEOUT:g} s")
         time.sleep(PAUSE)
 
 

@@ -65,7 +65,7 @@ class Case:
         clunk = Clunk(fmu) if motion == "clunk" else None
         start = {"scene.start": "rolling"} if motion == "blow" else {}
         self.values = {**(clunk.values if clunk else TURN), **start, **FIDELITIES[fidelity]}
-        self.later = clunk.later if clunk else {}
+        self.changes = clunk.changes if clunk else {}
         self.times, begin = [], 0.0
         for end, step in self.stretches:
             self.times += [begin + step * (k + 1) for k in range(round((end - begin) / step))]
@@ -86,7 +86,7 @@ class Case:
         found, before = [], 0.0
         with self.fmu.open() as instance:
             instance.log(["logStatusWarning", "logStatusDiscard", "logStatusError", "logEvents"])
-            instance.initialise(self.with_solver(method, value)).set(self.later)
+            instance.initialise(self.with_solver(method, value)).set(self.changes)
             begun = time.process_time()
             for now in self.times:
                 instance.do_step(before, now - before)
@@ -167,7 +167,7 @@ def measure(fmu, folder, plan, begin, end):
         if run["ends"][0] != "ok" or (number and run["first"] > LONG):
             return []
         case = run["case"]
-        return [own for _, own in calls.seconds(fmu, case.with_solver(*run["setting"]), [], case.stretches, RUNS, case.later)]
+        return [own for _, own in calls.seconds(fmu, case.with_solver(*run["setting"]), [], case.stretches, RUNS, case.changes)]
 
     seconds = in_turn(runs, plan.rounds, take, (begin + 0.3 * (end - begin), end), "measuring times")
     units = {run["case"]: quartiles(taken)[0] for run, taken in zip(runs, seconds) if run["setting"] == DEFAULT}

@@ -132,16 +132,16 @@ def prices(bench, fmu, switches, with_pairs, folder):
             row, of_one, _ = priced.row(f"`{a}`, `{b}`", singles[a] | singles[b])
             rows.append([*row[:2], *row[3:7], f"{of_one / (known[a] + known[b] - 1.0):.2f}"])
         write(folder, "pairs.csv", rows)
-        text += pairs_told(rows[1:])
+        text += pairs_text(rows[1:])
     return text
 
 
-def pairs_told(rows):
+def pairs_text(rows):
     """Pairs that cost far more than the sum of both alone, and the range of the others."""
     dear = sorted((row for row in rows if float(row[-1]) >= DEAR), key=lambda row: -float(row[-1]))
     others = [float(row[-1]) for row in rows if float(row[-1]) < DEAR]
-    told = f"\nOf {len(rows)} pairs {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both alone"
-    return f"{told}. The others:\n\n{markdown([['on', 'over plain', 'over the sum'], *([row[0], row[4].split(' ')[0], row[-1]] for row in dear)])}"
+    most_pairs = f"\nOf {len(rows)} pairs {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both alone"
+    return f"{most_pairs}. The others:\n\n{markdown([['on', 'over plain', 'over the sum'], *([row[0], row[4].split(' ')[0], row[-1]] for row in dear)])}"
 
 
 def write(folder, name, rows):

@@ -37,11 +37,11 @@ def page(found):
 
 
 def _sentences(found):
-    told = []
+    orders = []
     for quantity, what in ORDERED.items():
         fine = [[pair for pair in found.series(quantity, which) if pair[0] >= FINE] for which in (0, 1)]
-        told.append(f"{what} {' and '.join(f'{fitted(pairs):.1f}' if len(pairs) > 1 else '–' for pairs in fine)}")
-    return f"Observed orders in 1/facets, fitted from {FINE} facets on, deepest point and patch: {'; '.join(told)}.\n"
+        orders.append(f"{what} {' and '.join(f'{fitted(pairs):.1f}' if len(pairs) > 1 else '–' for pairs in fine)}")
+    return f"Observed orders in 1/facets, fitted from {FINE} facets on, deepest point and patch: {'; '.join(orders)}.\n"
 
 
 def _errors(found, which):

@@ -39,7 +39,7 @@ fn commands() -> impl Iterator<Item = Command> {
 
 fn program() -> Program {
     let group = |commands: Vec<Command>| {
-        clap::Command::new("room").subcommands(commands.into_iter().map(|command| command.declared))
+        clap::Command::new("group").subcommands(commands.into_iter().map(|command| command.declared))
     };
     let help = clap::Command::new("help").about("Shows this overview, or the options of a command").hide(true);
     Program {
@@ -84,12 +84,12 @@ mod tests {
 
     #[test]
     fn users_are_told_of_every_command_and_of_former_names() {
-        let told: BTreeSet<&str> = IN_THE_LABORATORY.into();
+        let listed: BTreeSet<&str> = IN_THE_LABORATORY.into();
         let groups = program().groups;
         let commands = groups.iter().flat_map(|(_, group)| group.get_subcommands());
         let names: BTreeSet<&str> =
             commands.flat_map(|c| std::iter::once(c.get_name()).chain(c.get_all_aliases())).collect();
-        assert_eq!(told, names);
+        assert_eq!(listed, names);
     }
 
     #[test]

@@ -148,12 +148,14 @@ pub(super) fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'stat
 
 pub(super) fn unit(unit: &Unit) -> Element {
     let base = unit.base.map(|base| {
-        let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
+        let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("K", base.k), ("rad", base.rad)];
         let given = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
         given.fold(Element::new("BaseUnit"), |element, (name, exponent)| element.with(name, exponent))
     });
-    let display =
-        |shown: &DisplayUnit| Element::new("DisplayUnit").with("name", shown.name).with("factor", number(shown.factor));
+    let display = |shown: &DisplayUnit| {
+        let element = Element::new("DisplayUnit").with("name", shown.name).with("factor", number(shown.factor));
+        if shown.offset == 0.0 { element } else { element.with("offset", number(shown.offset)) }
+    };
     Element::new("Unit").with("name", unit.name).children(base).children(unit.display.iter().map(display))
 }
 

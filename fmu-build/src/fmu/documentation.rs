@@ -226,7 +226,7 @@ fn unit(row: &Variable) -> String {
 /// A number in the unit that hosts show, rounded to `digits` significant digits.
 fn shown(row: &Variable, value: f64, digits: u32) -> String {
     let Some(display) = row.display else { return short(value, digits) };
-    format!("{} {}", short(value * display.factor, digits), display.name)
+    format!("{} {}", short(display.show(value), digits), display.name)
 }
 
 /// Start value of a variable, as hosts show it.

@@ -14,7 +14,7 @@ use crate::tools::paths;
 use crate::tools::sections;
 use answers::text::table::Table;
 
-type Declared = bevel_differential::model::effects::Declared;
+type EffectEntry = bevel_differential::model::effects::EffectEntry;
 
 /// Most letters of a description in a table of the documents, so that no line is longer than 160.
 const LONGEST: usize = 96;
@@ -51,7 +51,7 @@ pub fn write_json(fmu: &Path) -> Result<()> {
         .with_context(|| format!("{} cannot be written", paths::shown(&file)))
 }
 
-fn described(effect: &Declared) -> Value {
+fn described(effect: &EffectEntry) -> Value {
     json!({
         "name": effect.switch.unwrap_or(effect.name),
         "switch": effect.switch,
@@ -66,7 +66,7 @@ fn described(effect: &Declared) -> Value {
 }
 
 /// Literals of scene.gear_contact that the effect works with.
-fn contacts(effect: &Declared) -> Vec<&'static str> {
+fn contacts(effect: &EffectEntry) -> Vec<&'static str> {
     let Some(Access::Enumeration(kind, ..)) = named("scene.gear_contact").map(|row| row.access) else {
         return Vec::new();
     };
@@ -75,14 +75,14 @@ fn contacts(effect: &Declared) -> Vec<&'static str> {
 }
 
 /// Rows of the effect's own parameters, named `NAME.parameter`.
-fn own_parameters(effect: &Declared) -> impl Iterator<Item = &'static Variable> {
+fn own_parameters(effect: &EffectEntry) -> impl Iterator<Item = &'static Variable> {
     let prefix = format!("{}.", effect.name);
     let is_parameter = |row: &&Variable| row.causality == Causality::Parameter;
     table().rows.iter().filter(is_parameter).filter(move |row| row.name.starts_with(&prefix))
 }
 
 /// Rows of the effect's inputs.
-fn inputs(effect: &Declared) -> Vec<bevel_differential::declaration::Row<InputField>> {
+fn inputs(effect: &EffectEntry) -> Vec<bevel_differential::declaration::Row<InputField>> {
     effects::inputs_of(effect.name)
 }
 
@@ -110,7 +110,7 @@ fn interface() -> Table {
 }
 
 /// Own inputs and outputs of an effect: of both sides those of the left, of all planets `planet[i]`, of a group `GROUP.*`.
-fn own_names(effect: &Declared) -> String {
+fn own_names(effect: &EffectEntry) -> String {
     let inputs = inputs(effect);
     let heat = effect.heat.map(|heat| heat.output);
     let all = inputs.iter().map(|row| row.name).chain(heat).chain(effect.readings.iter().map(|reading| reading.name));
@@ -130,13 +130,24 @@ fn group(name: &str) -> &str {
     name.split_once('.').map_or(name, |(group, _)| group)
 }
 
-/// Every parameter of every effect.
+/// Every parameter of every effect; what several effects have alike stands once, as `*.parameter`.
 fn parameters() -> Table {
     let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
-    for row in EFFECTS.iter().flat_map(own_parameters) {
-        table.push([format!("`{}`", row.name), start_with_unit(row), brief(row.description).to_owned()]);
+    let all: Vec<&Variable> = EFFECTS.iter().flat_map(own_parameters).collect();
+    let told = |row: &Variable| (own_part(row.name), start_with_unit(row), row.description);
+    for (k, row) in all.iter().enumerate() {
+        let alike: Vec<usize> = (0..all.len()).filter(|&other| told(all[other]) == told(row)).collect();
+        if alike[0] == k {
+            let name = if alike.len() > 1 { format!("`*.{}`", own_part(row.name)) } else { format!("`{}`", row.name) };
+            table.push([name, start_with_unit(row), brief(row.description).to_owned()]);
+        }
     }
     table
+}
+
+/// The part of a variable's name after the first dot.
+fn own_part(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(_, own)| own)
 }
 
 /// Start value of a parameter with its unit.

@@ -41,9 +41,9 @@ impl EvidenceCommand {
             .arg(&fmu)
             .arg(paths::workspace().join(SCENES))
             .arg(paths::evidence());
-        let told = script::follow(&mut command, SCRIPT, &progress)?;
+        let output = script::follow(&mut command, SCRIPT, &progress)?;
         progress.finish();
-        print!("{told}");
+        print!("{output}");
         println!("{} is renewed; the next packaging takes it into the FMU", paths::shown(&paths::evidence()));
         Ok(())
     }

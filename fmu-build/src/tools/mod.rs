@@ -1,5 +1,5 @@
 //! Shared tools: tables, marked sections of documents, paths, progress, Python. Nothing here knows gears or the FMU, and
-//! nothing here uses another room.
+//! nothing here uses another module.
 
 pub mod files;
 pub mod paths;

@@ -32,7 +32,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     library = _library()
     raised: list[BaseException] = []
 
-    def told(_context, done, what):
+    def on_progress(_context, done, what):
         try:
             if progress is not None and not raised:
                 progress(done, what.decode())
@@ -40,7 +40,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
             raised.append(stopped)
         return len(raised)
 
-    callback = _PROGRESS(told)
+    callback = _PROGRESS(on_progress)
     values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
     text = json.dumps(question, default=_plain).encode()
     with _interrupts(raised):
@@ -50,8 +50,8 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     if raised:
         raise raised[0]
     if "answer" not in found:
-        told = "\n".join(problem["message"] for problem in found["problems"])
-        raise DifferentialError(told, kind=found["kind"], problems=found["problems"])
+        message = "\n".join(problem["message"] for problem in found["problems"])
+        raise DifferentialError(message, kind=found["kind"], problems=found["problems"])
     return found["answer"]
 
 

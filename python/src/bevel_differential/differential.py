@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # what `run` records by default
-USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
+DEFAULT_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
 
 
 class Runner(Closing):
@@ -98,16 +98,16 @@ class Differential(Runner):
         self.set(parameters, **keywords)
 
     @overload
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
             frame: Literal[False] = False) -> np.ndarray: ...
 
     @overload
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None, *,
             frame: Literal[True]) -> "pandas.DataFrame": ...
 
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
             frame: bool = False) -> "np.ndarray | pandas.DataFrame":
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").

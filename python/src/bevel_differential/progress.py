@@ -18,12 +18,12 @@ def shown(how: str = "bar") -> Iterator[Progress]:
     layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
     with tqdm(total=100, dynamic_ncols=True, leave=False, bar_format=layout, disable=how == "none" or None) as bar:
 
-        def told(done: float, what: str) -> None:
+        def report(done: float, what: str) -> None:
             bar.set_description_str(what, refresh=False)
             bar.update(max(min(round(100.0 * done), 100) - bar.n, 0))
             bar.refresh()
 
-        yield told
+        yield report
 
 
 def silent(done: float, what: str) -> None:

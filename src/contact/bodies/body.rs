@@ -67,9 +67,10 @@ impl GearBody {
                 let compliance = of(n)?;
                 let waves = root.waves(n);
                 let factor = if n == 0 { area } else { 2.0 * area };
-                let moved =
+                let displacements =
                     waves.map(|load| [0, 1, 2].map(|k| (0..3).map(|j| compliance[(k, j)] * load[j]).sum::<f64>()));
-                Ok(waves.map(|by| [0, 1, 2].map(|of| factor * (0..3).map(|k| by[k] * moved[of][k]).sum::<f64>())))
+                Ok(waves
+                    .map(|by| [0, 1, 2].map(|of| factor * (0..3).map(|k| by[k] * displacements[of][k]).sum::<f64>())))
             })
             .collect::<Result<_, Problem>>()?;
         Ok(Self { root, harmonics })
@@ -77,7 +78,7 @@ impl GearBody {
 
     /// Compliance between the load on one tooth (column) and the displacement of a tooth that stands `angle` [rad] further
     /// toward positive ζ (row) [1/Pa].
-    pub fn between(&self, angle: f64) -> [[f64; 3]; 3] {
+    pub fn compliance_between(&self, angle: f64) -> [[f64; 3]; 3] {
         let mut sum = [[0.0; 3]; 3];
         // angle sums: one sine and cosine for all
         let (step_sin, step_cos) = sin_cos(angle.rem_euclid(TAU) - if angle.rem_euclid(TAU) > PI { TAU } else { 0.0 });
@@ -98,10 +99,10 @@ impl GearBody {
         sum
     }
 
-    /// Displacement of one tooth along the load `measured`, caused by the load `acting` on another; `between` is the
-    /// compliance of the two teeth [1/Pa].
-    pub fn moved(between: &[[f64; 3]; 3], measured: &RootLoad, acting: &RootLoad) -> f64 {
-        (0..3).map(|i| measured[i] * (0..3).map(|j| between[i][j] * acting[j]).sum::<f64>()).sum()
+    /// Displacement of one tooth along the load `measured`, caused by the load `acting` on another; `compliance` is that
+    /// between the two teeth [1/Pa].
+    pub fn displacement(compliance: &[[f64; 3]; 3], measured: &RootLoad, acting: &RootLoad) -> f64 {
+        (0..3).map(|i| measured[i] * (0..3).map(|j| compliance[i][j] * acting[j]).sum::<f64>()).sum()
     }
 }
 

@@ -98,7 +98,7 @@ impl MeshOnBodies {
         let mut sum = [[0.0; 3]; 3];
         for planet in 0..self.presses[i] {
             let around = TAU * f64::from(planet) / f64::from(self.presses[i]);
-            let between = self.bodies[i].between(pitches * self.pitches[i] + around);
+            let between = self.bodies[i].compliance_between(pitches * self.pitches[i] + around);
             for (to, from) in sum.as_flattened_mut().iter_mut().zip(between.as_flattened()) {
                 *to += from;
             }
@@ -123,7 +123,7 @@ impl MeshOnBodies {
                     [sign * across, along, sign * moment]
                 });
                 let count = self.teeth_of(i) as i64;
-                GearBody::moved(&self.around[i][further[i].rem_euclid(count) as usize], &measured, &acting)
+                GearBody::displacement(&self.around[i][further[i].rem_euclid(count) as usize], &measured, &acting)
             })
             .sum()
     }
@@ -147,7 +147,7 @@ impl MeshOnBodies {
     pub fn gear(&self, i: usize, roll: f64) -> f64 {
         let root = self.root_load(i, roll);
         self.teeth.sections[i].beam_compliance(roll, &self.teeth.elasticity, self.softening[i])
-            + GearBody::moved(&self.between[i][0], &root, &root)
+            + GearBody::displacement(&self.between[i][0], &root, &root)
     }
 
     /// Compliances of a pair alone at place `s` [rad] on the path under a line load per cone distance of `load` [N/m²].
@@ -169,7 +169,11 @@ impl MeshOnBodies {
             .into_iter()
             .filter(|_| further < NEIGHBOURS)
             .map(|i| {
-                GearBody::moved(&self.between[i][further], &self.root_load(i, there[i]), &self.root_load(i, here[i]))
+                GearBody::displacement(
+                    &self.between[i][further],
+                    &self.root_load(i, there[i]),
+                    &self.root_load(i, here[i]),
+                )
             })
             .sum()
     }

@@ -56,16 +56,16 @@ impl Polynomial {
     pub fn at<const TWICE: bool>(&self, u: f64) -> [f64; 3] {
         let free = (u - self.middle) * self.per_half;
         let x = free.clamp(-1.0, 1.0);
-        let (mut value, mut slope, mut bend) = (self.terms[DEGREE], 0.0, 0.0);
+        let (mut value, mut slope, mut curvature) = (self.terms[DEGREE], 0.0, 0.0);
         for term in self.terms[..DEGREE].iter().rev() {
             if TWICE {
-                bend = bend * x + 2.0 * slope;
+                curvature = curvature * x + 2.0 * slope;
             }
             slope = slope * x + value;
             value = value * x + term;
         }
         let scale = if free == x { self.per_half } else { 0.0 };
-        [value, slope * scale, bend * scale * scale]
+        [value, slope * scale, curvature * scale * scale]
     }
 }
 
@@ -86,7 +86,7 @@ mod tests {
                 assert!((found[k] - exact[k]).abs() < [1e-6, 1e-4, 1e-2][k], "{s}: {found:?} {exact:?}");
             }
         }
-        let [end, slope, bend] = polynomial.at::<true>(2.0);
-        assert!((end - libm::exp(0.4) * cos(0.8)).abs() < 1e-6 && (slope, bend) == (0.0, 0.0));
+        let [end, slope, curvature] = polynomial.at::<true>(2.0);
+        assert!((end - libm::exp(0.4) * cos(0.8)).abs() < 1e-6 && (slope, curvature) == (0.0, 0.0));
     }
 }

@@ -198,8 +198,8 @@ impl PairCouplings {
         } else {
             [0.5, -0.5]
         };
-        let [value, slope, bend] = polynomial.at::<TWICE>(own * a.s + other * b.s);
-        let hessian = [own * own * bend, own * other * bend, other * other * bend];
+        let [value, slope, curvature] = polynomial.at::<TWICE>(own * a.s + other * b.s);
+        let hessian = [own * own * curvature, own * other * curvature, other * other * curvature];
         Coupling { value, gradient: [own * slope, other * slope], hessian }
     }
 }

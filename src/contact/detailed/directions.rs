@@ -17,7 +17,7 @@ pub struct Directions {
 
 /// Direction of a unit normal: parts along the axes of planet and side gear, away from the apex, and along the rotation.
 #[derive(Clone, Copy, Debug)]
-pub struct Normal {
+pub struct NormalParts {
     /// The parts.
     pub parts: [f64; 3],
     /// Their slopes, by the place on the path or by the arc Δ past its end.
@@ -104,7 +104,7 @@ impl Directions {
 
     /// Direction of the normal of a pair at `spot`, `delta` past the end of the path if it is a corner.
     #[inline(always)]
-    pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> Normal {
+    pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> NormalParts {
         let (parts, slopes) = match spot {
             Spot::Path => {
                 let [[sp, cp], [ss, cs]] = arcs.0;
@@ -116,8 +116,8 @@ impl Directions {
         };
         // the axes of a differential are perpendicular; the rest is along the rotation
         let [forward, half] = root(1.0 - parts[0] * parts[0] - parts[1] * parts[1]);
-        let turn = -2.0 * half * (parts[0] * slopes[0] + parts[1] * slopes[1]);
-        Normal { parts: [parts[0], parts[1], forward], slopes: [slopes[0], slopes[1], turn] }
+        let forward_slope = -2.0 * half * (parts[0] * slopes[0] + parts[1] * slopes[1]);
+        NormalParts { parts: [parts[0], parts[1], forward], slopes: [slopes[0], slopes[1], forward_slope] }
     }
 
     /// Parts along both axes of the tip corner of gear `i`, with their slopes by Δ.

@@ -13,7 +13,7 @@
 //! (`carrying`).
 
 use super::carrying::{Moves, Span, carries, carrying};
-use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST, POINTS, nodes};
+use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST_NODES, POINTS, nodes};
 use super::{Node, Opening, Slice};
 
 /// How far past the ends of a face its load is still not zero where eight points serve, by the face's length.
@@ -69,7 +69,7 @@ impl Face {
         match self {
             Self::Whole(_) => 1,
             Self::Cut(..) => POINTS,
-            Self::Sliced(..) => MOST,
+            Self::Sliced(..) => MOST_NODES,
         }
     }
 
@@ -162,7 +162,7 @@ fn parts<'a, R>(
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cut {
     exact: [Option<[Node; POINTS]>; 2],
-    crowded: [Option<[Node; MOST]>; 2],
+    crowded: [Option<[Node; MOST_NODES]>; 2],
 }
 
 /// A part of the face that carries.

@@ -19,13 +19,13 @@ pub struct Detailed {
     /// The face.
     pub face: Face,
     /// One spring per mesh instead of tooth pairs.
-    pub single: bool,
+    pub is_single: bool,
     /// Friction along the flanks.
     pub friction: Option<ToothFriction>,
     /// Whether anything rubs under thrust and bearing force of the gears.
-    pub thrust: bool,
+    pub needs_thrust: bool,
     /// Whether side gears move along their axes.
-    pub seats: bool,
+    pub has_seats: bool,
     pub(super) directions: Directions,
     /// Sum of the face's weights, and the cone distance of its resultant [m].
     pub(super) moment: f64,
@@ -63,7 +63,7 @@ impl Detailed {
         spring: AnySpring,
         damping: Damping,
         face: Face,
-        single: bool,
+        is_single: bool,
         friction: Option<ToothFriction>,
     ) -> Self {
         let (moment, resultant) = face.moment();
@@ -75,10 +75,10 @@ impl Detailed {
             spring,
             damping,
             face,
-            single,
+            is_single,
             friction,
-            thrust: true,
-            seats: true,
+            needs_thrust: true,
+            has_seats: true,
             directions,
             moment,
             resultant,
@@ -93,14 +93,14 @@ impl Detailed {
     /// Loads at `state`.
     pub fn load(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<f64> {
         let mut totals = Totals::<0, LOCAL>::default();
-        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
+        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
         totals.load()
     }
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
     pub fn linearise(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
         let mut totals = Totals::<7, LOCAL>::default();
-        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
+        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
         totals.linearised()
     }
 
@@ -118,7 +118,7 @@ impl Detailed {
 
     /// Whether the flanks of pairs may not fit.
     fn is_open(&self, teeth: &MeshTeeth) -> bool {
-        self.seats || teeth.gaps.is_some()
+        self.has_seats || teeth.gaps.is_some()
     }
 
     /// By how much the flanks of pair `number` of `flank` at place `s` [rad] do not fit at cone distance `cone` [m], as an
@@ -131,7 +131,7 @@ impl Detailed {
         cone: f64,
     ) -> f64 {
         let mut opening = self.opening(teeth, &teeth.name(flank, number, state.wrapped), s);
-        if self.seats {
+        if self.has_seats {
             opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(s))[0];
         }
         opening.at(cone) / cone
@@ -145,17 +145,17 @@ impl Detailed {
         totals: &mut Totals<ROWS, LOCAL>,
         teeth: &MeshTeeth,
         state: &DetailedState,
-        thrust: bool,
+        needs_thrust: bool,
         mut look: impl FnMut(&SliceLoad),
     ) {
         let open = self.is_open(teeth);
         if open {
             self.each(teeth, state, [0.0; 2], |name, pair| {
-                self.add::<_, ROWS, true>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
+                self.add::<_, ROWS, true>((spring, teeth, needs_thrust), totals, (name, pair), state, &mut look)
             });
         } else {
             self.each(teeth, state, [0.0; 2], |name, pair| {
-                self.add::<_, ROWS, false>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
+                self.add::<_, ROWS, false>((spring, teeth, needs_thrust), totals, (name, pair), state, &mut look)
             });
         }
     }
@@ -165,7 +165,7 @@ impl Detailed {
         let (spring, mut energy) = (&self.spring, 0.0);
         self.each(teeth, state, [0.0; 2], |name, pair| {
             let mut opening = self.opening(teeth, name, pair.s);
-            if self.seats {
+            if self.has_seats {
                 opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
             }
             let mut cut = Cut::default();
@@ -206,7 +206,7 @@ impl Detailed {
                 continue;
             }
             let mut see = |pair: &ToothPair| visit(&teeth.name(flank, pair.number, state.wrapped), pair);
-            if self.single {
+            if self.is_single {
                 see(&ToothPair::single(flank, approach));
             } else {
                 teeth.engagement.near(flank, x, approach + excess, excess, see);
@@ -223,7 +223,7 @@ impl Detailed {
     #[inline(always)]
     pub(super) fn opened_pair(&self, teeth: &MeshTeeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
         let mut opening = self.opening(teeth, name, s);
-        if !self.seats {
+        if !self.has_seats {
             return (opening, [0.0; 2], Arcs::NONE);
         }
         let arcs = self.directions.arcs(s);
@@ -236,7 +236,7 @@ impl Detailed {
     #[inline(always)]
     fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
         &self,
-        (spring, teeth, thrust): (&S, &MeshTeeth, bool),
+        (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, LOCAL>,
         (name, pair): (&PairName, &ToothPair),
         state: &DetailedState,
@@ -256,7 +256,7 @@ impl Detailed {
         }
         let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
         let touching = Touching { name, pair, opening: &opening, arcs, parts, motion };
-        self.add_touching((spring, teeth.engagement, thrust), totals, touching, look);
+        self.add_touching((spring, teeth.engagement, needs_thrust), totals, touching, look);
     }
 }
 

@@ -27,6 +27,8 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     rate: [f64; 2],
     /// ∂a of the own arc by q, x, w of its mesh and of the planet's other one, where others move it.
     pub own: [[f64; 3]; 2],
+    /// Viscosity of the oil, as of the state [Pa·s].
+    pub viscosity: Option<f64>,
 }
 
 impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
@@ -54,6 +56,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
             spread: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
             rate: [dq, dx],
             own: [[0.0; 3]; 2],
+            viscosity: state.viscosity,
         }
     }
 

@@ -4,7 +4,7 @@
 //! the elastic torque over the face, ω = M/J.
 
 use super::super::bodies::{PairCouplings, PairPlace};
-use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place_for};
+use super::super::shared::{Change, Couplings, Gradients, MOST_PAIRS, OpeningByOthers, OwnArcs, place_for};
 use super::directions::Arcs;
 use super::face::{Cut, Part};
 use super::loads::Look;
@@ -55,22 +55,27 @@ struct Near {
 
 /// All of them, and what they share.
 struct Shared {
-    near: [Option<Near>; MOST],
-    arc: [f64; MOST],
-    couplings: Couplings<MOST>,
-    own: Own<MOST>,
+    near: [Option<Near>; MOST_PAIRS],
+    arc: [f64; MOST_PAIRS],
+    couplings: Couplings<MOST_PAIRS>,
+    own: OwnArcs<MOST_PAIRS>,
 }
 
 impl Shared {
     /// No pairs.
     #[inline(always)]
     fn none() -> Self {
-        Self { near: std::array::from_fn(|_| None), arc: [0.0; MOST], couplings: Couplings::NONE, own: Own::NONE }
+        Self {
+            near: std::array::from_fn(|_| None),
+            arc: [0.0; MOST_PAIRS],
+            couplings: Couplings::NONE,
+            own: OwnArcs::NONE,
+        }
     }
 }
 
 /// How the bodies see pairs.
-fn pair_places_of<'a>(near: &'a [Option<Near>; MOST]) -> impl Fn(usize) -> Option<&'a PairPlace> {
+fn pair_places_of<'a>(near: &'a [Option<Near>; MOST_PAIRS]) -> impl Fn(usize) -> Option<&'a PairPlace> {
     |k| near[k].as_ref().map(|near| &near.pair_place)
 }
 
@@ -141,7 +146,7 @@ impl Detailed {
         }
         couplings.fill(shared.bodies, count, pair_places_of(near));
         // flanks that excess material presses carry at arcs below 0, so that every arc is asked
-        *own = Own::new(couplings, arc, |k, arc| {
+        *own = OwnArcs::new(couplings, arc, |k, arc| {
             let carried = near[k].as_ref().map_or(Carried::default(), |near| self.carried(spring, near, arc));
             [carried.load, carried.by_arc]
         });
@@ -149,18 +154,18 @@ impl Detailed {
 
     /// Loads of both meshes of a planet.
     pub fn load_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<f64>; 2] {
-        self.load_and_look_shared(shared, states, self.thrust, None)
+        self.load_and_look_shared(shared, states, self.needs_thrust, None)
     }
 
     fn load_and_look_shared(
         &self,
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
-        thrust: bool,
+        needs_thrust: bool,
         look: Look,
     ) -> [DetailedLoad<f64>; 2] {
         let mut totals = [Totals::<0, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, thrust, look), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, needs_thrust, look), ());
         totals.map(|totals| totals.load())
     }
 
@@ -171,7 +176,7 @@ impl Detailed {
         states: &[DetailedState; 2],
     ) -> [DetailedLoad<Dual<WITH_OTHER>>; 2] {
         let mut totals = [Totals::<7, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.thrust, None), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.needs_thrust, None), ());
         totals.map(|totals| totals.linearised())
     }
 
@@ -200,17 +205,17 @@ impl Detailed {
     }
 
     /// By how much pairs that touch or are about to are moved by others.
-    pub fn moved(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> Moved {
-        let mut moved = Moved::default();
+    pub fn opening_by_others(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> OpeningByOthers {
+        let mut opening_by_others = OpeningByOthers::default();
         with_teeth!(&self.spring, spring => {
             let mut all = Shared::none();
-            self.shared(spring, shared, states, Moved::LOOKOUT, &mut all);
+            self.shared(spring, shared, states, OpeningByOthers::LOOKOUT, &mut all);
             let Shared { near, arc, own, .. } = &all;
             for (k, near) in near.iter().flatten().enumerate() {
-                moved.add(near.side, near.pair.flank, near.pair.number, arc[k] - own.arc[k]);
+                opening_by_others.add(near.side, near.pair.flank, near.pair.number, arc[k] - own.arc[k]);
             }
         }, ());
-        moved
+        opening_by_others
     }
 
     /// Adds the loads of all pairs.
@@ -221,7 +226,7 @@ impl Detailed {
         totals: &mut [Totals<ROWS, WITH_OTHER>; 2],
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
-        thrust: bool,
+        needs_thrust: bool,
         mut look: Look,
     ) {
         let mut see = |slice: &SliceLoad| {
@@ -234,8 +239,8 @@ impl Detailed {
         let Shared { near, arc, couplings, own } = &all;
         let along = couplings.times(&couplings.by_own, &own.load);
         let gradients = (ROWS > 0).then(|| {
-            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, pair_places_of(near));
-            let (mut by, mut changes) = ([[0.0; COORDINATES]; MOST], [Change::default(); MOST]);
+            let (_, curvatures) = Couplings::with_curvatures(shared.bodies, couplings.count, pair_places_of(near));
+            let (mut by, mut changes) = ([[0.0; COORDINATES]; MOST_PAIRS], [Change::default(); MOST_PAIRS]);
             for (k, near) in near.iter().flatten().enumerate() {
                 let (at, pair) = (3 * near.side, &near.pair);
                 (by[k][at], by[k][at + 1]) = (pair.slope[0], pair.slope[1]);
@@ -246,7 +251,7 @@ impl Detailed {
                     opening: (at + 2, carried.by_opening * near.axial[0]),
                 };
             }
-            Gradients::new((couplings, &bends), own, &along, by, &changes)
+            Gradients::new((couplings, &curvatures), own, &along, by, &changes)
         });
         for (k, near) in near.iter().flatten().enumerate() {
             let (side, name) = (near.side, near.name);
@@ -271,7 +276,7 @@ impl Detailed {
             let touching =
                 Touching { name: &name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
             let engagement = shared.teeth[side].engagement;
-            self.add_touching((spring, engagement, thrust), &mut totals[side], touching, &mut see);
+            self.add_touching((spring, engagement, needs_thrust), &mut totals[side], touching, &mut see);
         }
     }
 }

@@ -139,17 +139,17 @@ impl Sums {
                     return (h, sliding);
                 }
                 let h = rubbing.law.signed(&sliding.with_slopes());
-                let [by_sliding, by_rolling, by_load, by_radius] = h.d;
+                let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
                 let per_load = weight / (node.width * node.cone);
                 add::<OPEN>(&mut self.by[3], weight * (h.v + damped.total * by_load * per_load), per_cone, by);
                 let lever = torque * node.cone;
                 self.rubbed += torque * h.v;
                 self.rubbed_by[0] += lever * by_sliding;
-                self.rubbed_by[1] += lever * by_rolling;
+                self.rubbed_by[1] += lever * by_sum_speed;
                 self.rubbed_by[2] += lever * by_radius;
                 if let Some((moves, [along, load])) = along {
                     // sliding, rolling and radius grow with R, the load per width as R T
-                    let turning = by_sliding * rubbing.speeds[0] + by_rolling * rubbing.speeds[1];
+                    let turning = by_sliding * rubbing.speeds[0] + by_sum_speed * rubbing.speeds[1];
                     let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
                     move_with(&mut self.by[3], moves, node, torque * h.v, weight * along * h.v + torque * h_along);
                 }
@@ -188,7 +188,7 @@ impl Rubbing<'_> {
     fn at(&self, node: &Node, torque: f64) -> Sliding<f64> {
         Sliding {
             sliding: self.speeds[0] * node.cone,
-            rolling: self.speeds[1] * node.cone,
+            sum_speed: self.speeds[1] * node.cone,
             load: torque * node.weight / (node.cone * node.width),
             radius: self.arms.radius * node.cone,
         }
@@ -201,7 +201,7 @@ impl Sliding<f64> {
     fn with_slopes(&self) -> Sliding<Dual<4>> {
         Sliding {
             sliding: Dual::variable(self.sliding, 0),
-            rolling: Dual::variable(self.rolling, 1),
+            sum_speed: Dual::variable(self.sum_speed, 1),
             load: Dual::variable(self.load, 2),
             radius: Dual::variable(self.radius, 3),
         }

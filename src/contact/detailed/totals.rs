@@ -1,6 +1,6 @@
 //! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
 
-use super::directions::Normal;
+use super::directions::NormalParts;
 use super::sums::{Rubbing, Sums};
 use super::{DetailedLoad, LOCAL, PairMotion};
 use crate::contact::Spot;
@@ -92,10 +92,10 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
             return;
         }
         let mut by = motion.slopes(&sums.by[3]);
-        let [sliding, rolling, radius] = sums.rubbed_by;
-        let [by_sliding, by_rolling] = motion.speed_slopes(&rubbing.arms);
+        let [sliding, sum_speed, radius] = sums.rubbed_by;
+        let [by_sliding, by_sum_speed] = motion.speed_slopes(&rubbing.arms);
         for (i, place) in [1, 3, 4].into_iter().enumerate() {
-            by[place] += sliding * by_sliding[i] + rolling * by_rolling[i];
+            by[place] += sliding * by_sliding[i] + sum_speed * by_sum_speed[i];
         }
         by[1] += radius * rubbing.arms.radius_slope * motion.s_slope;
         let [planet_slope, side_slope] = rubbing.arms.arm_slope.map(|slope| slope * motion.s_slope);
@@ -111,7 +111,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         &mut self,
         motion: &PairMotion<OPEN, SHARED>,
         sums: &Sums,
-        normal: &Normal,
+        normal: &NormalParts,
         spot: Spot,
     ) {
         let [planet, side, forward] = normal.parts;

@@ -33,20 +33,21 @@ impl Detailed {
         const SHARED: bool,
     >(
         &self,
-        (spring, engagement, thrust): (&S, &Engagement, bool),
+        (spring, engagement, needs_thrust): (&S, &Engagement, bool),
         totals: &mut Totals<ROWS, WIDE>,
         touching: Touching<OPEN, SHARED>,
         mut look: impl FnMut(&SliceLoad),
     ) {
         let Touching { name, pair, opening, mut arcs, parts, motion } = touching;
-        if !(OPEN && self.seats) && (thrust || self.friction.is_some()) {
+        if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
-        let rubbing = self.friction.as_ref().map(|law| {
+        let warmed = self.friction.zip(motion.viscosity).map(|(law, viscosity)| law.with_viscosity(viscosity));
+        let rubbing = warmed.as_ref().or(self.friction.as_ref()).map(|law| {
             let arms = self.directions.arms(&arcs);
             Rubbing { law, speeds: motion.speeds(&arms), arms }
         });
-        let normal = thrust.then(|| self.directions.normal(engagement, pair.spot, &arcs, pair.place));
+        let normal = needs_thrust.then(|| self.directions.normal(engagement, pair.spot, &arcs, pair.place));
         let mut see = |node: &LoadedNode| {
             let Some(normal) = &normal else { return };
             let force = node.torque * node.node.weight * node.node.per_cone;

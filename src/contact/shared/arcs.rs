@@ -1,7 +1,7 @@
 //! Own arcs a_k and loads ω_k of pairs that move each other: solution of a_k + Σ t_kl ω_l(a_l) = A_k.
 
 use super::Couplings;
-use super::couplings::MOST;
+use super::couplings::MOST_PAIRS;
 
 /// Newton steps at most; usually a few suffice.
 const STEPS: usize = 40;
@@ -19,7 +19,7 @@ const LEAST: f64 = 1e-4;
 
 /// Own arcs of pairs with their loads.
 #[derive(Clone, Copy, Debug)]
-pub struct Own<const K: usize> {
+pub struct OwnArcs<const K: usize> {
     /// a_k [rad].
     pub arc: [f64; K],
     /// Load ω_k per cone distance [N/m²].
@@ -28,7 +28,7 @@ pub struct Own<const K: usize> {
     pub stiffness: [f64; K],
 }
 
-impl<const K: usize> Own<K> {
+impl<const K: usize> OwnArcs<K> {
     /// Those of no pairs.
     pub const NONE: Self = Self { arc: [0.0; K], load: [0.0; K], stiffness: [0.0; K] };
 
@@ -80,7 +80,7 @@ impl<const K: usize> Own<K> {
             // pairs gain and lose contact in turn: halve the step
             (part, vain) = if most < last { (1.0, 0) } else { (0.5 * part, vain + 1) };
             last = most;
-            if K == MOST && vain > VAIN {
+            if K == MOST_PAIRS && vain > VAIN {
                 if most <= ROUNDED * scale {
                     break;
                 }

@@ -4,17 +4,17 @@ use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
 
 /// Pairs of a planet's two meshes that may carry at once. Flanks that approach by half a base pitch, the limit, have four in a
 /// mesh of a dozen teeth and up to eighteen of two hundred; at a tenth of it, six. Of more than these the deepest count.
-pub const MOST: usize = 16;
+pub const MOST_PAIRS: usize = 16;
 
 /// Where a pair goes that is `depth` deep among `count` others: next to them, or where there is no room in place of the shallowest,
 /// if that is not as deep.
 #[inline(always)]
 pub fn place_for(depth: f64, count: &mut usize, depth_of: impl Fn(usize) -> f64) -> Option<usize> {
-    if *count < MOST {
+    if *count < MOST_PAIRS {
         *count += 1;
         return Some(*count - 1);
     }
-    let shallowest = (0..MOST).min_by(|&k, &l| depth_of(k).total_cmp(&depth_of(l)))?;
+    let shallowest = (0..MOST_PAIRS).min_by(|&k, &l| depth_of(k).total_cmp(&depth_of(l)))?;
     (depth_of(shallowest) < depth).then_some(shallowest)
 }
 
@@ -31,7 +31,7 @@ pub struct Couplings<const K: usize> {
 
 /// Second derivatives of the same.
 #[derive(Clone, Copy, Debug)]
-pub struct Bends<const K: usize> {
+pub struct CouplingCurvatures<const K: usize> {
     /// ∂²t_kl/∂s_k².
     pub own: [[f64; K]; K],
     /// ∂²t_kl/∂s_k∂s_l.
@@ -64,20 +64,20 @@ impl<const K: usize> Couplings<K> {
 
     /// The same with second derivatives.
     #[inline(always)]
-    pub fn with_bends<'a>(
+    pub fn with_curvatures<'a>(
         bodies: &PairCouplings,
         count: usize,
         pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
-    ) -> (Self, Bends<K>) {
+    ) -> (Self, CouplingCurvatures<K>) {
         let mut all = Self { count, ..Self::NONE };
-        let mut bends = Bends { own: [[0.0; K]; K], both: [[0.0; K]; K] };
+        let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
         let set = |k: usize, l: usize, t: &Coupling| {
             all.set(k, l, t);
-            (bends.own[k][l], bends.own[l][k]) = (t.hessian[0], t.hessian[2]);
-            (bends.both[k][l], bends.both[l][k]) = (t.hessian[1], t.hessian[1]);
+            (curvatures.own[k][l], curvatures.own[l][k]) = (t.hessian[0], t.hessian[2]);
+            (curvatures.both[k][l], curvatures.both[l][k]) = (t.hessian[1], t.hessian[1]);
         };
         for_each_two(bodies, count, pair_place, set, true);
-        (all, bends)
+        (all, curvatures)
     }
 
     #[inline(always)]

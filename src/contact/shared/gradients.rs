@@ -1,6 +1,6 @@
 //! How own arcs, loads and forces along the path change with the coordinates of both meshes.
 
-use super::{Bends, Couplings, Own};
+use super::{CouplingCurvatures, Couplings, OwnArcs};
 
 /// How a pair changes directly: with the coordinate that moves its place, and with one that opens its flanks.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,8 +24,8 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
     /// Gradients of pairs that are `own`, where `along` is τ_k, from those of their arcs, `arc`, and what else changes.
     #[inline(always)]
     pub fn new(
-        (couplings, bends): (&Couplings<K>, &Bends<K>),
-        own: &Own<K>,
+        (couplings, curvatures): (&Couplings<K>, &CouplingCurvatures<K>),
+        own: &OwnArcs<K>,
         along: &[f64; K],
         arc: [[f64; Z]; K],
         changes: &[Change; K],
@@ -54,8 +54,8 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
             along_by[k] = load[k].map(|by| by * along[k]);
             for l in (0..n).filter(|&l| l != k) {
                 let of_other = own.load[k] * own.load[l];
-                along_by[k][coordinate] += bends.own[k][l] * of_other * slope;
-                along_by[k][changes[l].place.0] += bends.both[k][l] * of_other * changes[l].place.1;
+                along_by[k][coordinate] += curvatures.own[k][l] * of_other * slope;
+                along_by[k][changes[l].place.0] += curvatures.both[k][l] * of_other * changes[l].place.1;
                 let by_other = own.load[k] * couplings.by_own[k][l];
                 for z in 0..Z {
                     along_by[k][z] += by_other * load[l][z];

@@ -16,11 +16,11 @@
 mod arcs;
 mod couplings;
 mod gradients;
-mod moved;
+mod opening_by_others;
 mod plain;
 
-pub use arcs::Own;
-pub use couplings::{Bends, Couplings, MOST, place_for};
+pub use arcs::OwnArcs;
+pub use couplings::{CouplingCurvatures, Couplings, MOST_PAIRS, place_for};
 pub use gradients::{Change, Gradients};
-pub use moved::Moved;
+pub use opening_by_others::OpeningByOthers;
 pub use plain::{SharedForce, SharedMeshes};

@@ -2,8 +2,8 @@
 //!
 //! Sums that steps ask for are compiled for each number of pairs, as they are short, and once for each law.
 
-use super::couplings::{MOST, place_for};
-use super::{Bends, Change, Couplings, Gradients, Moved, Own};
+use super::couplings::{MOST_PAIRS, place_for};
+use super::{Change, CouplingCurvatures, Couplings, Gradients, OpeningByOthers, OwnArcs};
 use crate::contact::bodies::{PairCouplings, PairPlace};
 use crate::contact::impact::Force;
 use crate::contact::law::FaceLaw;
@@ -48,10 +48,10 @@ struct Near<P> {
 
 /// `K` of them with their own arcs.
 struct Sharing<'a, P, const K: usize> {
-    near: &'a [Option<Near<P>>; MOST],
+    near: &'a [Option<Near<P>>; MOST_PAIRS],
     arc: [f64; K],
     couplings: Couplings<K>,
-    own: Own<K>,
+    own: OwnArcs<K>,
 }
 
 /// Evaluates an expression with `K` set to the number of pairs.
@@ -63,7 +63,7 @@ macro_rules! by_count {
             2 => by_count!(@ 2, $body),
             3 => by_count!(@ 3, $body),
             4 => by_count!(@ 4, $body),
-            _ => by_count!(@ MOST, $body),
+            _ => by_count!(@ MOST_PAIRS, $body),
         }
     };
     (@ $k:expr, $body:expr) => {{
@@ -77,40 +77,44 @@ impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
     fn new<S: Spring<Place = P>>(
         bodies: &PairCouplings,
         law: &FaceLaw<S>,
-        near: &'a [Option<Near<P>>; MOST],
+        near: &'a [Option<Near<P>>; MOST_PAIRS],
         count: usize,
     ) -> Self {
-        let couplings = Couplings::new(bodies, if K < MOST { K } else { count }, Self::pair_places(near));
+        let couplings = Couplings::new(bodies, if K < MOST_PAIRS { K } else { count }, Self::pair_places(near));
         Self::of(law, near, couplings)
     }
 
     /// The same with second derivatives of the couplings.
     #[inline(always)]
-    fn with_bends<S: Spring<Place = P>>(
+    fn with_curvatures<S: Spring<Place = P>>(
         bodies: &PairCouplings,
         law: &FaceLaw<S>,
-        near: &'a [Option<Near<P>>; MOST],
+        near: &'a [Option<Near<P>>; MOST_PAIRS],
         count: usize,
-    ) -> (Self, Bends<K>) {
-        let (couplings, bends) =
-            Couplings::with_bends(bodies, if K < MOST { K } else { count }, Self::pair_places(near));
-        (Self::of(law, near, couplings), bends)
+    ) -> (Self, CouplingCurvatures<K>) {
+        let (couplings, curvatures) =
+            Couplings::with_curvatures(bodies, if K < MOST_PAIRS { K } else { count }, Self::pair_places(near));
+        (Self::of(law, near, couplings), curvatures)
     }
 
     #[inline(always)]
-    fn pair_places(near: &'a [Option<Near<P>>; MOST]) -> impl Fn(usize) -> Option<&'a PairPlace> {
+    fn pair_places(near: &'a [Option<Near<P>>; MOST_PAIRS]) -> impl Fn(usize) -> Option<&'a PairPlace> {
         |k| near[k].as_ref().map(|near| &near.pair_place)
     }
 
     #[inline(always)]
-    fn of<S: Spring<Place = P>>(law: &FaceLaw<S>, near: &'a [Option<Near<P>>; MOST], couplings: Couplings<K>) -> Self {
+    fn of<S: Spring<Place = P>>(
+        law: &FaceLaw<S>,
+        near: &'a [Option<Near<P>>; MOST_PAIRS],
+        couplings: Couplings<K>,
+    ) -> Self {
         let arc = std::array::from_fn(|k| near[k].as_ref().map_or(0.0, |near| near.pair.depth));
         let law = |k: usize, arc: f64| {
             let (Some(near), false) = (&near[k], arc <= 0.0) else { return [0.0; 2] };
             let elastic = law.specific.respond(&near.place, arc);
             [elastic.torque, elastic.stiffness]
         };
-        let own = if S::LINEAR { Own::linear(&couplings, &arc, law) } else { Own::new(&couplings, &arc, law) };
+        let own = if S::LINEAR { OwnArcs::linear(&couplings, &arc, law) } else { OwnArcs::new(&couplings, &arc, law) };
         Self { near, arc, couplings, own }
     }
 
@@ -143,7 +147,7 @@ impl SharedMeshes<'_> {
         law: &FaceLaw<S>,
         states: &[MeshState; 2],
         lookout: f64,
-        near: &mut [Option<Near<S::Place>>; MOST],
+        near: &mut [Option<Near<S::Place>>; MOST_PAIRS],
     ) -> usize {
         let half = self.mesh.half_backlash();
         // approaches of drive and coast flanks, left and right
@@ -208,8 +212,8 @@ impl SharedMeshes<'_> {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, SharedForce::default(), {
-            let (sharing, bends) = Sharing::<_, K>::with_bends::<S>(self.bodies, law, &near, count);
-            self.linearise_pairs(law, states, &sharing, &bends)
+            let (sharing, curvatures) = Sharing::<_, K>::with_curvatures::<S>(self.bodies, law, &near, count);
+            self.linearise_pairs(law, states, &sharing, &curvatures)
         })
     }
 
@@ -219,7 +223,7 @@ impl SharedMeshes<'_> {
         law: &FaceLaw<S>,
         states: &[MeshState; 2],
         sharing: &Sharing<S::Place, K>,
-        bends: &Bends<K>,
+        curvatures: &CouplingCurvatures<K>,
     ) -> SharedForce {
         let (moment, r) = (law.moment, self.mesh.cone);
         let Sharing { couplings, own, .. } = sharing;
@@ -234,7 +238,7 @@ impl SharedMeshes<'_> {
                 changes[k].place.2 = law.specific.respond(&near.place, own.arc[k]).torque_by_place * pair.s_slope;
             }
         }
-        let gradients = Gradients::new((couplings, bends), own, &along, arc, &changes);
+        let gradients = Gradients::new((couplings, curvatures), own, &along, arc, &changes);
         let mut sum = SharedForce::default();
         for (k, near) in sharing.loaded() {
             let (pair, side) = (&near.pair, near.pair_place.side);
@@ -290,7 +294,7 @@ impl SharedMeshes<'_> {
     pub fn energy<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> f64 {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
-        let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
+        let sharing = Sharing::<_, MOST_PAIRS>::new::<S>(self.bodies, law, &near, count);
         let energy = |(k, near): (usize, &Near<S::Place>)| {
             let alone = law.specific.respond(&near.place, sharing.own.arc[k]).energy;
             law.moment * (alone + 0.5 * sharing.own.load[k] * (sharing.arc[k] - sharing.own.arc[k]))
@@ -300,17 +304,22 @@ impl SharedMeshes<'_> {
 
     /// By how much pairs that touch or are about to are moved by others.
     #[inline(never)]
-    pub fn moved<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> Moved {
+    pub fn opening_by_others<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> OpeningByOthers {
         let mut near = std::array::from_fn(|_| None);
-        let count = self.pairs(law, states, Moved::LOOKOUT, &mut near);
-        let mut moved = Moved::default();
+        let count = self.pairs(law, states, OpeningByOthers::LOOKOUT, &mut near);
+        let mut opening_by_others = OpeningByOthers::default();
         by_count!(count, (), {
             let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
             for (k, near) in sharing.near.iter().flatten().enumerate() {
-                moved.add(near.pair_place.side, near.pair.flank, near.pair.number, sharing.arc[k] - sharing.own.arc[k]);
+                opening_by_others.add(
+                    near.pair_place.side,
+                    near.pair.flank,
+                    near.pair.number,
+                    sharing.arc[k] - sharing.own.arc[k],
+                );
             }
         });
-        moved
+        opening_by_others
     }
 
     /// Calls `visit` with each loaded pair of the mesh with side gear `side`, its depth that of its own arc, and its force.
@@ -324,7 +333,7 @@ impl SharedMeshes<'_> {
     ) {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
-        let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
+        let sharing = Sharing::<_, MOST_PAIRS>::new::<S>(self.bodies, law, &near, count);
         for (k, near) in sharing.loaded().filter(|(_, near)| near.pair_place.side == side) {
             let pair = ToothPair { depth: sharing.own.arc[k], ..near.pair };
             let rate = self.rate(&pair, &states[side]);

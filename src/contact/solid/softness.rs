@@ -14,7 +14,7 @@ pub struct Softness {
     /// √(2π ρ ε) [rad].
     pub measure: f64,
     /// Largest excess of the soft maximum over the greatest overlap [rad].
-    pub ahead: f64,
+    pub excess: f64,
 }
 
 impl Softness {
@@ -26,6 +26,6 @@ impl Softness {
     /// Softness ε of overlaps between flanks of relative radius of curvature ρ that face each other over `length`, all [rad].
     pub fn new(width: f64, relative: f64, length: f64) -> Self {
         let measure = sqrt(TAU * relative * width);
-        Self { width, measure, ahead: width * libm::log(1.0 + length / measure) }
+        Self { width, measure, excess: width * libm::log(1.0 + length / measure) }
     }
 }

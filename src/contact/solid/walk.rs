@@ -118,7 +118,7 @@ impl FlankSection<'_> {
         let grows_up = facets[0].slope() > facets[1].slope();
         // over convex flanks no overlap grows faster than at first
         let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
-        let (reach, least) = (soft.deep(), -soft.ahead / LEAST_METRIC);
+        let (reach, least) = (soft.deep(), -soft.excess / LEAST_METRIC);
         let farthest = facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room;
         if farthest.is_nan() || farthest <= least {
             return None;

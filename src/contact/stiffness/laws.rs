@@ -45,14 +45,14 @@ impl Spring for Line {
     #[inline(always)]
     fn respond(&self, &[c, by_place, by_place_twice]: &[f64; 3], p: f64) -> Elastic {
         let load = c * p;
-        let turn = load * by_place;
+        let arc_by_place = load * by_place;
         Elastic {
             energy: 0.5 * p * load,
             torque: load,
             stiffness: c,
-            by_place: -0.5 * load * turn,
-            torque_by_place: -c * turn,
-            by_place_twice: c * turn * turn - 0.5 * load * load * by_place_twice,
+            by_place: -0.5 * load * arc_by_place,
+            torque_by_place: -c * arc_by_place,
+            by_place_twice: c * arc_by_place * arc_by_place - 0.5 * load * load * by_place_twice,
         }
     }
 }
@@ -146,14 +146,14 @@ impl Spring for LineWeber {
             let limit = self.local * self.limit;
             0.5 * load * (p - limit) + 0.25 * limit * self.limit
         };
-        let turn = load * q.d;
+        let arc_by_place = load * q.d;
         Elastic {
             energy,
             torque: load,
             stiffness: tangent,
-            by_place: -0.5 * load * turn,
-            torque_by_place: -tangent * turn,
-            by_place_twice: tangent * turn * turn - 0.5 * load * load * q.dd,
+            by_place: -0.5 * load * arc_by_place,
+            torque_by_place: -tangent * arc_by_place,
+            by_place_twice: tangent * arc_by_place * arc_by_place - 0.5 * load * load * q.dd,
         }
     }
 }

@@ -48,7 +48,7 @@ struct CornerTable {
     mate_arc_squared: f64,
     first: f64,
     per_eighth_root: f64,
-    per_root: f64,
+    cells_per_sqrt: f64,
     cells: Box<[Cell; 2 * CELLS]>,
 }
 
@@ -122,7 +122,7 @@ impl CornerTable {
             mate_arc_squared,
             first,
             per_eighth_root: 1.0 / per_cell,
-            per_root: CELLS as f64 / sqrt(length - middle),
+            cells_per_sqrt: CELLS as f64 / sqrt(length - middle),
             cells,
         }
     }
@@ -132,7 +132,7 @@ impl CornerTable {
         let cell = if x < self.middle {
             (self.per_eighth_root * (eighth_root(x + self.mate_arc_squared) - self.first)) as usize
         } else {
-            2 * CELLS - 1 - (self.per_root * sqrt(self.length - x)) as usize
+            2 * CELLS - 1 - (self.cells_per_sqrt * sqrt(self.length - x)) as usize
         };
         // rounding may give the neighbouring cell: both cubics agree at the knot
         let corner = cubic(&self.cells[cell.min(2 * CELLS - 1)], x);

@@ -18,7 +18,7 @@ pub struct ComplianceTable {
     high: f64,
     /// Length of an outer quarter; cells per √length in it, and cells per length in the middle.
     quarter: f64,
-    per_root: f64,
+    cells_per_sqrt: f64,
     per_length: f64,
     cells: Box<[Cell; 3 * CELLS]>,
     past_end: [PastEnd; 2],
@@ -43,7 +43,7 @@ impl ComplianceTable {
             low,
             high,
             quarter,
-            per_root: CELLS as f64 / sqrt(quarter),
+            cells_per_sqrt: CELLS as f64 / sqrt(quarter),
             per_length: CELLS as f64 / (2.0 * quarter),
             cells,
             past_end: [past_end(0, Jet { d: -first.d, ..first }), past_end(1, last)],
@@ -59,12 +59,12 @@ impl ComplianceTable {
                 let mirrored = self.past_end[0].at(-above);
                 return Jet { d: -mirrored.d, ..mirrored };
             }
-            (self.per_root * sqrt(above)) as usize
+            (self.cells_per_sqrt * sqrt(above)) as usize
         } else if below < self.quarter {
             if below < 0.0 {
                 return self.past_end[1].at(-below);
             }
-            3 * CELLS - 1 - (self.per_root * sqrt(below)) as usize
+            3 * CELLS - 1 - (self.cells_per_sqrt * sqrt(below)) as usize
         } else {
             CELLS + (self.per_length * (above - self.quarter)) as usize
         };

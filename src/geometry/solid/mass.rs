@@ -31,13 +31,13 @@ pub struct GearMass {
 
 /// Mass properties of gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, at the density `density` [kg/m³].
 pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> GearMass {
-    let one = GearSolid::sector(pair, spec, gear, FACETS).mass(density);
+    let sector = GearSolid::sector(pair, spec, gear, FACETS).mass(density);
     let z = f64::from(pair.gears[gear].teeth);
     GearMass {
-        mass: z * one.mass,
-        centre: one.centre,
-        axial: z * one.axial,
-        transverse_at_apex: z * one.transverse_at_apex,
+        mass: z * sector.mass,
+        centre: sector.centre,
+        axial: z * sector.axial,
+        transverse_at_apex: z * sector.transverse_at_apex,
     }
 }
 

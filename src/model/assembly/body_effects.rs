@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource};
 use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::{InputDerivatives, Inputs, Plan};
+use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan};
 use crate::model::setup::{Parameters, SceneEffects};
+use crate::model::thermal::{NODES, OIL};
 
 /// Effects on bodies, and dry friction.
 #[derive(Clone, Debug)]
@@ -17,9 +18,11 @@ pub struct BodyEffects {
     /// The half-shafts.
     pub half_shafts: HalfShafts,
     /// Whether there are effects; without any, a lock may still be commanded.
-    pub always: bool,
+    pub has_effects: bool,
     /// Whether wheels have brakes.
     pub has_brakes: bool,
+    /// The oil, where an effect asks for its viscosity.
+    oil: Option<OilSpec>,
 }
 
 impl BodyEffects {
@@ -28,10 +31,11 @@ impl BodyEffects {
         let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
         Self {
             has_brakes: friction.iter().any(|source| source.wheel.is_some()),
-            always: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
+            has_effects: p.effects.warm_up || !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
             friction,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
+            oil: effects.oil_acts().then_some(p.oil),
         }
     }
 
@@ -46,9 +50,24 @@ impl BodyEffects {
         self.forces.iter().fold(command, |speed, effect| effect.carrier_speed(q, speed))
     }
 
-    /// Friction on all bodies with the lock at `lock`.
-    pub fn friction(&self, lock: f64, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Friction {
-        Friction::new(&self.friction, lock, inputs, input_derivatives)
+    /// Friction on all bodies with the lock at `lock` and all nodes at `temperatures` [K].
+    pub fn friction(
+        &self,
+        (lock, temperatures): (f64, &[f64; NODES]),
+        inputs: &Inputs,
+        input_derivatives: &InputDerivatives,
+    ) -> Friction {
+        Friction::new(&self.friction, (lock, temperatures), inputs, input_derivatives)
+    }
+
+    /// Viscosity of the oil at the `temperatures` of all nodes [K], where an effect asks for it [Pa·s].
+    pub fn oil_viscosity(&self, temperatures: &[f64; NODES]) -> Option<f64> {
+        self.oil.map(|oil| oil.viscosity(temperatures[OIL]))
+    }
+
+    /// Whether friction depends on temperature.
+    pub fn feels_temperature(&self) -> bool {
+        self.oil.is_some() || self.friction.iter().any(|source| source.sliding.feels_temperature())
     }
 
     /// Whether friction that always acts depends on the loads of the meshes.

@@ -13,9 +13,9 @@ pub const PLACES: usize = 16;
 /// Bytes that most keys fit in.
 const USUAL: usize = 1024;
 
-/// A value, once it is made, and its key `origin`: the bits of everything that it is calculated from.
+/// A value, once it is made, and its key: the bits of everything that it is calculated from.
 struct Place<V> {
-    origin: Vec<u8>,
+    key: Vec<u8>,
     value: Arc<OnceLock<V>>,
 }
 
@@ -42,24 +42,24 @@ impl<V> Cache<V> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The place of the key `origin`, which becomes the first.
-    fn place(&self, origin: Vec<u8>) -> Arc<OnceLock<V>> {
+    /// The place of the key `key`, which becomes the first.
+    fn place(&self, key: Vec<u8>) -> Arc<OnceLock<V>> {
         let mut places = self.places();
-        if let Some(found) = places.iter().position(|place| place.origin == origin) {
+        if let Some(found) = places.iter().position(|place| place.key == key) {
             places[..=found].rotate_right(1);
         } else {
             places.truncate(PLACES - 1);
-            places.insert(0, Place { origin, value: Arc::default() });
+            places.insert(0, Place { key, value: Arc::default() });
         }
         places[0].value.clone()
     }
 }
 
 impl<V: Clone> Cache<V> {
-    /// The value of the key `origin`; `make` makes it if the cache does not hold it.
-    pub fn get(&self, origin: &impl Serialize, make: impl FnOnce() -> V) -> V {
-        match postcard::to_extend(origin, Vec::with_capacity(USUAL)) {
-            Ok(origin) => self.place(origin).get_or_init(make).clone(),
+    /// The value of the key `key`; `make` makes it if the cache does not hold it.
+    pub fn get(&self, key: &impl Serialize, make: impl FnOnce() -> V) -> V {
+        match postcard::to_extend(key, Vec::with_capacity(USUAL)) {
+            Ok(key) => self.place(key).get_or_init(make).clone(),
             Err(_) => make(),
         }
     }

@@ -100,8 +100,8 @@ impl GearCache {
 
     /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`.
     pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
-        let origin = (pair, p.geometry.root_fillet, elasticity(p));
-        self.means.get(&origin, || Ok(self.stiffness(p, pair)?.mesh_mean()))
+        let key = (pair, p.geometry.root_fillet, elasticity(p));
+        self.means.get(&key, || Ok(self.stiffness(p, pair)?.mesh_mean()))
     }
 
     /// Solid teeth of `pair` with given facets and errors, pressed together by the law `elastic` and `damping`.
@@ -112,8 +112,8 @@ impl GearCache {
         elastic: Impact,
         damping: Damping,
     ) -> SolidMesh {
-        let origin = (pair, spec, teeth, errors);
-        let mut mesh = self.solids.get(&origin, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
+        let key = (pair, spec, teeth, errors);
+        let mut mesh = self.solids.get(&key, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
         // the law does not shape the surfaces
         (mesh.elastic, mesh.damping) = (elastic, damping);
         mesh
@@ -179,9 +179,9 @@ mod tests {
         let pair = cache.pair(&p.gears());
         let stiffness = |p: &Parameters, pair: &Pair| cache.stiffness(p, pair).expect("a stiffness");
         let here = stiffness(&p, &pair.pair);
-        let mut other = p;
-        (other.material.density, other.contact.damping, other.geometry.planet_count) = (8000.0, 1.0, 4);
-        assert!(Arc::ptr_eq(&here, &stiffness(&other, &cache.pair(&other.gears()).pair)));
+        let mut changed = p;
+        (changed.material.density, changed.contact.damping, changed.geometry.planet_count) = (8000.0, 1.0, 4);
+        assert!(Arc::ptr_eq(&here, &stiffness(&changed, &cache.pair(&changed.gears()).pair)));
         assert!(Arc::ptr_eq(&pair, &cache.pair(&p.gears())));
         let changes: [fn(&mut Parameters); 6] = [
             |p| p.geometry.module *= 1.001,
@@ -192,9 +192,9 @@ mod tests {
             |p| p.effects.backlash = !p.effects.backlash,
         ];
         for change in changes {
-            let mut other = p;
-            change(&mut other);
-            assert!(!Arc::ptr_eq(&here, &stiffness(&other, &cache.pair(&other.gears()).pair)));
+            let mut changed = p;
+            change(&mut changed);
+            assert!(!Arc::ptr_eq(&here, &stiffness(&changed, &cache.pair(&changed.gears()).pair)));
         }
     }
 

@@ -56,10 +56,10 @@ impl Inertias {
         let rigid_end = [0, 1].map(|s| if plan.shafts[s] { 0.0 } else { self.end[s] });
         for s in 0..2 {
             inertia[s] = self.side[s] - self.end[s] + rigid_end[s];
-            if plan.pins {
+            if plan.has_pins {
                 inertia[layout.seat(s)] = self.side_mass;
             }
-            if layout.ends() {
+            if layout.has_ends() {
                 inertia[layout.end(s)] = self.end[s] - rigid_end[s];
             }
         }
@@ -69,11 +69,11 @@ impl Inertias {
         inertia[CARRIER] = self.carrier;
         for g in 0..layout.groups {
             inertia[layout.planet(g)] = self.planet;
-            if plan.pins {
+            if plan.has_pins {
                 inertia[layout.pin(g)] = self.planet_transverse;
             }
         }
-        if plan.pins {
+        if plan.has_pins {
             inertia[CARRIER] -= self.planets * self.planet_transverse;
         }
         (inertia, rigid_end)

@@ -12,7 +12,8 @@ use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::{BUILT, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
-use crate::model::setup::{CONTACT_HEAT, Parameters, SceneEffects, advice, validation};
+use crate::model::setup::{CONTACT_HEAT, HEAT_OUTPUTS, HEATS, Parameters, SceneEffects, advice, validation};
+use crate::model::thermal::Network;
 use crate::problem::Problem;
 
 /// How the gears are represented.
@@ -48,6 +49,8 @@ pub struct Model {
     pub gears: Gears,
     /// The teeth with planets that move as one until a tooth of one breaks.
     pub together: Option<Box<Teeth>>,
+    /// Nodes that warm up, where the scene asks for them.
+    pub thermal: Option<Box<Network<HEATS>>>,
     /// What steps are watched for beside the ledger, where the scene asks for anything.
     pub watch: Option<Box<Watch>>,
     /// Where each degree of freedom stands.
@@ -106,10 +109,13 @@ impl Model {
         } else {
             None
         };
-        let mesh_history = BUILT && parameters.effects.mesh_history;
-        let watch = (strength.is_some() || mesh_history).then(|| Box::new(Watch { strength, mesh_history }));
+        let keeps_mesh_history = BUILT && parameters.effects.mesh_history;
+        let watch =
+            (strength.is_some() || keeps_mesh_history).then(|| Box::new(Watch { strength, keeps_mesh_history }));
+        let thermal = (BUILT && parameters.effects.warm_up).then(|| Box::new(network(parameters, &masses)));
         Ok(Self {
             parameters: *parameters,
+            thermal,
             masses,
             ideal,
             gears,
@@ -122,6 +128,14 @@ impl Model {
         })
     }
 
+    /// Effects that act on bodies.
+    pub fn body_effects(&self) -> &BodyEffects {
+        match &self.gears {
+            Gears::Ideal(ideal) => &ideal.body_effects,
+            Gears::Teeth(teeth) => &teeth.effect_terms.body_effects,
+        }
+    }
+
     /// Stress and fatigue, where the scene asks for them.
     pub fn strength(&self) -> Option<&GearStrength> {
         self.watch.as_ref()?.strength.as_ref()
@@ -130,6 +144,10 @@ impl Model {
     /// Takes over tunable parameters from `parameters`, which must differ in those alone.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
+        if let Some(thermal) = &mut self.thermal {
+            let start = thermal.start;
+            **thermal = Network { start, ..network(parameters, &self.masses) };
+        }
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
             Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),
@@ -141,14 +159,21 @@ impl Model {
                 effect_terms.detailed.friction = effects.on_flanks().map(|friction| friction.law);
                 effect_terms.body_effects.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
-                effect_terms.detailed.thrust = effect_terms.body_effects.needs_loads();
-                effect_terms.in_detail |= effect_terms.detailed.thrust;
+                effect_terms.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
+                effect_terms.in_detail |= effect_terms.detailed.needs_thrust;
                 if let Some(together) = &mut self.together {
                     together.mesh.law.set_damping(damping);
                 }
             }
         }
     }
+}
+
+/// Nodes that warm up, with gears of these masses.
+fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
+    let [planet, side] = masses.map(|gear| gear.mass);
+    let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
+    p.specs.warm_up.network(gears, p.oil.temperature, HEAT_OUTPUTS)
 }
 
 /// What effects do to single teeth; solid teeth take their errors themselves.
@@ -171,16 +196,16 @@ fn teeth(
     // a tooth may neither bend by the working depth nor reach the next gap
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
-    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || body_effects.needs_loads();
-    body_effects.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
+    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
+    body_effects.has_effects |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
     let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
-    (detailed.thrust, detailed.seats) = (body_effects.needs_loads(), plan.pins);
+    (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
     let effect_terms = EffectTerms {
         detailed,
         in_detail,
-        friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
+        friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
         planet_mass_moment: ideal.inertia.planet_mass_moment,
@@ -195,5 +220,5 @@ pub struct Watch {
     /// Stress and fatigue.
     pub strength: Option<GearStrength>,
     /// Peak-to-peak values over mesh cycles.
-    pub mesh_history: bool,
+    pub keeps_mesh_history: bool,
 }

@@ -44,7 +44,7 @@ impl Teeth {
     /// `None` where planets are not alike and plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
-        let is_plain = !self.effect_terms.body_effects.always
+        let is_plain = !self.effect_terms.body_effects.has_effects
             && self.layout.plain() == Some(false)
             && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
@@ -71,7 +71,7 @@ impl Teeth {
         for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
             inverse_inertia[layout.planet(g)] = 0.0;
         }
-        for s in (0..2).filter(|_| layout.ends()) {
+        for s in (0..2).filter(|_| layout.has_ends()) {
             // a side with a rigid half-shaft has no end to move
             if plan.side_imposed[s] || !plan.shafts[s] {
                 inverse_inertia[layout.end(s)] = 0.0;
@@ -101,7 +101,7 @@ pub struct EffectTerms {
     /// Whether an effect needs the mesh in detail even while no tooth is broken.
     pub in_detail: bool,
     /// Index of the heat of friction along the flanks.
-    pub friction_heat: usize,
+    pub friction_heat_index: usize,
     /// Gaps of the tooth pairs before and after a tooth breaks.
     pub gaps: [Option<Arc<FlankGaps>>; 2],
     /// Teeth without errors, which give each tooth its number.

@@ -12,6 +12,7 @@ use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, Slip
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan,
 };
+use crate::model::thermal::NODES;
 
 /// Inputs and dry friction under which equations hold.
 #[derive(Clone, Copy)]
@@ -27,6 +28,8 @@ pub struct Acting {
     friction: Option<Friction>,
     /// Whether there is any friction.
     pub rubs: bool,
+    /// Viscosity of the oil, where effects ask for it [Pa·s].
+    pub oil_viscosity: Option<f64>,
 }
 
 impl Acting {
@@ -36,9 +39,17 @@ impl Acting {
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
         let (input_derivatives, driven) =
             (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
-        let friction = body_effects.map(|effects| effects.friction(state.lock, &inputs, &input_derivatives));
+        let friction = body_effects
+            .map(|effects| effects.friction((state.lock, &state.thermal.felt), &inputs, &input_derivatives));
         let rubs = friction.as_ref().is_some_and(Friction::is_any);
-        Self { inputs, input_derivatives, driven, friction_state: state.friction, friction, rubs }
+        let oil_viscosity = body_effects.and_then(|effects| effects.oil_viscosity(&state.thermal.felt));
+        Self { inputs, input_derivatives, driven, friction_state: state.friction, friction, rubs, oil_viscosity }
+    }
+
+    /// Lets friction feel other `temperatures` [K].
+    pub fn feel(&mut self, body_effects: &BodyEffects, lock: f64, temperatures: &[f64; NODES]) {
+        self.friction = Some(body_effects.friction((lock, temperatures), &self.inputs, &self.input_derivatives));
+        self.oil_viscosity = body_effects.oil_viscosity(temperatures);
     }
 
     /// Where the springs of dry friction are anchored.
@@ -76,7 +87,7 @@ pub trait Acted<const N: usize> {
     /// Whether there is dry friction.
     fn rubs(&self) -> bool;
     /// Whether half-shafts have ends.
-    fn ends(&self) -> bool;
+    fn has_ends(&self) -> bool;
     /// Groups of planets that may stick on their pins, and how many planets are in each.
     fn sticking(&self) -> &[f64];
     /// Loads of the meshes on the surfaces of side gears and planets at `at`, where friction depends on them.
@@ -105,7 +116,7 @@ pub trait Acted<const N: usize> {
     }
 
     /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
-    fn forced(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
+    fn input_accelerations(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
     where
         Self: Copy,
     {
@@ -120,19 +131,20 @@ pub trait Acted<const N: usize> {
         Self: Copy,
     {
         let [first, second] = self.later(time).acting().input_derivatives.rates;
-        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        self.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     /// All positions and velocities as effects see them.
     fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
-        let Acting { inputs, input_derivatives, .. } = self.acting();
-        BodyMotion { q: &at.q, v: &at.v, layout: self.layout(), inputs, input_rates: &input_derivatives.rates[0] }
+        let Acting { inputs, input_derivatives, oil_viscosity, .. } = self.acting();
+        let (inputs_now, input_rates, oil_viscosity) = (inputs, &input_derivatives.rates[0], *oil_viscosity);
+        BodyMotion { q: &at.q, v: &at.v, layout: self.layout(), inputs: inputs_now, input_rates, oil_viscosity }
     }
 
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
     #[inline]
     fn wheel(&self, s: usize) -> usize {
-        if self.ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
+        if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
     /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
@@ -188,12 +200,12 @@ pub trait Acted<const N: usize> {
         at: &Point<N>,
         surface_loads: &[SurfaceLoad; FRICTION_BODIES],
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         for i in bodies_with_friction(self) {
             let (friction, state, count) = self.friction_on(i);
-            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut power.heat);
-            power.limit[i] = torque * state.mode.direction();
+            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut ledger_rates.heat);
+            ledger_rates.limit[i] = torque * state.mode.direction();
             sum[self.freedom_of(i)] -= torque;
             if i < FRICTION_PLANETS {
                 sum[CARRIER] += torque;
@@ -201,14 +213,11 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Derivatives of dry friction by the motion of the bodies it holds.
-    fn friction_slopes(&self, j: &mut Jacobian<'_, N>) {
-        if !self.rubs() {
-            return;
-        }
+    /// Derivatives of dry friction by the motion of the bodies on which it acts, under the loads on its surfaces.
+    fn friction_slopes(&self, at: &Point<N>, surface_loads: &[SurfaceLoad; FRICTION_BODIES], j: &mut Jacobian<'_, N>) {
         for i in bodies_with_friction(self) {
             let (friction, state, _) = self.friction_on(i);
-            let [k, c] = friction.torque_slopes(state);
+            let [k, c] = friction.torque_slopes(state, &self.slip(at, i), &surface_loads[i]);
             let body = self.freedom_of(i);
             if i >= FRICTION_WHEELS {
                 // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
@@ -302,14 +311,14 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
+    /// Drags the anchors of bodies that slide along to `at`, with the ledger rates there.
     #[inline]
-    fn drag_anchors(&self, at: &Point<N>, power: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.rubs() {
             return;
         }
         for i in bodies_with_friction(self).filter(|&i| self.acting().friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, power.limit[i]);
+            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, ledger_rates.limit[i]);
         }
     }
 

@@ -59,7 +59,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 m[s][i] += members * by[0][1];
                 m[i][t] += by[1][0];
                 m[i][i] += by[1][1];
-                if !self.pins() {
+                if !self.has_pins() {
                     m[CARRIER][i] -= members * by[0][1];
                 } else {
                     let (pin, [seat, other_seat]) = (self.pin(g), [s, t].map(|s| self.seat(s)));
@@ -79,7 +79,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             let total = |row: usize, c: usize| self.sum(|g| self.members(g) * blocks[g][s][row][c]);
             let (t, turn) = (other(s), total(0, 0));
             m[s][t] += turn;
-            if !self.pins() {
+            if !self.has_pins() {
                 m[CARRIER][t] -= turn;
             } else {
                 let [seat, other_seat] = [s, t].map(|s| self.seat(s));
@@ -111,7 +111,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         [by_position, by_rate]: [&mut Matrix<N>; 2],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) -> f64 {
         let mut load = [[MeshForce::default(); 2]; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
@@ -132,7 +132,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         self.add_forces(|g, s| load[g][s].force, sum);
         self.add_blocks::<false>(&position, by_position);
         self.add_blocks::<false>(&rate, by_rate);
-        power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+        ledger_rates.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
         self.sum(|g| self.members(g) * energy[g])
     }
 

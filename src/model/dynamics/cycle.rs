@@ -1,6 +1,6 @@
 //! Means of the shaft torques over whole mesh cycles: what the torque bias is read from.
 
-use crate::model::dynamics::bias::Bias;
+use crate::model::dynamics::torque_means::TorqueMeans;
 
 /// Counts mesh cycles from the start on, and keeps the means of shaft torques over whole ones.
 ///
@@ -14,28 +14,28 @@ pub struct Cycle {
 impl Cycle {
     /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s] in which the left and the right side gear turned by
     /// `turned` [rad] against the carrier. Half the difference is rolling: deflections of the teeth are not in it.
-    pub fn add(&self, bias: &mut Bias, turned: [f64; 2], h: f64, torque: [f64; 2]) {
+    pub fn add(&self, means: &mut TorqueMeans, turned: [f64; 2], h: f64, torque: [f64; 2]) {
         let by = 0.5 * (turned[0] - turned[1]) / self.pitch;
-        let rolled = bias.rolled + by;
-        let whole = libm::trunc(rolled);
+        let cycles = means.cycles + by;
+        let whole = libm::trunc(cycles);
         // where one ends, and where rolling returns past the beginning, another begins
-        let begins = whole != 0.0 || rolled * bias.rolled < 0.0;
+        let begins = whole != 0.0 || cycles * means.cycles < 0.0;
         let mut left = 1.0;
         if begins {
-            let before = ((whole - bias.rolled) / by).clamp(0.0, 1.0);
+            let before = ((whole - means.cycles) / by).clamp(0.0, 1.0);
             left = 1.0 - before;
-            let time = bias.time + before * h;
+            let time = means.elapsed + before * h;
             if whole != 0.0 {
-                let mean = [0, 1].map(|s| (bias.sum[s] + before * torque[s]) / time);
-                (bias.last, bias.since) = (Some((mean, time)), -before * h);
+                let mean = [0, 1].map(|s| (means.sum[s] + before * torque[s]) / time);
+                (means.last, means.since) = (Some((mean, time)), -before * h);
             }
-            *bias = Bias { last: bias.last, since: bias.since, ..Bias::default() };
+            *means = TorqueMeans { last: means.last, since: means.since, ..TorqueMeans::default() };
         }
-        bias.rolled = rolled - whole;
-        bias.time += left * h;
-        bias.since += h;
+        means.cycles = cycles - whole;
+        means.elapsed += left * h;
+        means.since += h;
         for s in 0..2 {
-            bias.sum[s] += left * torque[s];
+            means.sum[s] += left * torque[s];
         }
     }
 }
@@ -45,13 +45,13 @@ mod tests {
     use super::*;
 
     /// Rolls from place to place, counted in cycles, in steps of 0.1 s; the torques are `torque` of the places between.
-    fn rolled(places: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> Bias {
-        let (cycle, mut bias) = (Cycle { pitch: 2.0 }, Bias::default());
+    fn rolled(places: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> TorqueMeans {
+        let (cycle, mut means) = (Cycle { pitch: 2.0 }, TorqueMeans::default());
         for pair in places.windows(2) {
             let by = 2.0 * (pair[1] - pair[0]);
-            cycle.add(&mut bias, [by, -by], 0.1, torque(0.5 * (pair[0] + pair[1])).map(|t| 0.1 * t));
+            cycle.add(&mut means, [by, -by], 0.1, torque(0.5 * (pair[0] + pair[1])).map(|t| 0.1 * t));
         }
-        bias
+        means
     }
 
     #[test]
@@ -72,18 +72,18 @@ mod tests {
         let ripple = |x: f64| [5.0 + (7.0 * x).sin(), 4.0 + (5.0 * x).cos()];
         let (forward, backward) = (rolled(&places, ripple), rolled(&mirrored, |x| ripple(-x)));
         assert!(forward.last.is_some());
-        assert_eq!(backward, Bias { rolled: -forward.rolled, ..forward });
+        assert_eq!(backward, TorqueMeans { cycles: -forward.cycles, ..forward });
     }
 
     #[test]
     fn a_step_over_several_cycles_gives_their_common_mean() {
-        let bias = rolled(&[0.0, 0.25, 3.25], |x| if x < 0.2 { [8.0, 0.0] } else { [2.0, 0.0] });
-        let ([left, _], took) = bias.last.unwrap();
+        let means = rolled(&[0.0, 0.25, 3.25], |x| if x < 0.2 { [8.0, 0.0] } else { [2.0, 0.0] });
+        let ([left, _], took) = means.last.unwrap();
         // 0.1 s to 0.25, and 2.75 of 3 parts of another 0.1 s to 3
         let second = 0.1 * 2.75 / 3.0;
         assert!((took - (0.1 + second)).abs() < 1e-15);
         assert!((left - (0.1 * 8.0 + second * 2.0) / took).abs() < 1e-12);
-        assert!((bias.rolled - 0.25).abs() < 1e-15 && (bias.time - (0.1 - second)).abs() < 1e-15);
+        assert!((means.cycles - 0.25).abs() < 1e-15 && (means.elapsed - (0.1 - second)).abs() < 1e-15);
     }
 
     #[test]

@@ -33,7 +33,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) acting: Acting,
-    pub(in crate::model) fault: bool,
+    pub(in crate::model) is_tooth_broken: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
     /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
@@ -57,7 +57,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
             }
         }
         let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.effect_terms.body_effects), inputs, state);
-        Self { teeth, acting, fault: state.fault, offset, wrapped }
+        Self { teeth, acting, is_tooth_broken: state.is_tooth_broken, offset, wrapped }
     }
 
     /// Groups of planets.
@@ -84,8 +84,8 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// Whether pins and seats move.
     #[inline]
-    pub(in crate::model) fn pins(&self) -> bool {
-        !Self::EXACT && self.teeth.layout.pins
+    pub(in crate::model) fn has_pins(&self) -> bool {
+        !Self::EXACT && self.teeth.layout.has_pins
     }
 
     /// Index of the planets of group `g`.
@@ -115,13 +115,13 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Ends of half-shafts with the side gears they turn against, in a size that is exact: the only bodies attached there.
     #[inline]
     pub(in crate::model) fn exact_ends(&self) -> impl Iterator<Item = (usize, usize)> + use<N, G, WITH_EFFECTS> {
-        (0..if Self::EXACT && self.ends() { ENDS } else { 0 }).map(|s| (PLANET + G + s, s))
+        (0..if Self::EXACT && self.has_ends() { ENDS } else { 0 }).map(|s| (PLANET + G + s, s))
     }
 
     /// Whether anything is attached.
     #[inline]
     pub(in crate::model) fn is_attached(&self) -> bool {
-        if Self::EXACT { self.ends() } else { self.teeth.layout.is_attached() }
+        if Self::EXACT { self.has_ends() } else { self.teeth.layout.is_attached() }
     }
 
     /// Degrees of freedom.
@@ -138,8 +138,8 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// The same equations in the size that every scene fits in.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
-        let Self { teeth, acting, fault, offset, wrapped } = *self;
-        Largest { teeth, acting, fault, offset, wrapped }
+        let Self { teeth, acting, is_tooth_broken, offset, wrapped } = *self;
+        Largest { teeth, acting, is_tooth_broken, offset, wrapped }
     }
 
     /// State of the mesh of group `g` with side `s`.
@@ -148,7 +148,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
         let (travel, travel_rate) = (turn * at.q[self.planet(g)], turn * at.v[self.planet(g)]);
-        let (angle, speed) = if !self.pins() {
+        let (angle, speed) = if !self.has_pins() {
             (at.q[s], at.v[s] - at.v[CARRIER])
         } else {
             (at.q[s] - at.q[self.pin(g)], at.v[s] - at.v[self.pin(g)])
@@ -185,7 +185,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
             self.teeth.plan.group(g).phase == self.teeth.plan.group(h).phase
                 && self.offset[g] == self.offset[h]
                 && same(self.planet(g), self.planet(h))
-                && (!self.pins() || same(self.pin(g), self.pin(h)))
+                && (!self.has_pins() || same(self.pin(g), self.pin(h)))
         })
     }
 
@@ -209,13 +209,13 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         for s in 0..2 {
             sum[s] += on_side[s];
         }
-        if !self.pins() {
+        if !self.has_pins() {
             sum[CARRIER] -= on_side[0] + on_side[1];
         }
         for g in 0..self.groups() {
             let (left, right) = (force(g, 0), force(g, 1));
             sum[self.planet(g)] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
-            if self.pins() {
+            if self.has_pins() {
                 sum[self.pin(g)] -= side * left[0] + side * right[0];
             }
         }
@@ -228,7 +228,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         at: &Point<N>,
         sum: &mut [f64; N],
         imposed: &[f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.acting.input_derivatives.rates[0];
@@ -245,7 +245,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + if WITH_EFFECTS { power.drive } else { 0.0 }
+            self.acting.inputs.carrier_torque + if WITH_EFFECTS { ledger_rates.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
@@ -267,7 +267,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 sum[self.end(s)] = rates.side_speed[s];
             }
         }
-        power.input += input;
+        ledger_rates.input += input;
     }
 
     /// Adds tooth torques without any input to the sums of side gears, carrier, planets and pins; returns the heat of contact.
@@ -309,10 +309,12 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
-        let one = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
-        let planets =
-            self.sum(|g| self.members(g) * (one(self.planet(g)) + if self.pins() { one(self.pin(g)) } else { 0.0 }));
-        let others = |range: std::ops::Range<usize>| range.map(one).sum::<f64>();
+        let twice_energy = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
+        let planets = self.sum(|g| {
+            self.members(g)
+                * (twice_energy(self.planet(g)) + if self.has_pins() { twice_energy(self.pin(g)) } else { 0.0 })
+        });
+        let others = |range: std::ops::Range<usize>| range.map(twice_energy).sum::<f64>();
         let behind = self.inner().end;
         0.5 * (others(0..self.planet(0)) + planets + others(behind..self.count()))
     }
@@ -360,8 +362,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     }
 
     #[inline]
-    fn ends(&self) -> bool {
-        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends() }
+    fn has_ends(&self) -> bool {
+        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.has_ends() }
     }
 
     #[inline]
@@ -375,10 +377,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     }
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
-        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], LedgerRates::default());
-        self.add_brakes(&mut sum);
-        self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
-        self.finish(at, &mut sum, &imposed, &mut power);
+        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; N], [0.0; N], LedgerRates::default());
+        self.add_brakes(at, &mut sum);
+        self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
+        self.finish(at, &mut sum, &imposed, &mut ledger_rates);
         sum
     }
 }

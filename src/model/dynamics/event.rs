@@ -81,13 +81,13 @@ impl Event {
         let sticks = |of: &[FrictionState; FRICTION_BODIES], i: usize| of[i].mode == Mode::Stuck;
         let count = self.count;
         for i in (0..FRICTION_BODIES).filter(|&i| sticks(before, i) != sticks(after, i)) {
-            let what = match (i >= FRICTION_WHEELS, sticks(after, i)) {
+            let happening = match (i >= FRICTION_WHEELS, sticks(after, i)) {
                 (true, true) => Happening::WheelStops,
                 (true, false) => Happening::WheelBreaksLoose,
                 (false, true) => Happening::ClutchSticks,
                 (false, false) => Happening::ClutchSlips,
             };
-            self.record(what, i, time);
+            self.record(happening, i, time);
         }
         self.count != count
     }

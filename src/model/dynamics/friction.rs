@@ -32,26 +32,52 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         loads: Option<&MeshLoads<G>>,
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         if self.rubs() {
-            self.rub_under(at, loads, sum, power);
+            self.rub_under(at, loads, sum, ledger_rates);
         }
     }
 
-    fn rub_under(&self, at: &Point<N>, loads: Option<&MeshLoads<G>>, sum: &mut [f64; N], power: &mut LedgerRates) {
-        let mut all = by_body(loads);
-        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
-        self.rub(at, &all, sum, power);
+    fn rub_under(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<G>>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        self.rub(at, &self.all_surface_loads(loads), sum, ledger_rates);
     }
 
-    /// Adds the torques of brakes that slide, which follow from the inputs alone.
-    pub(in crate::model) fn add_brakes(&self, sum: &mut [f64; N]) {
+    /// Loads on all surfaces, those of side gears and planets as given.
+    fn all_surface_loads(&self, loads: Option<&MeshLoads<G>>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = by_body(loads);
+        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
+        all
+    }
+
+    /// Derivatives of dry friction by the motion of the bodies on which it acts, under given loads on the surfaces of side gears
+    /// and planets.
+    pub(in crate::model) fn friction_slopes_under(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<G>>,
+        j: &mut Jacobian<'_, N>,
+    ) {
+        if self.rubs() {
+            self.friction_slopes(at, &self.all_surface_loads(loads), j);
+        }
+    }
+
+    /// Adds the torques of brakes that slide, which follow from inputs and speeds alone.
+    pub(in crate::model) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
         let surface_loads = self.acting.friction().wheel_loads(&self.acting.inputs);
         for s in 0..2 {
             let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
             if friction.is_on() {
-                sum[self.wheel(s)] -= state.mode.direction() * friction.limit(&surface_loads[s]);
+                let direction = state.mode.direction();
+                let speed = direction * self.slip(at, FRICTION_WHEELS + s).speed;
+                sum[self.wheel(s)] -= direction * friction.sliding_limit(speed, &surface_loads[s])[0];
             }
         }
     }
@@ -59,18 +85,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Derivatives of dry friction by the loads of the meshes.
     pub(in crate::model) fn friction_slopes_by_loads<T: Local>(
         &self,
+        at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
         planets: &[SurfaceLoad; G],
         j: &mut Jacobian<'_, N>,
     ) {
         let side = self.teeth.sin_base[1];
-        let [of_side, of_planet] =
-            [self.acting.friction().side.limit_slopes(), self.acting.friction().planet.limit_slopes()];
         for s in 0..2 {
-            let direction = self.acting.friction_state[s].mode.direction();
-            if direction == 0.0 || !self.acting.friction().side.is_on() {
-                continue;
-            }
+            let Some((direction, of_side)) = self.slopes_of_sliding(at, s) else { continue };
             let torque = self.sum(|g| self.members(g) * side * loads[g][s].force[0].value());
             let slopes: [[f64; WITH_OTHER]; G] = self.by_group(|g| {
                 let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
@@ -83,10 +105,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             }
         }
         for g in 0..self.groups() {
-            let direction = self.acting.friction_state[FRICTION_PLANETS + g].mode.direction();
-            if direction == 0.0 || !self.acting.friction().planet.is_on() {
-                continue;
-            }
+            let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g) else { continue };
             let [l, r] = &loads[g];
             let across = l.tangential.value() + r.tangential.value();
             let along = l.side_axial.value() - r.side_axial.value();
@@ -102,11 +121,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
+    /// Direction in which body `i` slides, and the slopes of its limit torque by thrust and load; none where it does not slide.
+    fn slopes_of_sliding(&self, at: &Point<N>, i: usize) -> Option<(f64, [f64; 2])> {
+        let (friction, state, _) = self.friction_on(i);
+        let direction = state.mode.direction();
+        let slides = direction != 0.0 && friction.is_on();
+        slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed)))
+    }
+
     /// Derivatives of the planets' dry friction by the speeds that throw them outward.
     pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<'_, N>) {
-        let per_thrust = self.acting.friction().planet.limit_slopes()[0];
         for g in 0..self.groups() {
-            let direction = self.acting.friction_state[FRICTION_PLANETS + g].mode.direction();
+            let Some((direction, [per_thrust, _])) = self.slopes_of_sliding(at, FRICTION_PLANETS + g) else { continue };
             j.by_velocity[self.planet(g)][self.orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
         }
     }
@@ -143,11 +169,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         m[row][s] += sign * self.sum(|g| side * slopes(g, 0));
         for g in 0..self.groups() {
             m[row][self.planet(g)] += sign * turn * (slopes(g, 1) - slopes(g, 0));
-            if self.pins() {
+            if self.has_pins() {
                 m[row][self.pin(g)] -= sign * side * slopes(g, 0);
             }
         }
-        if self.pins() {
+        if self.has_pins() {
             m[row][self.seat(s)] += sign * self.sum(|g| slopes(g, 2));
         }
     }

@@ -46,36 +46,41 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
-    fn forces(&self, at: &Point<MOST>, power: &mut LedgerRates) -> ([f64; MOST], [f64; IMPOSED]) {
+    fn forces(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) -> ([f64; MOST], [f64; IMPOSED]) {
         let rates = &self.acting.input_derivatives.rates[0];
         let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
-        let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
+        let mut out = Action {
+            force: &mut sum,
+            imposed: &mut imposed,
+            drive: &mut ledger_rates.drive,
+            heat: &mut ledger_rates.heat,
+        };
         for effect in self.ideal.body_effects.forces.iter() {
             effect.act(&self.body_motion(at), &mut out);
         }
         let plan = &self.ideal.plan;
         if self.rubs() {
-            self.rub(at, &self.surface_loads(at, 0.0), &mut sum, power);
+            self.rub(at, &self.surface_loads(at, 0.0), &mut sum, ledger_rates);
         }
         for s in 0..2 {
-            power.shaft[s] = self.acting.inputs.load_torque[s];
-            if self.ends() && plan.shafts[s] {
+            ledger_rates.shaft[s] = self.acting.inputs.load_torque[s];
+            if self.has_ends() && plan.shafts[s] {
                 let end = self.end(s);
-                power.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
+                ledger_rates.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
             }
             let wheel = self.wheel(s);
             if plan.side_imposed[s] {
                 let inertial = self.ideal.inertia[wheel] * rates.side_speed[s];
-                power.input += (inertial - sum[wheel]) * at.v[wheel];
+                ledger_rates.input += (inertial - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.acting.inputs.load_torque[s];
-                power.input -= self.acting.inputs.load_torque[s] * at.v[wheel];
+                ledger_rates.input -= self.acting.inputs.load_torque[s] * at.v[wheel];
             }
         }
         if !plan.carrier_imposed {
-            let drive = self.acting.inputs.carrier_torque + power.drive;
+            let drive = self.acting.inputs.carrier_torque + ledger_rates.drive;
             sum[CARRIER] += drive;
-            power.input += drive * at.v[CARRIER];
+            ledger_rates.input += drive * at.v[CARRIER];
         }
         (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
@@ -105,9 +110,9 @@ impl<'a> IdealEquations<'a> {
 
     /// Torques that follow from the constraint.
     pub fn torques(&self, at: &Point<MOST>) -> IdealTorques {
-        let mut power = LedgerRates::default();
-        let (sum, imposed) = self.forces(at, &mut power);
-        self.torques_of(&sum, &self.accelerations(&sum, &imposed), power.drive)
+        let mut ledger_rates = LedgerRates::default();
+        let (sum, imposed) = self.forces(at, &mut ledger_rates);
+        self.torques_of(&sum, &self.accelerations(&sum, &imposed), ledger_rates.drive)
     }
 
     /// Energy of half-shafts and stuck friction [J].
@@ -138,8 +143,8 @@ impl Acted<MOST> for IdealEquations<'_> {
         self.acting.rubs
     }
 
-    fn ends(&self) -> bool {
-        self.ideal.layout.ends()
+    fn has_ends(&self) -> bool {
+        self.ideal.layout.has_ends()
     }
 
     /// None: planets stick with the side gears.
@@ -160,7 +165,7 @@ impl Acted<MOST> for IdealEquations<'_> {
 impl SecondOrder<MOST> for IdealEquations<'_> {
     type Rates = LedgerRates;
 
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         self.count()
     }
 
@@ -169,8 +174,8 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         [0.5 * kinetic, self.stored_energy(at)]
     }
 
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[LedgerRates; 3]) -> f64 {
-        LedgerRates::imbalance::<true>(energies, h, power)
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> f64 {
+        LedgerRates::imbalance::<true>(energies, h, ledger_rates)
     }
 
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {
@@ -190,19 +195,19 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     }
 
     fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], LedgerRates) {
-        let mut power = LedgerRates::default();
-        let (sum, imposed) = self.forces(at, &mut power);
+        let mut ledger_rates = LedgerRates::default();
+        let (sum, imposed) = self.forces(at, &mut ledger_rates);
         let a = self.accelerations(&sum, &imposed);
-        let torques = self.torques_of(&sum, &a, power.drive);
+        let torques = self.torques_of(&sum, &a, ledger_rates.drive);
         if self.ideal.plan.carrier_imposed {
-            power.input += torques.carrier * at.v[CARRIER];
+            ledger_rates.input += torques.carrier * at.v[CARRIER];
         }
-        power.input += torques.spin * at.v[PLANET];
-        (a, power)
+        ledger_rates.input += torques.spin * at.v[PLANET];
+        (a, ledger_rates)
     }
 
     fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, LedgerRates> {
-        let (acceleration, power) = self.evaluate(at);
+        let (acceleration, ledger_rates) = self.evaluate(at);
         let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
         let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut imposed = [[0.0; MOST]; 2];
@@ -210,7 +215,9 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&self.body_motion(at), &mut out);
         }
-        self.friction_slopes(&mut j);
+        if self.rubs() {
+            self.friction_slopes(at, &self.surface_loads(at, 0.0), &mut j);
+        }
         let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
         let ideal = self.ideal;
@@ -238,7 +245,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
             acceleration,
             by_position: moved(&by_position, &imposed[0]),
             by_velocity: moved(&by_velocity, &imposed[1]),
-            power,
+            ledger_rates,
         }
     }
 

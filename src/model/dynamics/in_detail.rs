@@ -7,7 +7,7 @@ use crate::contact::detailed::{
     Detailed, DetailedLoad, DetailedState, LOCAL, MeshTeeth, SharedTeeth, SliceLoad, WITH_OTHER,
 };
 use crate::contact::mesh::MeshState;
-use crate::contact::shared::Moved;
+use crate::contact::shared::OpeningByOthers;
 use crate::contact::{Flank, FlankGaps};
 use crate::integrate::Point;
 use crate::model::effect_kinds::SurfaceLoad;
@@ -87,20 +87,21 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
     #[inline]
     pub(in crate::model) fn in_detail(&self) -> bool {
-        self.teeth.effect_terms.in_detail || self.fault
+        self.teeth.effect_terms.in_detail || self.is_tooth_broken
     }
 
     /// Gaps of the teeth as they are now.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
-        self.teeth.effect_terms.gaps[usize::from(self.fault)].as_deref()
+        self.teeth.effect_terms.gaps[usize::from(self.is_tooth_broken)].as_deref()
     }
 
     /// State of the mesh of group `g` with side `s` in detail.
     #[inline]
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
-        let [w, dw] = if self.pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
-        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
+        let [w, dw] = if self.has_pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
+        let (wrapped, viscosity) = (self.wrapped(g, s), self.acting.oil_viscosity);
+        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped, viscosity }
     }
 
     /// States of both meshes of group `g` in detail.
@@ -119,17 +120,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// The fraction of a step of `h` [s] from `at` on after which the force of the mesh of group `g` with side `s` has its
-    /// first kink; `moved` tells what others move its pairs by.
+    /// first kink; `opening_by_others` tells what others move its pairs by.
     #[inline]
     pub(super) fn mesh_kink(
         &self,
         at: &Point<N>,
         h: f64,
         (g, s): (usize, usize),
-        moved: Option<&Moved>,
+        opening_by_others: Option<&OpeningByOthers>,
     ) -> Option<f64> {
         let (mesh, state) = (&self.teeth.mesh, self.mesh_state(at, g, s));
-        let moved_by = |flank: Flank, number: i64| moved.map_or(0.0, |moved| moved.of(s, flank, number));
+        let moved_by =
+            |flank: Flank, number: i64| opening_by_others.map_or(0.0, |openings| openings.of(s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
             let (teeth, detailed) = (self.mesh_teeth(g, s), &self.teeth.effect_terms.detailed);
             if teeth.gaps.is_some() {
@@ -139,7 +141,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 });
             }
         }
-        if moved.is_some() {
+        if opening_by_others.is_some() {
             return mesh.kink_of_open(&state, h, |flank, number, _| moved_by(flank, number));
         }
         mesh.kink(&state, h)
@@ -168,7 +170,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
     pub(super) fn orbit(&self, g: usize) -> usize {
-        if self.pins() { self.pin(g) } else { CARRIER }
+        if self.has_pins() { self.pin(g) } else { CARRIER }
     }
 
     /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
@@ -214,23 +216,23 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
-        slopes: Option<&mut Jacobian<'_, N>>,
+        ledger_rates: &mut LedgerRates,
+        jacobian: Option<&mut Jacobian<'_, N>>,
     ) {
         self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
-        if self.pins() {
+        if self.has_pins() {
             for s in 0..2 {
                 sum[self.seat(s)] += self.sum(|g| self.members(g) * loads[g][s].force[2].value());
             }
         }
-        for (i, place) in [CONTACT_HEAT, self.teeth.effect_terms.friction_heat].into_iter().enumerate() {
+        for (i, place) in [CONTACT_HEAT, self.teeth.effect_terms.friction_heat_index].into_iter().enumerate() {
             if i == 0 || place != CONTACT_HEAT {
-                power.heat[place] = self.sum(|g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
+                ledger_rates.heat[place] = self.sum(|g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
         }
         let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, loads));
-        self.add_friction(at, surfaces.as_ref(), sum, power);
-        if let Some(j) = slopes {
+        self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
+        if let Some(j) = jacobian {
             let block = |part: usize| {
                 self.by_group(|g| {
                     [0, 1].map(|s| {
@@ -246,9 +248,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 self.add_blocks::<true>(&self.cross_blocks(loads), j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
-                self.friction_slopes_by_loads(loads, planets, j);
+                self.friction_slopes_by_loads(at, loads, planets, j);
                 self.friction_slopes_by_orbit(at, j);
             }
+            self.friction_slopes_under(at, surfaces.as_ref(), j);
         }
     }
 

@@ -60,7 +60,7 @@ impl LedgerRates {
 /// Simpson's rule on begin, middle and end of a step.
 #[inline]
 pub fn simpson<const N: usize>(step: &Step<N, LedgerRates>, of: impl Fn(&LedgerRates) -> f64) -> f64 {
-    let [a, m, b] = &step.power;
+    let [a, m, b] = &step.ledger_rates;
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 

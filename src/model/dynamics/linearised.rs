@@ -36,7 +36,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
     #[inline]
     pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
-        (lin.acceleration, lin.power) = ([0.0; N], LedgerRates::default());
+        (lin.acceleration, lin.ledger_rates) = ([0.0; N], LedgerRates::default());
         // rows beyond are never anything but zero
         for i in 0..self.count() {
             (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
@@ -47,24 +47,24 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Adds to `lin` the equations of teeth without effects, linearised; returns the elastic energy [J].
     #[inline]
     fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
-        let Linearisation { acceleration, by_position, by_velocity, power } = lin;
-        let energy = self.add_linearised(at, acceleration, [&mut *by_position, &mut *by_velocity], power);
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
+        let energy = self.add_linearised(at, acceleration, [&mut *by_position, &mut *by_velocity], ledger_rates);
         // α̇ = ω_s − ω_c
         self.times_rates(by_velocity);
         self.divide_by_inertia(by_position);
         self.divide_by_inertia(by_velocity);
-        self.finish(at, acceleration, &[0.0; N], power);
+        self.finish(at, acceleration, &[0.0; N], ledger_rates);
         energy
     }
 
     /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].
     #[inline]
     fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
-        let Linearisation { acceleration, by_position, by_velocity, power } = lin;
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
         let mut imposed = [0.0; N];
-        let mut slopes = Jacobian::new([&mut *by_position, &mut *by_velocity]);
-        self.act(at, acceleration, &mut imposed, power, Some(&mut slopes));
-        let Jacobian { mut by_rate, of_imposed, elastic_energy, .. } = slopes;
+        let mut jacobian = Jacobian::new([&mut *by_position, &mut *by_velocity]);
+        self.act(at, acceleration, &mut imposed, ledger_rates, Some(&mut jacobian));
+        let Jacobian { mut by_rate, of_imposed, elastic_energy, .. } = jacobian;
         self.times_rates(&mut by_rate);
         for i in 0..self.count() {
             for j in 0..N {
@@ -76,7 +76,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         if self.teeth.plan.carrier_imposed {
             (by_position[CARRIER], by_velocity[CARRIER]) = (of_imposed[0], of_imposed[1]);
         }
-        self.finish(at, acceleration, &imposed, power);
+        self.finish(at, acceleration, &imposed, ledger_rates);
         elastic_energy
     }
 }

@@ -3,7 +3,6 @@
 
 pub mod accepted;
 pub mod acting;
-pub mod bias;
 mod blocks;
 pub mod clock;
 pub mod cycle;
@@ -23,6 +22,7 @@ mod pair_loads;
 pub mod pending_step;
 pub mod sizes;
 pub mod state;
+pub mod torque_means;
 mod twists;
 pub mod watched;
 mod with_effects;

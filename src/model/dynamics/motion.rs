@@ -22,16 +22,16 @@ const TWIST_FLOOR: f64 = 1e-3;
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Accelerations; completes the ledger rates.
     #[inline]
-    fn accelerate(&self, at: &Point<N>, power: &mut LedgerRates) -> [f64; N] {
+    fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
         let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
         if WITH_EFFECTS {
-            self.act(at, &mut sum, &mut imposed, power, None);
+            self.act(at, &mut sum, &mut imposed, ledger_rates, None);
         } else {
-            power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
+            ledger_rates.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
         }
         // in small sizes a copy that stays in registers
         let mut sum = if Self::EXACT { std::array::from_fn(|i| sum[i]) } else { sum };
-        self.finish(at, &mut sum, &imposed, power);
+        self.finish(at, &mut sum, &imposed, ledger_rates);
         sum
     }
 }
@@ -40,14 +40,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     type Rates = LedgerRates;
 
     #[inline]
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         self.count()
     }
 
     /// Planets and their pins.
     #[inline]
     fn inner(&self) -> Range<usize> {
-        let (first, pins) = (self.planet(0), if self.pins() { self.groups() } else { 0 });
+        let (first, pins) = (self.planet(0), if self.has_pins() { self.groups() } else { 0 });
         first..first + self.groups() + pins
     }
 
@@ -57,7 +57,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        if self.pins() {
+        if self.has_pins() {
             for g in 0..self.groups() {
                 rates[self.pin(g)] -= v[CARRIER];
             }
@@ -73,7 +73,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     fn times_rates(&self, m: &mut Matrix<N>) {
         for row in &mut m[..self.count()] {
             row[CARRIER] -= row[0] + row[1];
-            if self.pins() {
+            if self.has_pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
             twists::turn(self.exact_ends(), row);
@@ -85,8 +85,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], LedgerRates) {
-        let mut power = LedgerRates::default();
-        (self.accelerate(at, &mut power), power)
+        let mut ledger_rates = LedgerRates::default();
+        (self.accelerate(at, &mut ledger_rates), ledger_rates)
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, LedgerRates> {
@@ -112,8 +112,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let power = &mut LedgerRates::default();
-        if self.is_driven_by_inputs() { self.later(time).accelerate(at, power) } else { self.accelerate(at, power) }
+        let ledger_rates = &mut LedgerRates::default();
+        if self.is_driven_by_inputs() {
+            self.later(time).accelerate(at, ledger_rates)
+        } else {
+            self.accelerate(at, ledger_rates)
+        }
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
@@ -135,7 +139,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         let side_speed = 1.0 / (carrier + spin * self.teeth.sin_base[0] / self.teeth.sin_base[1]);
         let mut v = [1.0 / (carrier + spin); N];
         (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
-        if self.pins() {
+        if self.has_pins() {
             let per_length = per_approach / self.teeth.mesh.cone;
             for s in 0..2 {
                 q[CARRIER + 1 + s] = per_length;
@@ -168,12 +172,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[LedgerRates; 3]) -> f64 {
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> f64 {
         // pairs that come and go abruptly bring energy that no force gave
         if !self.teeth.mesh.engagement.corner_contact() {
             return 0.0;
         }
-        LedgerRates::imbalance::<WITH_EFFECTS>(energies, h, power)
+        LedgerRates::imbalance::<WITH_EFFECTS>(energies, h, ledger_rates)
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
@@ -195,9 +199,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
         for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
-            let moved = self.bodies_of_gears().map(|bodies| self.moved_pairs(bodies, at, g));
+            let opening_by_others = self.bodies_of_gears().map(|bodies| self.opening_by_others(bodies, at, g));
             for s in 0..2 {
-                let found = self.mesh_kink(at, h, (g, s), moved.as_ref());
+                let found = self.mesh_kink(at, h, (g, s), opening_by_others.as_ref());
                 first = match (first, found) {
                     (Some(a), Some(b)) => Some(a.min(b)),
                     (a, b) => a.or(b),

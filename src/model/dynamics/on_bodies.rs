@@ -7,7 +7,7 @@ use crate::contact::bodies::PairCouplings;
 use crate::contact::detailed::{DetailedLoad, PairName, SharedTeeth};
 use crate::contact::impact::Force;
 use crate::contact::mesh::{MeshForce, MeshState};
-use crate::contact::shared::{Moved, SharedForce, SharedMeshes};
+use crate::contact::shared::{OpeningByOthers, SharedForce, SharedMeshes};
 use crate::contact::{Flank, Law, ToothPair};
 use crate::integrate::{Matrix, Point};
 use crate::model::setup::CONTACT_HEAT;
@@ -115,14 +115,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// By how much pairs of group `g` are moved by others.
-    pub(super) fn moved_pairs(&self, bodies: &PairCouplings, at: &Point<N>, g: usize) -> Moved {
+    pub(super) fn opening_by_others(&self, bodies: &PairCouplings, at: &Point<N>, g: usize) -> OpeningByOthers {
         if self.in_detail() {
             return self.with_shared_teeth(bodies, g, |teeth| {
-                self.teeth.effect_terms.detailed.moved(teeth, &self.detailed_states(at, g))
+                self.teeth.effect_terms.detailed.opening_by_others(teeth, &self.detailed_states(at, g))
             });
         }
         let states = self.mesh_states(at, g);
-        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).moved(law, &states), Moved::default())
+        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).opening_by_others(law, &states), OpeningByOthers::default())
     }
 
     /// Calls `act` with the teeth of both meshes of group `g` on `bodies`.
@@ -185,7 +185,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         [by_position, by_rate]: [&mut Matrix<N>; 2],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) -> f64 {
         let mut shared = [SharedForce::default(); G];
         for g in 0..self.groups() {
@@ -198,7 +198,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         self.add_shared_blocks(&shared, by_position);
         let rates = self.by_group(|g| [0, 1].map(|s| self.block(s, &shared[g].by_rate[s])));
         self.add_blocks::<false>(&rates, by_rate);
-        power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
+        ledger_rates.heat[CONTACT_HEAT] =
+            self.sum(|g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
         self.sum(|g| self.members(g) * shared[g].energy)
     }
 }

@@ -56,7 +56,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         let [planet_tooth, side_tooth] = slice.teeth;
         let teeth = PairId { planet_tooth, side_tooth, flank: slice.flank };
         let mut opening = self.gaps().map_or(Opening::NONE, |gaps| gaps.of(mesh, teeth, slice.s));
-        if self.pins() {
+        if self.has_pins() {
             let axial = cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - slice.s);
             opening.even.v += at.q[self.seat(slice.side)] * axial;
         }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Clock;
 use super::ledger_rates::LedgerRates;
-use crate::integrate::{Attempt, Course, Extension, Pending, Point, bent};
+use crate::integrate::{Attempt, Course, Extension, Pending, Point, extended};
 use crate::model::scene::{Inputs, MAX_DOF};
 
 /// Positions and velocities of all degrees of freedom.
@@ -20,36 +20,36 @@ pub struct PendingStep {
     attempt: Attempt,
     start: Motion,
     end: Motion,
-    bends: [Motion; 3],
-    power: [LedgerRates; 2],
+    coefficients: [Motion; 3],
+    ledger_rates: [LedgerRates; 2],
     energy: [f64; 2],
 }
 
 impl PendingStep {
     /// Stores the step `pending`.
     pub fn set<const N: usize>(&mut self, pending: &Pending<N, LedgerRates>, clock: Clock, inputs: &Inputs) {
-        let Extension { start, end, bends } = &pending.extension;
+        let Extension { start, end, coefficients } = &pending.extension;
         (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
-        (self.power, self.energy) = (pending.power, pending.energy);
+        (self.ledger_rates, self.energy) = (pending.ledger_rates, pending.energy);
         store(start, &mut self.start);
         store(end, &mut self.end);
-        for (bend, stored) in bends.iter().zip(&mut self.bends) {
-            store(bend, stored);
+        for (coefficient, stored) in coefficients.iter().zip(&mut self.coefficients) {
+            store(coefficient, stored);
         }
     }
 
     /// Restores the point and the pending step of `course`; its times are left as they are.
     pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
-        let extension = Extension { start, end, bends: [0, 1, 2].map(|k| restored(&self.bends[k])) };
-        let (attempt, power, energy) = (self.attempt, self.power, self.energy);
+        let extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
+        let (attempt, ledger_rates, energy) = (self.attempt, self.ledger_rates, self.energy);
         course.point = start;
-        course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
+        course.pending = Some(Pending { attempt, extension, ledger_rates, energy, part: 1.0 });
     }
 
     /// Gives degree of freedom `i` the motion of `first`.
     pub fn let_follow(&mut self, i: usize, first: usize) {
-        let Self { start, end, bends: [one, two, three], .. } = self;
+        let Self { start, end, coefficients: [one, two, three], .. } = self;
         for motion in [start, end, one, two, three] {
             motion.iter_mut().for_each(|of| of[i] = of[first]);
         }
@@ -71,8 +71,8 @@ impl PendingStep {
                 continue;
             }
             for i in 0..n.min(MAX_DOF) {
-                let bends = [self.bends[0][k][i], self.bends[1][k][i], self.bends[2][k][i]];
-                to[i] = bent(self.start[k][i], self.end[k][i], bends, fraction);
+                let coefficients = [self.coefficients[0][k][i], self.coefficients[1][k][i], self.coefficients[2][k][i]];
+                to[i] = extended(self.start[k][i], self.end[k][i], coefficients, fraction);
             }
         }
     }
@@ -80,9 +80,9 @@ impl PendingStep {
     /// Whether a simulation can continue from this step: all numbers are finite, and the step size is positive.
     pub fn is_valid(&self) -> bool {
         let Attempt { h, error, .. } = self.attempt;
-        let motions = [&self.start, &self.end, &self.bends[0], &self.bends[1], &self.bends[2]];
+        let motions = [&self.start, &self.end, &self.coefficients[0], &self.coefficients[1], &self.coefficients[2]];
         motions.into_iter().flatten().flatten().chain(&self.energy).all(|x| x.is_finite())
-            && self.power.iter().all(LedgerRates::is_finite)
+            && self.ledger_rates.iter().all(LedgerRates::is_finite)
             && self.inputs.is_finite()
             && self.clock.is_valid()
             && error.is_finite()

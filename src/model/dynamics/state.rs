@@ -3,16 +3,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::bias::Bias;
 use super::event::{Event, Pause};
 use super::pending_step::PendingStep;
+use super::torque_means::TorqueMeans;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, PLANET,
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, OilSpec, PLANET,
 };
 use crate::model::setup::HEATS;
+use crate::model::thermal::Thermal;
 
 /// Number of periods above which a double no longer resolves a single period.
 const MOST_PERIODS: u64 = 1 << 53;
@@ -35,12 +36,14 @@ pub struct State {
     pub work: f64,
     /// Heat since the start by cause [J].
     pub heat: [f64; HEATS],
+    /// Temperatures.
+    pub thermal: Thermal,
     /// State of the dry friction: side gears, groups of planets, wheels.
     pub friction: [FrictionState; FRICTION_BODIES],
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
-    pub bias: Bias,
+    pub torque_means: TorqueMeans,
     /// Whether the tooth of the tooth fault is broken.
-    pub fault: bool,
+    pub is_tooth_broken: bool,
     /// Command of the lock as it acted in the last step, from 0 to 1.
     pub lock: f64,
     /// Command of the carrier's speed as it acted in the last step [rad/s].
@@ -73,9 +76,10 @@ impl State {
             statistics: Statistics::default(),
             work: 0.0,
             heat: [0.0; HEATS],
+            thermal: Thermal::uniform(OilSpec::default().temperature),
             friction: [FrictionState::default(); FRICTION_BODIES],
-            bias: Bias::default(),
-            fault: false,
+            torque_means: TorqueMeans::default(),
+            is_tooth_broken: false,
             lock: 0.0,
             carrier_command: 0.0,
             input_derivatives: None,
@@ -213,8 +217,8 @@ impl State {
             self.work,
             self.energy_at_start,
             self.control.last_error,
-            self.bias.time,
-            self.bias.since,
+            self.torque_means.elapsed,
+            self.torque_means.since,
             self.carrier_command,
         ];
         // a sum is not finite if a term is not
@@ -222,6 +226,7 @@ impl State {
         let anchors: f64 = self.friction.iter().map(|f| f.anchor).sum();
         let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
         (sum(&self.q) + sum(&self.v) + sum(&numbers) + sum(&self.heat) + anchors).is_finite()
+            && self.thermal.is_finite()
             && input_derivatives
             && self.whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(&self.lock)
@@ -238,8 +243,8 @@ impl BodyEffects {
     /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
     /// holds, derivatives of inputs.
     pub fn act_in(&self, state: &State) -> bool {
-        self.always
-            || state.fault
+        self.has_effects
+            || state.is_tooth_broken
             || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)
@@ -252,7 +257,7 @@ mod tests {
 
     #[test]
     fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
-        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], pins: false, attached: [false; _] };
+        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], has_pins: false, attached: [false; _] };
         for side in 0..2 {
             let mut state = State::at_rest(0.0, 1e-3);
             state.move_anchors(side, 2.0, &layout);

@@ -10,36 +10,38 @@ use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::Dual;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Adds all forces except commanded torques, and their derivatives if `slopes` is given.
+    /// Adds all forces except commanded torques, and their derivatives if `jacobian` is given.
     #[inline]
     pub(in crate::model) fn act(
         &self,
         at: &Point<N>,
         sum: &mut [f64; N],
         imposed: &mut [f64; N],
-        power: &mut LedgerRates,
-        slopes: Option<&mut Jacobian<'_, N>>,
+        ledger_rates: &mut LedgerRates,
+        jacobian: Option<&mut Jacobian<'_, N>>,
     ) {
-        match slopes {
+        match jacobian {
             None => {
-                self.act_of_teeth(at, sum, power);
-                self.act_on_bodies(at, sum, imposed, power);
+                self.act_of_teeth(at, sum, ledger_rates);
+                self.act_on_bodies(at, sum, imposed, ledger_rates);
             }
             Some(j) => {
                 if self.in_detail() && self.bodies_of_gears().is_some() {
-                    self.act_in_detail(at, &self.all_loads::<Dual<WITH_OTHER>>(at), sum, power, Some(j));
+                    self.act_in_detail(at, &self.all_loads::<Dual<WITH_OTHER>>(at), sum, ledger_rates, Some(j));
                 } else if self.in_detail() {
-                    self.act_in_detail(at, &self.all_loads::<Dual<LOCAL>>(at), sum, power, Some(j));
+                    self.act_in_detail(at, &self.all_loads::<Dual<LOCAL>>(at), sum, ledger_rates, Some(j));
                 } else if let Some(bodies) = self.bodies_of_gears() {
                     j.elastic_energy =
-                        self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], power);
-                    self.add_friction(at, None, sum, power);
+                        self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], ledger_rates);
+                    self.add_friction(at, None, sum, ledger_rates);
+                    self.friction_slopes_under(at, None, j);
                 } else {
-                    j.elastic_energy = self.add_linearised(at, sum, [&mut *j.by_position, &mut j.by_rate], power);
-                    self.add_friction(at, None, sum, power);
+                    j.elastic_energy =
+                        self.add_linearised(at, sum, [&mut *j.by_position, &mut j.by_rate], ledger_rates);
+                    self.add_friction(at, None, sum, ledger_rates);
+                    self.friction_slopes_under(at, None, j);
                 }
-                self.friction_slopes(j);
-                self.act_on_bodies(at, sum, imposed, power);
+                self.act_on_bodies(at, sum, imposed, ledger_rates);
                 let mut imposed_by = [[0.0; N]; 2];
                 let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed_by);
                 for effect in self.teeth.effect_terms.body_effects.forces.iter() {
@@ -57,18 +59,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         &self,
         at: &Point<N>,
         sum: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) -> [f64; 2] {
         if self.in_detail() {
             let loads = self.all_loads::<f64>(at);
-            self.act_in_detail(at, &loads, sum, power, None);
+            self.act_in_detail(at, &loads, sum, ledger_rates, None);
             let side = self.teeth.sin_base[1];
             return [0, 1].map(|s| self.sum(|g| self.members(g) * side * loads[g][s].force[0]));
         }
-        power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, sum);
-        let gears = [sum[0], sum[1]];
-        self.add_friction(at, None, sum, power);
-        gears
+        ledger_rates.heat[CONTACT_HEAT] = self.add_tooth_torques(at, sum);
+        let on_sides = [sum[0], sum[1]];
+        self.add_friction(at, None, sum, ledger_rates);
+        on_sides
     }
 
     /// Adds the forces of the effects on bodies.
@@ -77,23 +79,27 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         imposed: &mut [f64; N],
-        power: &mut LedgerRates,
+        ledger_rates: &mut LedgerRates,
     ) {
         let motion = self.body_motion(at);
         imposed[CARRIER] += motion.input_rates.carrier_speed;
-        let mut out =
-            Action { force: sum, imposed: &mut imposed[CARRIER], drive: &mut power.drive, heat: &mut power.heat };
+        let mut out = Action {
+            force: sum,
+            imposed: &mut imposed[CARRIER],
+            drive: &mut ledger_rates.drive,
+            heat: &mut ledger_rates.heat,
+        };
         for effect in self.teeth.effect_terms.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
-        if self.ends() {
-            power.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
+        if self.has_ends() {
+            ledger_rates.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
         }
     }
 
     /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]; the load torque if the shaft is no degree of freedom.
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
-        if !self.ends() || !self.teeth.plan.shafts[s] {
+        if !self.has_ends() || !self.teeth.plan.shafts[s] {
             return self.acting.inputs.load_torque[s];
         }
         let end = self.end(s);
@@ -104,11 +110,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(in crate::model) fn static_forces(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         let j = Jacobian::new([&mut by_position, &mut by_velocity]);
-        let mut power = LedgerRates::default();
+        let mut ledger_rates = LedgerRates::default();
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
         self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
-        if self.pins() {
+        if self.has_pins() {
             for s in 0..2 {
                 sum[self.seat(s)] += self.sum(|g| self.members(g) * loads[g][s].force[2].v);
             }
@@ -121,8 +127,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let mut carrier = 0.0;
         let motion = self.body_motion(&still);
-        let mut action =
-            Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
+        let mut action = Action {
+            force: &mut sum,
+            imposed: &mut carrier,
+            drive: &mut ledger_rates.drive,
+            heat: &mut ledger_rates.heat,
+        };
         let mut unused = [[0.0; N]; 2];
         let mut slopes = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut unused);
         for effect in self.teeth.effect_terms.body_effects.forces.iter().filter(|e| e.is_structure()) {

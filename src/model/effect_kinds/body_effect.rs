@@ -17,6 +17,8 @@ pub struct BodyMotion<'a> {
     pub inputs: &'a Inputs,
     /// How fast they change [per s].
     pub input_rates: &'a Inputs,
+    /// Viscosity of the oil, where effects ask for it [Pa·s].
+    pub oil_viscosity: Option<f64>,
 }
 
 /// Forces and torques by degree of freedom (on each planet singly), and heat by cause.

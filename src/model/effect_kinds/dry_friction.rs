@@ -18,13 +18,13 @@ pub const SPEED_TOLERANCE: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
 /// Parts of a step within which a switch is looked for.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
-/// Most sources of friction on one body.
-pub const SOURCES: usize = 3;
+/// Most parts of the friction on one body.
+pub const PARTS: usize = 3;
 
 /// Friction on one kind of body from all its sources.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction {
-    parts: [FrictionPart; SOURCES],
+    parts: [FrictionPart; PARTS],
     count: usize,
     /// Stiffness of all sources together [N·m/rad].
     pub stiffness: f64,
@@ -32,35 +32,35 @@ pub struct DryFriction {
     /// Whether the limit torque is a command, which may fall while a body is held.
     commanded: bool,
     /// Index of the heat that the spring becomes when the last source is switched off.
-    released: usize,
+    released_heat_index: usize,
 }
 
 impl DryFriction {
     /// No source.
     pub const NONE: Self = Self {
-        parts: [FrictionPart::NONE; SOURCES],
+        parts: [FrictionPart::NONE; PARTS],
         count: 0,
         stiffness: 0.0,
         damping_time: 0.0,
         commanded: false,
-        released: 0,
+        released_heat_index: 0,
     };
 
-    /// No source yet; the energy that the spring loses when the last is switched off is heat `released`.
-    pub fn new(damping_time: f64, released: usize) -> Self {
-        Self { damping_time, released, ..Self::NONE }
+    /// No source yet; the energy that the spring loses when the last is switched off is heat `released_heat_index`.
+    pub fn new(damping_time: f64, released_heat_index: usize) -> Self {
+        Self { damping_time, released_heat_index, ..Self::NONE }
     }
 
     /// The same with a limit torque that is a command.
-    pub fn commanded(damping_time: f64, released: usize) -> Self {
-        Self { commanded: true, ..Self::new(damping_time, released) }
+    pub fn commanded(damping_time: f64, released_heat_index: usize) -> Self {
+        Self { commanded: true, ..Self::new(damping_time, released_heat_index) }
     }
 
-    /// Adds a source.
-    pub fn push(&mut self, part: FrictionPart, stiffness: f64) {
-        if stiffness > 0.0 && self.count < SOURCES {
-            self.parts[self.count] = part;
-            self.count += 1;
+    /// Adds a source, whose parts share a spring.
+    pub fn push(&mut self, parts: &[FrictionPart], stiffness: f64) {
+        if stiffness > 0.0 && self.count + parts.len() <= PARTS {
+            self.parts[self.count..self.count + parts.len()].copy_from_slice(parts);
+            self.count += parts.len();
             self.stiffness += stiffness;
         }
     }
@@ -79,14 +79,25 @@ impl DryFriction {
         self.parts().iter().any(|p| p.per_thrust != 0.0 || p.per_load != 0.0)
     }
 
-    /// Limit torque while sliding [N·m].
+    /// Kinetic limit torque, as of a curve that does not depend on speed [N·m].
     pub fn limit(&self, by: &SurfaceLoad) -> f64 {
         self.parts().iter().map(|p| p.at(by)).sum()
     }
 
-    /// Its slopes by thrust and load.
-    pub fn limit_slopes(&self) -> [f64; 2] {
-        self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load])
+    /// Limit torque of a body that slides at `speed` in its direction [N·m], and its slope by speed.
+    pub fn sliding_limit(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        self.parts().iter().fold([0.0; 2], |[torque, slope], p| {
+            let ([value, by_speed], kinetic) = (p.law.factor(speed), p.at(by));
+            [torque + value * kinetic, slope + by_speed * kinetic]
+        })
+    }
+
+    /// Slopes of the same by thrust and load.
+    pub fn limit_slopes(&self, speed: f64) -> [f64; 2] {
+        self.parts().iter().fold([0.0; 2], |[t, l], p| {
+            let [value, _] = p.law.factor(speed);
+            [t + value * p.per_thrust, l + value * p.per_load]
+        })
     }
 
     fn breakaway(&self, by: &SurfaceLoad) -> f64 {
@@ -97,16 +108,15 @@ impl DryFriction {
     pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => state.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
-            Mode::Forward => self.limit(by),
-            Mode::Backward => -self.limit(by),
+            mode => mode.direction() * self.sliding_limit(mode.direction() * slip.speed, by)[0],
         }
     }
 
     /// Slopes of the torque by position and speed; those by loads are [`Self::limit_slopes`].
-    pub fn torque_slopes(&self, state: &FrictionState) -> [f64; 2] {
+    pub fn torque_slopes(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> [f64; 2] {
         match state.mode {
             Mode::Stuck => [state.stiffness, self.damping_time * state.stiffness],
-            _ => [0.0; 2],
+            mode => [0.0, self.sliding_limit(mode.direction() * slip.speed, by)[1]],
         }
     }
 
@@ -120,9 +130,9 @@ impl DryFriction {
         let (direction, mut limit) = (state.mode.direction(), 0.0);
         let sliding = count * direction * slip.speed;
         for part in self.parts() {
-            let torque = part.at(by);
+            let torque = part.law.factor(direction * slip.speed)[0] * part.at(by);
             limit += torque;
-            heat[part.heat] += sliding * torque;
+            heat[part.heat_index] += sliding * torque;
         }
         direction * limit
     }
@@ -137,7 +147,7 @@ impl DryFriction {
         let whole = self.limit(by);
         for part in self.parts() {
             let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
-            heat[part.heat] += amount * share;
+            heat[part.heat_index] += amount * share;
         }
     }
 
@@ -275,7 +285,7 @@ impl DryFriction {
             *state = FrictionState::default();
         }
         state.stiffness = self.stiffness;
-        let cause = self.parts().first().map_or(self.released, |p| p.heat);
+        let cause = self.parts().first().map_or(self.released_heat_index, |p| p.heat_index);
         heat[cause] += count * (before - self.energy(state, slip.position));
     }
 }

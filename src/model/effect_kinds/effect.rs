@@ -10,7 +10,7 @@ use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
 use crate::declaration::{DisplayUnit, Parameter, Row, Unit};
 use crate::geometry::{GearSpec, Pair};
-use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, Plan, Requests, Scene};
+use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
 use crate::problem::Problem;
 
 /// Whether this build has effects at all; one without proves that an effect that is off costs nothing.
@@ -74,6 +74,8 @@ pub struct Setting<'a> {
     pub pair: &'a Pair,
     /// Material.
     pub material: &'a Material,
+    /// Oil.
+    pub oil: &'a OilSpec,
     /// Inertias.
     pub inertia: &'a InertiaSpec,
     /// Contact law.
@@ -83,7 +85,7 @@ pub struct Setting<'a> {
     /// Whether the effect is switched on.
     pub on: bool,
     /// Index of the effect's heat in the ledger.
-    pub heat: usize,
+    pub heat_index: usize,
 }
 
 /// What readings follow from.
@@ -158,6 +160,11 @@ pub trait Effect {
     /// Forces and torques on bodies, other than dry friction.
     fn on_bodies(&self, _setting: &Setting, _plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         None
+    }
+
+    /// Whether it depends on the viscosity of the oil at its temperature.
+    fn is_oiled(&self) -> bool {
+        false
     }
 
     /// Dry friction.

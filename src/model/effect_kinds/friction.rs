@@ -3,6 +3,7 @@
 use super::dry_friction::{DAMPING_TIME, DryFriction};
 use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceLoad, WheelFriction};
 use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs};
+use crate::model::thermal::NODES;
 
 /// Friction on each kind of body.
 #[derive(Clone, Copy, Debug)]
@@ -21,51 +22,70 @@ impl Friction {
     pub const NONE: Self =
         Self { side: DryFriction::NONE, planet: DryFriction::NONE, wheel: [DryFriction::NONE; 2], wheel_limit: None };
 
-    /// Friction of `sources` with the lock at `lock`, under `inputs` and their derivatives. Brakes that are off add none.
-    pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
+    /// Friction of `sources` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their derivatives.
+    /// Brakes that are off add none.
+    pub fn new(
+        sources: &[FrictionSource],
+        (lock, temperatures): (f64, &[f64; NODES]),
+        inputs: &Inputs,
+        input_derivatives: &InputDerivatives,
+    ) -> Self {
         let mut all = Self::NONE;
-        let released = |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat);
-        all.side = DryFriction::new(DAMPING_TIME, released(|s| s.by_lock));
+        let heat_index_of =
+            |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat_index);
+        all.side = DryFriction::new(DAMPING_TIME, heat_index_of(|s| s.by_lock));
         all.planet = DryFriction::new(DAMPING_TIME, 0);
         for source in sources {
             if source.by_lock {
                 if lock > 0.0 {
-                    all.add(&source.scaled(lock));
+                    all.add(&source.scaled(lock), 1.0);
                 }
             } else {
-                all.add(source);
+                all.add(source, source.factor(temperatures));
             }
             if let Some(wheel) = &source.wheel {
-                all.brake(wheel, source, inputs, input_derivatives);
+                all.brake(wheel, source, source.factor(temperatures), (inputs, input_derivatives));
             }
         }
         all
     }
 
-    fn add(&mut self, source: &FrictionSource) {
-        let &FrictionSource { heat, static_ratio, .. } = source;
-        let SideFriction { constant, per_thrust, per_torque, stiffness } = source.side;
-        self.side.push(FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, heat }, stiffness);
-        let PlanetFriction { per_pin_force, per_thrust, stiffness } = source.planet;
-        self.planet
-            .push(FrictionPart { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat }, stiffness);
+    fn add(&mut self, source: &FrictionSource, factor: f64) {
+        let &FrictionSource { heat_index, static_ratio, .. } = source;
+        let SideFriction { constant, per_thrust, per_torque, stiffness, radius } = source.side;
+        let law = source.law(radius);
+        self.side.push(
+            &[FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, heat_index }.times(factor)],
+            stiffness,
+        );
+        let PlanetFriction { per_pin_force, per_thrust, stiffness, radius } = source.planet;
+        let none = FrictionPart { static_ratio, heat_index, ..FrictionPart::NONE };
+        let [pin, washer] = radius.map(|radius| source.law(radius));
+        if pin.is_constant() {
+            self.planet.push(&[FrictionPart { per_thrust, per_load: per_pin_force, ..none }.times(factor)], stiffness);
+        } else {
+            let pin = FrictionPart { per_load: per_pin_force, law: pin, ..none };
+            let washer = FrictionPart { per_thrust, law: washer, ..none };
+            self.planet.push(&[pin.times(factor), washer.times(factor)], stiffness);
+        }
     }
 
     fn brake(
         &mut self,
         wheel: &WheelFriction,
         source: &FrictionSource,
-        inputs: &Inputs,
-        input_derivatives: &InputDerivatives,
+        factor: f64,
+        (inputs, input_derivatives): (&Inputs, &InputDerivatives),
     ) {
         let [first, second] = &input_derivatives.rates;
         let limits = [inputs, first, second].map(wheel.limit);
         for s in 0..2 {
-            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat);
+            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat_index);
             if limits.iter().any(|limit| limit[s] != 0.0) {
-                let (static_ratio, heat) = (source.static_ratio, source.heat);
-                self.wheel[s]
-                    .push(FrictionPart { per_load: 1.0, static_ratio, heat, ..FrictionPart::NONE }, wheel.stiffness);
+                let (static_ratio, law, heat_index) =
+                    (source.static_ratio, source.law(wheel.radius), source.heat_index);
+                let part = FrictionPart { per_load: 1.0, static_ratio, law, heat_index, ..FrictionPart::NONE };
+                self.wheel[s].push(&[part.times(factor)], wheel.stiffness);
             }
         }
         self.wheel_limit = Some(wheel.limit);

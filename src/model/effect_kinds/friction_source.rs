@@ -1,6 +1,8 @@
 //! What an effect contributes to the dry friction of a body: limit torques, by what presses the surfaces.
 
+use super::{SlipLaw, SlipSpec};
 use crate::model::scene::Inputs;
+use crate::model::thermal::{NODES, OIL};
 
 /// Dry friction between a side gear and the carrier: a limit torque made of a constant and of the loads of the meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,6 +15,8 @@ pub struct SideFriction {
     pub per_torque: f64,
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,
+    /// Mean radius of the surface [m].
+    pub radius: f64,
 }
 
 /// Dry friction between a planet and its pin and seat.
@@ -24,9 +28,11 @@ pub struct PlanetFriction {
     pub per_thrust: f64,
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,
+    /// Radii of pin and washer [m].
+    pub radius: [f64; 2],
 }
 
-/// Dry friction between a wheel and the ground.
+/// Dry friction between a wheel and the axle it turns on.
 #[derive(Clone, Copy, Debug)]
 pub struct WheelFriction {
     /// Limit torques of left and right wheel [N·m].
@@ -35,13 +41,24 @@ pub struct WheelFriction {
     pub stiffness: f64,
     /// Damping over stiffness while stuck, left and right [s].
     pub damping_time: [f64; 2],
+    /// Mean radius of the surface [m].
+    pub radius: f64,
+}
+
+/// Where the temperature of a surface is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SurfaceTemperature {
+    /// At a node of the thermal network.
+    Node(usize),
+    /// It is given [K].
+    Given(f64),
 }
 
 /// What one effect contributes to the dry friction of bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionSource {
     /// Index of its heat in the ledger.
-    pub heat: usize,
+    pub heat_index: usize,
     /// On each side gear.
     pub side: SideFriction,
     /// On each planet.
@@ -50,15 +67,42 @@ pub struct FrictionSource {
     pub wheel: Option<WheelFriction>,
     /// Limit while stuck over limit while sliding.
     pub static_ratio: f64,
+    /// How it slides.
+    pub sliding: SlipSpec,
+    /// Where its temperature is found.
+    pub temperature: SurfaceTemperature,
     /// Whether the command of the lock presses it.
     pub by_lock: bool,
 }
 
 impl FrictionSource {
-    /// No friction; its heat has the index `heat`.
-    pub fn new(heat: usize) -> Self {
+    /// No friction; its heat has the index `heat_index`.
+    pub fn new(heat_index: usize) -> Self {
         let (side, planet) = (SideFriction::default(), PlanetFriction::default());
-        Self { heat, side, planet, wheel: None, static_ratio: 1.0, by_lock: false }
+        Self {
+            heat_index,
+            side,
+            planet,
+            wheel: None,
+            static_ratio: 1.0,
+            sliding: SlipSpec::default(),
+            temperature: SurfaceTemperature::Node(OIL),
+            by_lock: false,
+        }
+    }
+
+    /// Its friction at the `temperatures` of all nodes [K], over that at the reference.
+    pub fn factor(&self, temperatures: &[f64; NODES]) -> f64 {
+        self.sliding.factor_at(match self.temperature {
+            SurfaceTemperature::Node(node) => temperatures[node],
+            SurfaceTemperature::Given(temperature) => temperature,
+        })
+    }
+
+    /// Its friction by speed on a surface of the mean radius `radius` [m].
+    pub fn law(&self, radius: f64) -> SlipLaw {
+        let SlipSpec { stribeck_speed, slip_slope, .. } = self.sliding;
+        SlipLaw { radius, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
     }
 
     /// Whether the loads of the meshes matter.
@@ -74,11 +118,13 @@ impl FrictionSource {
             per_thrust: part * self.side.per_thrust,
             per_torque: part * self.side.per_torque,
             stiffness: part * self.side.stiffness,
+            ..self.side
         };
         let planet = PlanetFriction {
             per_pin_force: part * self.planet.per_pin_force,
             per_thrust: part * self.planet.per_thrust,
             stiffness: part * self.planet.stiffness,
+            ..self.planet
         };
         Self { side, planet, ..self }
     }

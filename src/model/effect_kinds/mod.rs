@@ -11,12 +11,17 @@ pub mod friction;
 pub mod friction_part;
 pub mod friction_source;
 pub mod friction_state;
+pub mod slip_law;
+pub mod slip_spec;
 pub mod teeth;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use friction::Friction;
 pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
-pub use friction_source::{FrictionSource, PlanetFriction, SideFriction, WheelFriction};
+pub use friction_source::{FrictionSource, PlanetFriction, SideFriction, SurfaceTemperature, WheelFriction};
 pub use friction_state::{FrictionState, Mode};
+pub use slip_law::SlipLaw;
+pub use slip_spec::SlipSpec;
+pub(super) use slip_spec::{check_slip, slip_rows};
 pub use teeth::{FlankFriction, ToothEffects};

@@ -23,5 +23,5 @@ pub struct FlankFriction {
     /// The law with its parameters.
     pub law: ToothFriction,
     /// Index of its heat in the ledger.
-    pub heat: usize,
+    pub heat_index: usize,
 }

@@ -1,9 +1,10 @@
 //! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two on the side gears.
 //!
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
-//! with the square of the speed (ISO/TR 14179-1).
+//! with the square of the speed (ISO/TR 14179-1). With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over
+//! that at a reference temperature.
 
-use crate::declaration::units::{self, DEG_PER_S};
+use crate::declaration::units::{self, DEG_C, DEG_PER_S};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::Plan;
@@ -23,6 +24,10 @@ spec! {
         pub side_viscous: f64 = 1e-3,
         /// Speed at which bearing torque has built up [rad/s].
         pub breakaway_speed: f64 = 0.1,
+        /// Whether viscous drag follows the viscosity of `oil` at its temperature.
+        pub viscosity_from_oil: bool = false,
+        /// Temperature at which viscous drag is as given [K].
+        pub reference_temperature: f64 = 353.15,
     }
 }
 
@@ -61,13 +66,27 @@ impl Declare for BearingDragSpec {
             row("bearing_drag.breakaway_speed", "Speed at which the bearing torque has built up")
                 .when("bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0")
                 .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
+            row(
+                "bearing_drag.viscosity_from_oil",
+                "Viscous drag by the viscosity of the oil at its temperature; false: as given",
+            )
+            .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
+            .switch(|p| &mut p.viscosity_from_oil),
+            row("bearing_drag.reference_temperature", "Temperature of the oil at which viscous drag is as given")
+                .when("bearing_drag.viscosity_from_oil = true")
+                .real((units::KELVIN, DEG_C), (213.15, 673.15), |p| &mut p.reference_temperature),
         ]
     }
 }
 
 impl Effect for BearingDragSpec {
+    fn is_oiled(&self) -> bool {
+        self.viscosity_from_oil
+    }
+
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        Some(Box::new(Drag { spec: *self, heat: setting.heat }))
+        let reference = setting.oil.viscosity(self.reference_temperature);
+        Some(Box::new(Drag { spec: *self, reference, heat_index: setting.heat_index }))
     }
 }
 
@@ -75,7 +94,9 @@ impl Effect for BearingDragSpec {
 #[derive(Clone, Copy, Debug)]
 struct Drag {
     spec: BearingDragSpec,
-    heat: usize,
+    /// Viscosity of the oil at which viscous drag is as given [Pa·s].
+    reference: f64,
+    heat_index: usize,
 }
 
 impl Drag {
@@ -86,6 +107,10 @@ impl Drag {
             (spec.carrier_torque, spec.carrier_viscous, spec.carrier_churning)
         } else {
             (spec.side_torque, spec.side_viscous, 0.0)
+        };
+        let viscous = match at.oil_viscosity {
+            Some(viscosity) if spec.viscosity_from_oil => viscous * (viscosity / self.reference),
+            _ => viscous,
         };
         let v = at.v[i];
         let t = libm::tanh(v / spec.breakaway_speed);
@@ -101,7 +126,7 @@ impl BodyEffect for Drag {
         for i in 0..3 {
             let (torque, _) = self.drag(at, i);
             out.force[i] -= torque;
-            out.heat[self.heat] += torque * at.v[i];
+            out.heat[self.heat_index] += torque * at.v[i];
         }
     }
 

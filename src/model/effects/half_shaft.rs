@@ -74,7 +74,9 @@ impl Effect for HalfShaftSpec {
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let shafts = HalfShafts::new(self, plan);
-        plan.layout().ends().then(|| Box::new(ShaftTorques { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
+        plan.layout()
+            .has_ends()
+            .then(|| Box::new(ShaftTorques { shafts, heat_index: setting.heat_index }) as Box<dyn BodyEffect>)
     }
 
     fn read(&self, at: &Instant, out: &mut [f64]) {
@@ -129,7 +131,7 @@ impl HalfShafts {
 #[derive(Clone, Copy, Debug)]
 struct ShaftTorques {
     shafts: HalfShafts,
-    heat: usize,
+    heat_index: usize,
 }
 
 impl BodyEffect for ShaftTorques {
@@ -140,7 +142,7 @@ impl BodyEffect for ShaftTorques {
             let torque = self.shafts.torque(s, at.q[end], rate);
             out.force[s] -= torque;
             out.force[end] += torque;
-            out.heat[self.heat] += self.shafts.damping[s] * rate * rate;
+            out.heat[self.heat_index] += self.shafts.damping[s] * rate * rate;
         }
     }
 

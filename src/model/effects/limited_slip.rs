@@ -1,12 +1,17 @@
 //! Clutch packs between side gears and carrier: T_max = preload + κ |T_s| with the torque T_s of the meshes on the side
-//! gear (ramps and thrust press the plates in proportion to it).
+//! gear (ramps and thrust press the plates in proportion to it), times what slip speed makes of it
+//! (`effect_kinds::slip_law`): a friction that falls with speed judders.
 //!
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
+use crate::declaration::units::MM;
 use crate::declaration::{Parameter, Row, row, units};
-use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Setting, SideFriction};
+use crate::model::effect_kinds::{
+    Declare, Effect, FrictionSource, Heat, Setting, SideFriction, SlipSpec, SurfaceTemperature, check_slip, slip_rows,
+};
 use crate::model::scene::GearContact;
+use crate::model::thermal::CLUTCH;
 use crate::problem::Problem;
 
 spec! {
@@ -20,6 +25,10 @@ spec! {
         pub static_ratio: f64 = 1.0,
         /// Stiffness of a stuck clutch [N·m/rad].
         pub stiffness: f64 = 1e5,
+        /// Mean radius of the plates [m].
+        pub mean_radius: f64 = 0.05,
+        /// How they slide.
+        pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
 
@@ -36,7 +45,7 @@ impl Declare for LimitedSlipSpec {
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
+        let mut rows: Vec<Row<Parameter<Self>>> = vec![
             row("limited_slip.preload", "Torque of each clutch without load").tunable().real(
                 units::NEWTON_METRE,
                 (0.0, 1e6),
@@ -52,12 +61,18 @@ impl Declare for LimitedSlipSpec {
             ),
             row("limited_slip.stiffness", "Stiffness of a stuck clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-        ]
+            row("limited_slip.mean_radius", "Mean radius of the plates, at which their sliding speed counts")
+                .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
+                .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
+        ];
+        rows.extend(slip_rows!("limited_slip", sliding));
+        rows
     }
 }
 
 impl Effect for LimitedSlipSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        check_slip!("limited_slip", self.sliding, found);
         if self.torque_coefficient == 0.0 {
             return;
         }
@@ -79,8 +94,11 @@ impl Effect for LimitedSlipSpec {
             constant: self.preload,
             per_torque: self.torque_coefficient,
             stiffness: self.stiffness,
+            radius: self.mean_radius,
             ..SideFriction::default()
         };
-        Some(FrictionSource { side, static_ratio: self.static_ratio, ..FrictionSource::new(setting.heat) })
+        let Self { static_ratio, sliding, .. } = *self;
+        let temperature = SurfaceTemperature::Node(CLUTCH);
+        Some(FrictionSource { side, static_ratio, sliding, temperature, ..FrictionSource::new(setting.heat_index) })
     }
 }

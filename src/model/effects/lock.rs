@@ -45,6 +45,6 @@ impl Declare for LockSpec {
 impl Effect for LockSpec {
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
         let side = SideFriction { constant: self.torque, stiffness: self.stiffness, ..SideFriction::default() };
-        Some(FrictionSource { side, by_lock: true, ..FrictionSource::new(setting.heat) })
+        Some(FrictionSource { side, by_lock: true, ..FrictionSource::new(setting.heat_index) })
     }
 }

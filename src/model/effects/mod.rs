@@ -15,6 +15,7 @@ mod thrust_friction;
 mod tooth_errors;
 mod tooth_fault;
 mod tooth_friction;
+mod warm_up;
 mod wheel_brake;
 
 use serde::{Deserialize, Serialize};
@@ -26,7 +27,7 @@ use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Readi
 
 /// An effect as the rest of the program sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct Declared {
+pub struct EffectEntry {
     /// Name, as in `effects.NAME` and `NAME.parameter`.
     pub name: &'static str,
     /// What it is.
@@ -45,7 +46,7 @@ pub struct Declared {
     pub example: &'static [(&'static str, f64)],
 }
 
-impl Declared {
+impl EffectEntry {
     const fn new<E: Declare>(name: &'static str, switch: Option<&'static str>) -> Self {
         Self {
             name,
@@ -113,16 +114,16 @@ macro_rules! effects {
         }
 
         /// All effects, in the order in which they are set up.
-        pub const EFFECTS: &[Declared] = &[
-            $(Declared::new::<$effect>(stringify!($name), Some(concat!("effects.", stringify!($name)))),)+
-            $(Declared::new::<$commanded>(stringify!($command), None),)+
+        pub const EFFECTS: &[EffectEntry] = &[
+            $(EffectEntry::new::<$effect>(stringify!($name), Some(concat!("effects.", stringify!($name)))),)+
+            $(EffectEntry::new::<$commanded>(stringify!($command), None),)+
         ];
 
         /// Each effect, whether it is on, and its parameters.
         pub fn configured<'a>(
             effects: &Effects,
             parameters: &'a EffectParameters,
-        ) -> [(&'static Declared, bool, &'a dyn Effect); EFFECTS.len()] {
+        ) -> [(&'static EffectEntry, bool, &'a dyn Effect); EFFECTS.len()] {
             let mut index = 0..EFFECTS.len();
             let mut next = |on: bool, effect: &'a dyn Effect| (&EFFECTS[index.next().unwrap_or(0)], on, effect);
             [$(next(effects.$name, &parameters.$name),)+ $(next(true, &parameters.$command),)+]
@@ -155,7 +156,7 @@ macro_rules! effects {
 
         /// Rows of the inputs of all effects.
         pub fn inputs() -> Vec<Row<InputField>> {
-            let of = |effect: &Declared| {
+            let of = |effect: &EffectEntry| {
                 let switch = effect.switch;
                 inputs_of(effect.name).into_iter().map(move |row| Row { switch, ..row })
             };
@@ -179,6 +180,7 @@ effects! {
         wheel_brake: wheel_brake::WheelBrakeSpec,
         body_compliance: body_compliance::BodyComplianceSpec,
         mesh_history: mesh_history::MeshHistorySpec,
+        warm_up: warm_up::WarmUpSpec,
     }
     commanded {
         lock: lock::LockSpec,

@@ -73,7 +73,7 @@ impl Effect for PinComplianceSpec {
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
         let arm = setting.pair.mean_cone * cos(setting.pair.gears[0].pitch);
         let (pin, case) = (self.pin_stiffness * arm * arm, self.case_stiffness);
-        Some(Box::new(Springs { pin, case, time: self.damping_time, heat: setting.heat }))
+        Some(Box::new(Springs { pin, case, time: self.damping_time, heat_index: setting.heat_index }))
     }
 }
 
@@ -83,7 +83,7 @@ struct Springs {
     pin: f64,
     case: f64,
     time: f64,
-    heat: usize,
+    heat_index: usize,
 }
 
 impl BodyEffect for Springs {
@@ -101,11 +101,11 @@ impl BodyEffect for Springs {
             heat[g] = layout.members[g] * self.pin * self.time * rate * rate;
         }
         out.force[carrier] += over_groups(layout.groups, |g| pins[g]);
-        out.heat[self.heat] += over_groups(layout.groups, |g| heat[g]);
+        out.heat[self.heat_index] += over_groups(layout.groups, |g| heat[g]);
         for s in 0..2 {
             let i = layout.seat(s);
             out.force[i] -= self.case * (at.q[i] + self.time * at.v[i]);
-            out.heat[self.heat] += self.case * self.time * at.v[i] * at.v[i];
+            out.heat[self.heat_index] += self.case * self.time * at.v[i] * at.v[i];
         }
     }
 

@@ -3,7 +3,7 @@
 //! Dry friction T = μ F r on each surface, with the thrust of all meshes on the side gear, both meshes' thrust on the
 //! planet and the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer
 //! 2011, section 10.2 on locking values). A planet's washer also bears its centrifugal force m r ω², with mass and centre
-//! of mass of its solid.
+//! of mass of its solid. Slip speed changes μ as `effect_kinds::slip_law` tells.
 //!
 //! The radii are given, or follow from the gears (`radii_from_geometry`). A pin fills its bore; without a bore it has
 //! four fifths of the radius of the root circle at the toe, where a gear is thinnest. A washer spans the back face of its
@@ -14,8 +14,12 @@
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
-use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Setting, SideFriction};
+use crate::model::effect_kinds::{
+    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Setting, SideFriction, SlipSpec, SurfaceTemperature,
+    check_slip, slip_rows,
+};
 use crate::model::scene::GearContact;
+use crate::model::thermal::WASHERS;
 use crate::numeric::sin;
 use crate::problem::{Problem, told_apart};
 
@@ -45,6 +49,10 @@ spec! {
         pub side_washer_radius: f64 = 22e-3,
         /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
         pub stiffness: f64 = 1e5,
+        /// Breakaway torque of a stuck surface over its sliding torque.
+        pub static_ratio: f64 = 1.0,
+        /// How surfaces slide.
+        pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
 
@@ -62,7 +70,7 @@ impl Declare for ThrustFrictionSpec {
     });
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
+        let mut rows: Vec<Row<Parameter<Self>>> = vec![
             row("thrust_friction.coefficient", "Coefficient of friction of the thrust washers").tunable().real(
                 units::ONE,
                 (0.0, 1.0),
@@ -99,7 +107,11 @@ impl Declare for ThrustFrictionSpec {
                 "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
             )
             .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-        ]
+            row("thrust_friction.static_ratio", "Breakaway torque of stuck washers and pins over their sliding torque")
+                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+        ];
+        rows.extend(slip_rows!("thrust_friction", sliding));
+        rows
     }
 }
 
@@ -183,6 +195,10 @@ fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Proble
 const HINT: &str = "set it to the gears, or thrust_friction.radii_from_geometry = true";
 
 impl Effect for ThrustFrictionSpec {
+    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+        check_slip!("thrust_friction", self.sliding, found);
+    }
+
     fn warnings(&self, setting: &Setting) -> Vec<Problem> {
         if self.radii_from_geometry {
             return Vec::new();
@@ -199,14 +215,19 @@ impl Effect for ThrustFrictionSpec {
             side: SideFriction {
                 per_thrust: self.coefficient * washer[1],
                 stiffness: self.stiffness,
+                radius: washer[1],
                 ..SideFriction::default()
             },
             planet: PlanetFriction {
                 per_pin_force: self.pin_coefficient * pin,
                 per_thrust: self.coefficient * washer[0],
                 stiffness: self.stiffness * ratio * ratio,
+                radius: [pin, washer[0]],
             },
-            ..FrictionSource::new(setting.heat)
+            static_ratio: self.static_ratio,
+            sliding: self.sliding,
+            temperature: SurfaceTemperature::Node(WASHERS),
+            ..FrictionSource::new(setting.heat_index)
         })
     }
 }

@@ -3,7 +3,7 @@
 use crate::contact::tooth_friction;
 use crate::declaration::units::{self, MILLI_PA_S, UM};
 use crate::declaration::{Parameter, Row, row};
-use crate::friction::ToothFrictionSpec;
+use crate::friction::{FrictionLaw, ToothFrictionSpec};
 use crate::model::effect_kinds::{Declare, Effect, FlankFriction, Heat, Needs, Setting};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
@@ -36,8 +36,11 @@ impl Declare for ToothFrictionSpec {
                 |p| &mut p.regularisation_speed,
             ),
             row("tooth_friction.oil_viscosity", "Dynamic viscosity of the oil where it enters the mesh")
-                .when("tooth_friction.law != coulomb_stribeck")
+                .when("tooth_friction.law != coulomb_stribeck and tooth_friction.viscosity_from_oil = false")
                 .real((units::PA_S, MILLI_PA_S), (1e-5, 100.0), |p| &mut p.oil_viscosity),
+            row("tooth_friction.viscosity_from_oil", "Viscosity as oil has it at its temperature; false: as given")
+                .when("tooth_friction.law != coulomb_stribeck")
+                .switch(|p| &mut p.viscosity_from_oil),
             row("tooth_friction.lubricant_factor", "Lubricant factor X_L of ISO/TR 14179-2")
                 .when("tooth_friction.law = iso_14179")
                 .real(units::ONE, (0.1, 3.0), |p| &mut p.lubricant_factor),
@@ -53,9 +56,16 @@ impl Effect for ToothFrictionSpec {
         found.extend(self.problem());
     }
 
+    fn is_oiled(&self) -> bool {
+        self.viscosity_from_oil && self.law != FrictionLaw::CoulombStribeck
+    }
+
     fn on_flanks(&self, setting: &Setting) -> Option<FlankFriction> {
         let material = setting.material;
         let modulus = material.young_modulus / (2.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
-        Some(FlankFriction { law: tooth_friction::ToothFriction { spec: *self, modulus }, heat: setting.heat })
+        Some(FlankFriction {
+            law: tooth_friction::ToothFriction { spec: *self, modulus },
+            heat_index: setting.heat_index,
+        })
     }
 }

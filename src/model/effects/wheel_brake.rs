@@ -3,21 +3,35 @@
 //! While the wheel slips T = ±T_brake; at standstill a spring holds it up to that torque, T = k (z + τ ω) with the rotation
 //! z since it stopped (`effect_kinds::dry_friction`). The wheel is the end of the half-shaft where that has one, the side
 //! gear with its rigid end otherwise. The damping of the spring is critical for the inertia J of the end alone,
-//! τ = 2 √(J/k), so that a wheel comes to rest without ringing; without an end it is that of all dry friction.
+//! τ = 2 √(J/k), so that a wheel comes to rest without ringing; without an end it is that of all dry friction. Slip speed
+//! changes T_brake as `effect_kinds::slip_law` tells.
 //!
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
 //! of a locked mode, so that both wheels may be braked while speeds are imposed.
 
-use crate::declaration::{Parameter, Row, row, units};
+use crate::declaration::units::{self, DEG_C, MM};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
-use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, WheelFriction};
+use crate::model::effect_kinds::{
+    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SlipSpec, SurfaceTemperature, WheelFriction,
+    check_slip, slip_rows,
+};
 use crate::numeric::sqrt;
+use crate::problem::Problem;
 
 spec! {
     /// Brakes at the wheels.
     pub struct WheelBrakeSpec {
         /// Stiffness of a brake at standstill [N·m/rad].
         pub stiffness: f64 = 1e5,
+        /// Breakaway torque at standstill over the torque that is commanded.
+        pub static_ratio: f64 = 1.0,
+        /// Mean radius of the linings [m].
+        pub mean_radius: f64 = 0.12,
+        /// Temperature of the linings [K].
+        pub temperature: f64 = 353.15,
+        /// How they slide.
+        pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
 
@@ -32,11 +46,27 @@ impl Declare for WheelBrakeSpec {
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
-            units::NM_PER_RAD,
-            (1.0, 1e9),
-            |p| &mut p.stiffness,
-        )]
+        let mut rows: Vec<Row<Parameter<Self>>> = vec![
+            row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
+                units::NM_PER_RAD,
+                (1.0, 1e9),
+                |p| &mut p.stiffness,
+            ),
+            row(
+                "wheel_brake.static_ratio",
+                "Breakaway torque of a brake at standstill over the torque that is commanded",
+            )
+            .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("wheel_brake.mean_radius", "Mean radius of the linings, at which their sliding speed counts")
+                .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
+                .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
+            row("wheel_brake.temperature", "Temperature of the linings")
+                .when("wheel_brake.cold_factor != 1 or wheel_brake.hot_factor != 1")
+                .tunable()
+                .real((units::KELVIN, DEG_C), (213.15, 1273.15), |p| &mut p.temperature),
+        ];
+        rows.extend(slip_rows!("wheel_brake", sliding));
+        rows
     }
 
     fn inputs() -> Vec<Row<InputField>> {
@@ -63,13 +93,21 @@ impl Declare for WheelBrakeSpec {
 }
 
 impl Effect for WheelBrakeSpec {
+    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+        check_slip!("wheel_brake", self.sliding, found);
+    }
+
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
         let end = [setting.inertia.left_end, setting.inertia.right_end];
         let wheel = WheelFriction {
             limit: |inputs| inputs.brake_torque,
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
+            radius: self.mean_radius,
         };
-        Some(FrictionSource { wheel: Some(wheel), ..FrictionSource::new(setting.heat) })
+        let Self { static_ratio, sliding, .. } = *self;
+        let temperature = SurfaceTemperature::Given(self.temperature);
+        let none = FrictionSource::new(setting.heat_index);
+        Some(FrictionSource { wheel: Some(wheel), static_ratio, sliding, temperature, ..none })
     }
 }

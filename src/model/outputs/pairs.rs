@@ -9,7 +9,7 @@
 //! that differ over the face, w follows from the law at the depth of each place. For solid teeth w is interpolated linearly
 //! between the loaded sections, and extrapolated to toe and heel down to zero.
 
-use crate::contact::shared::MOST;
+use crate::contact::shared::MOST_PAIRS;
 use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
@@ -154,7 +154,7 @@ pub fn pair_lines(
     if matches!(mesh.law, Law::Lumped(_)) {
         return lines;
     }
-    let mut gathered: [Option<Gathered>; MOST] = [None; MOST];
+    let mut gathered: [Option<Gathered>; MOST_PAIRS] = [None; MOST_PAIRS];
     equations.loads_over_the_face(at, g, s, |load, line_load| {
         if load.normal.is_nan() || load.normal <= 0.0 {
             return;

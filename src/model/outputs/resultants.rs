@@ -48,7 +48,7 @@ fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat
     out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
     out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
     out.power_loss = heat;
-    let torque = state.bias.mean().filter(|_| plan.layout().ends()).unwrap_or(out.shaft_torque);
+    let torque = state.torque_means.mean().filter(|_| plan.layout().has_ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
 }
 
@@ -60,7 +60,8 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 /// Sets the readings of the effects that follow from the motion.
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
@@ -75,7 +76,8 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let has_parts = extent == Extent::Parts;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
-    let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
+    let ForcesAtInstant { acceleration: a, on_sides, carrier_torque, spin_torque, ledger_rates } =
+        equations.instant(point);
     let mut out =
         Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], has_parts, ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
@@ -86,15 +88,16 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         } else {
             inputs.load_torque[s] + brakes[s] + teeth.rigid_end[s] * a[s]
         };
-        out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
+        out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     read_effects(&mut out, model, inputs, state);
     if extent == Extent::Bodies {
-        add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
+        add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
         return out;
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    let mut flash = 0.0;
     for g in 0..plan.groups().len() {
         for s in 0..2 {
             let mesh = &mut groups[g][s];
@@ -111,18 +114,23 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
                 });
+                if teeth.effect_terms.detailed.friction.is_some() {
+                    equations.detail(point, g, s, |slice| strength.add_flash(&mut flash, slice));
+                }
             }
         }
     }
     if let Some(strength) = model.strength() {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        strength.read_stresses(meshes, &mut out.readings[const { places_of("strength", Changes::Always) }]);
+        let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
+        strength.read_stresses(meshes, readings);
+        strength.read_flash(flash, &state.thermal.temperatures, readings);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];
     }
     add_up(&mut out, plan.planets);
-    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
+    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
     out
 }
 
@@ -130,30 +138,30 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 struct ForcesAtInstant {
     acceleration: [f64; LARGEST],
     /// Torques of the meshes on the side gears, alone [N·m].
-    gears: [f64; 2],
+    on_sides: [f64; 2],
     /// Torque of the carrier's drive [N·m].
     carrier_torque: f64,
     /// Torque of what imposes the spin, all planets together [N·m].
     spin_torque: f64,
-    power: LedgerRates,
+    ledger_rates: LedgerRates,
 }
 
 impl Largest<'_> {
     fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut power) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
-        let gears = self.act_of_teeth(at, &mut sum, &mut power);
-        self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
+        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
+        let on_sides = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
+        self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + power.drive
+            self.acting.inputs.carrier_torque + ledger_rates.drive
         };
         let inertial = self.teeth.inertia[self.planet(0)] * self.acting.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
-        self.finish(at, &mut sum, &imposed, &mut power);
-        ForcesAtInstant { acceleration: sum, gears, carrier_torque, spin_torque, power }
+        self.finish(at, &mut sum, &imposed, &mut ledger_rates);
+        ForcesAtInstant { acceleration: sum, on_sides, carrier_torque, spin_torque, ledger_rates }
     }
 }
 
@@ -215,10 +223,10 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
 /// Forces of the ideal differential with effects on bodies.
 pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inputs: &Inputs, state: &State) -> Forces {
     let (plan, point) = (&model.ideal.plan, &state.point());
-    let (a, power) = equations.evaluate(point);
+    let (a, ledger_rates) = equations.evaluate(point);
     let brakes = equations.brake_torques(point);
     let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.ideal.rigid_end[s] * a[s];
-    let shafts = [0, 1].map(|s| if plan.shafts[s] { power.shaft[s] } else { by_rigid(s) });
-    let heat = lost(&power.heat);
+    let shafts = [0, 1].map(|s| if plan.shafts[s] { ledger_rates.shaft[s] } else { by_rigid(s) });
+    let heat = lost(&ledger_rates.heat);
     without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&equations.torques(point), shafts), heat)
 }

@@ -1,6 +1,5 @@
 //! What teeth and half-shafts carry at the start, while the gears move as an ideal differential.
 
-use super::imposed::body_effects;
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
 use crate::model::effect_kinds::{Action, BodyMotion};
@@ -69,7 +68,7 @@ impl Carried {
 
 /// Torques of brakes of wheels that turn [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
-    let friction = body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
     let brakes = friction.wheel_loads(inputs);
     let (plan, layout) = (&model.ideal.plan, &model.layout);
     [0, 1].map(|s| {
@@ -85,10 +84,12 @@ fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1
     for (i, to) in model.layout.attached() {
         v[i] = v[to];
     }
-    let motion = BodyMotion { q: &q, v: &v, layout: &model.layout, inputs, input_rates: &Inputs::ZERO };
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
+    let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, oil_viscosity };
     let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);
     let mut out = Action { force: &mut force, imposed: &mut imposed, drive: &mut drive, heat: &mut heat };
-    for effect in body_effects(model).forces.iter() {
+    for effect in model.body_effects().forces.iter() {
         effect.act(&motion, &mut out);
     }
     [force[0], force[1], force[CARRIER] + drive]

@@ -27,8 +27,11 @@ impl Passed {
             None => (cubic(equations, step), 1.0),
         };
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
-        let way =
-            Extension { start: largest(&way.start), end: largest(&way.end), bends: way.bends.each_ref().map(largest) };
+        let way = Extension {
+            start: largest(&way.start),
+            end: largest(&way.end),
+            coefficients: way.coefficients.each_ref().map(largest),
+        };
         Self { h: step.h, begin: begin + step.time - step.h, way, part }
     }
 }
@@ -37,11 +40,11 @@ impl Passed {
 fn cubic<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, LedgerRates>) -> Extension<N> {
     let Step { h, start, end, .. } = *step;
     let [before, after] = [start, end].map(|at| equations.rates(&at.v));
-    let mut bends = [Point::ZERO; 3];
+    let mut coefficients = [Point::ZERO; 3];
     for i in 0..N {
         let change = end.q[i] - start.q[i];
         let [first, last] = [h * before[i] - change, change - h * after[i]];
-        (bends[0].q[i], bends[1].q[i]) = (first, last - first);
+        (coefficients[0].q[i], coefficients[1].q[i]) = (first, last - first);
     }
-    Extension { start: *start, end: *end, bends }
+    Extension { start: *start, end: *end, coefficients }
 }

@@ -26,7 +26,7 @@ const LEAST_LOAD: f64 = 1e-6;
 impl Largest<'_> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
     pub(super) fn statics(&self, at: &Point<LARGEST>) -> ([f64; LARGEST], Matrix<LARGEST>) {
-        if self.in_detail() || self.pins() {
+        if self.in_detail() || self.has_pins() {
             return self.static_forces(at);
         }
         let still = Point { q: at.q, v: [0.0; LARGEST] };
@@ -48,7 +48,7 @@ impl Largest<'_> {
 
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<LARGEST>) -> f64 {
-        if self.in_detail() || self.pins() { self.stored_energy(at, false) } else { self.elastic_energy(at) }
+        if self.in_detail() || self.has_pins() { self.stored_energy(at, false) } else { self.elastic_energy(at) }
     }
 }
 
@@ -144,7 +144,7 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
     against[..2].copy_from_slice(&torque);
     for g in 0..equations.groups() {
         against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin;
-        if equations.pins() {
+        if equations.has_pins() {
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier;
         }
     }
@@ -180,11 +180,11 @@ fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
         if !teeth.plan.spin_imposed {
             unknowns.push((layout.planet(g), layout.members[g]));
         }
-        if equations.pins() {
+        if equations.has_pins() {
             unknowns.push((layout.pin(g), layout.members[g]));
         }
     }
-    if equations.pins() {
+    if equations.has_pins() {
         unknowns.extend([(layout.seat(0), 1.0), (layout.seat(1), 1.0)]);
     }
     unknowns
@@ -213,7 +213,7 @@ impl Well<'_> {
         let layout = &self.equations.teeth.layout;
         for g in (1..layout.groups).filter(|&g| layout.members[g] == 0.0) {
             point.q[layout.planet(g)] = point.q[layout.planet(0)];
-            if layout.pins {
+            if layout.has_pins {
                 point.q[layout.pin(g)] = point.q[layout.pin(0)];
             }
         }

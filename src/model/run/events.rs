@@ -1,6 +1,5 @@
 //! What changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
 
-use super::imposed;
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
@@ -19,7 +18,7 @@ pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
 pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
-        state.fault = true;
+        state.is_tooth_broken = true;
         state.event.record(Happening::ToothBreaks, 0, state.time());
         state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
     }
@@ -29,7 +28,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
-    if !imposed::body_effects(model).act_in(state) {
+    if !model.body_effects().act_in(state) {
         return;
     }
     switch_friction(model, inputs, state);
@@ -46,14 +45,14 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
 
 /// Whether brakes were put on or released since friction was last updated.
 pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let friction = imposed::body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
 
 /// Whether wheels have brakes.
 #[inline]
 pub fn has_brakes(model: &Model) -> bool {
-    imposed::body_effects(model).has_brakes
+    model.body_effects().has_brakes
 }
 
 /// `state` with the brakes as `inputs` have them; `None` if nothing changes.

@@ -70,9 +70,9 @@ impl Body {
         match self {
             Self::Side(s) => Some(s),
             Self::Carrier => Some(CARRIER),
-            Self::Seat(s) => plan.pins.then(|| layout.seat(s)),
+            Self::Seat(s) => plan.has_pins.then(|| layout.seat(s)),
             Self::Planet(i) => (i < plan.planets).then(|| layout.planet(plan.group_of[i])),
-            Self::Pin(i) => (plan.pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
+            Self::Pin(i) => (plan.has_pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
             Self::Attached(k) => plan.attached(k),
         }
     }
@@ -144,7 +144,7 @@ impl Simulation {
         let layout = plan.layout();
         for g in plan.groups().len()..layout.groups {
             (q[layout.planet(g)], v[layout.planet(g)]) = (q[layout.planet(0)], v[layout.planet(0)]);
-            if plan.pins {
+            if plan.has_pins {
                 (q[layout.pin(g)], v[layout.pin(g)]) = (q[layout.pin(0)], v[layout.pin(0)]);
             }
         }
@@ -193,16 +193,16 @@ impl Simulation {
                 let (_, first) = equations.under(&from.inputs, &InputDerivatives::ZERO).evaluate(&start);
                 let (_, last) = equations.evaluate(&end);
                 // the motion in between is the host's: for stiff teeth no curve through both ends describes it
-                let power = [first, first.mean(&last), last];
-                let step = Step { h, time: h, start: &start, end: &end, power };
-                let State { work, heat, bias, .. } = state;
+                let ledger_rates = [first, first.mean(&last), last];
+                let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
+                let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end);
                 if outcome.is_ok() {
-                    equations.record(
-                        model,
-                        (&step, None),
-                        &mut LedgerSums { begin: from.time, work, heat, bias, watched },
-                    );
+                    let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
+                    equations.record(model, (&step, None), sums);
+                    if sums.thermal.is_to_be_felt() {
+                        sums.thermal.feel();
+                    }
                 }
                 let mut anchors = equations.acting().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);

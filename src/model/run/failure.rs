@@ -81,8 +81,9 @@ mod tests {
 
     #[test]
     fn a_failure_says_its_time_in_six_digits() {
-        for (time, told) in [(0.000_003_716_875_526_471_57, "3.71688e-6"), (0.1, "0.1"), (1.234_567_89, "1.23457")] {
-            assert!(StepFailure::not_finite(time).to_string().starts_with(&format!("at t = {told} s: ")));
+        for (time, time_text) in [(0.000_003_716_875_526_471_57, "3.71688e-6"), (0.1, "0.1"), (1.234_567_89, "1.23457")]
+        {
+            assert!(StepFailure::not_finite(time).to_string().starts_with(&format!("at t = {time_text} s: ")));
         }
     }
 }

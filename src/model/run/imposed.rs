@@ -1,6 +1,6 @@
 //! Imposed speeds of a scene, and their jumps to the commands.
 
-use crate::model::assembly::{BodyEffects, Gears, Model};
+use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::State;
 use crate::model::scene::{CARRIER, Inputs, MAX_DOF, PLANET};
 
@@ -12,14 +12,6 @@ pub struct ImposedSpeed {
     pub value: f64,
     /// Inertia of all bodies with this speed [kg·m²].
     inertia: f64,
-}
-
-/// Effects of `model` that act on bodies.
-pub fn body_effects(model: &Model) -> &BodyEffects {
-    match &model.gears {
-        Gears::Ideal(ideal) => &ideal.body_effects,
-        Gears::Teeth(teeth) => &teeth.effect_terms.body_effects,
-    }
 }
 
 /// Imposed speeds under `inputs` at the positions `q`.
@@ -40,7 +32,7 @@ pub fn imposed_speeds<'a>(
     });
     let carrier = plan.carrier_imposed.then(|| ImposedSpeed {
         freedom: CARRIER,
-        value: body_effects(model).carrier_speed(q, inputs.carrier_speed),
+        value: model.body_effects().carrier_speed(q, inputs.carrier_speed),
         inertia: inertia(CARRIER),
     });
     let planets = (0..layout.groups).filter(|_| plan.spin_imposed).map(move |g| ImposedSpeed {
@@ -82,7 +74,7 @@ pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
 /// Lets free speeds of gears without teeth follow a jump of imposed speeds from `before` to `inputs`.
 pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
     if is_impulse(model, before, inputs) {
-        let carrier = |command: f64| body_effects(model).carrier_speed(&state.q, command);
+        let carrier = |command: f64| model.body_effects().carrier_speed(&state.q, command);
         let jump =
             [carrier(inputs.carrier_speed) - carrier(before.carrier_speed), inputs.planet_spin - before.planet_spin];
         add_impulse(model, jump, &mut state.v);

@@ -48,7 +48,7 @@ pub fn budget(model: &Model) -> u64 {
             ((in_detail + on_bodies) * teeth.layout.groups).max(1)
         }
     };
-    let effects = if teeth.effect_terms.body_effects.always { EFFECTS } else { 0 };
+    let effects = if teeth.effect_terms.body_effects.has_effects { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
     let freedoms = teeth.layout.count();
     let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
@@ -168,18 +168,23 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
     let mut outcome = Ok(());
     let mut switched = true;
     let mut anchors = equations.acting().anchors();
+    let feels_temperature = model.thermal.is_some() && model.body_effects().feels_temperature();
+    if feels_temperature {
+        course.longest = LONGEST.min(state.thermal.longest);
+    }
     while switched && outcome.is_ok() {
         switched = false;
-        let State { control, statistics, work, heat, bias, .. } = state;
-        let mut sums = LedgerSums { begin, work, heat, bias, watched: &mut *watched };
+        let State { control, statistics, work, heat, torque_means, thermal, .. } = state;
+        let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
         let mut observe = |step: Step<N, LedgerRates>, pending: Option<&Pending<N, LedgerRates>>| {
             if !is_shown {
                 equations.check_deflection(step.end)?;
             }
             equations.record(model, (&step, pending), &mut sums);
-            equations.drag_anchors(step.end, &step.power[2], &mut anchors);
+            equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
-            Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
+            let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
+            Ok(if switched || is_warmer || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
@@ -199,6 +204,12 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
             },
         };
         equations.acting_mut().anchor(&anchors);
+        let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
+        if is_warmer {
+            state.thermal.feel();
+            course.longest = LONGEST.min(state.thermal.longest);
+            equations.acting_mut().feel(model.body_effects(), state.lock, &state.thermal.felt);
+        }
         if switched {
             let before = equations.acting().friction_state;
             equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
@@ -207,8 +218,8 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
             if state.event.record_friction(friction, begin + course.time) && pauses && course.time < clock.now {
                 clock.now = course.time;
             }
-            switched = course.time < longest && course.end - course.time > RESOLUTION;
         }
+        switched = (switched || is_warmer) && course.time < longest && course.end - course.time > RESOLUTION;
     }
     state.friction = equations.acting().friction_state;
     state.set_point(&course.point);

@@ -6,12 +6,14 @@ use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::MOST;
-use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
+use crate::model::dynamics::torque_means::TorqueMeans;
 use crate::model::dynamics::{Acted, Equations, IdealEquations, Watched};
+use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
+use crate::model::thermal::Thermal;
 
 /// Sums that completed steps add to.
 pub struct LedgerSums<'a> {
@@ -21,8 +23,10 @@ pub struct LedgerSums<'a> {
     pub work: &'a mut f64,
     /// Heat by cause [J].
     pub heat: &'a mut [f64; HEATS],
+    /// Temperatures.
+    pub thermal: &'a mut Thermal,
     /// Means of the shaft torques over mesh cycles.
-    pub bias: &'a mut Bias,
+    pub torque_means: &'a mut TorqueMeans,
     /// Damage of the teeth and values over mesh cycles.
     pub watched: &'a mut Watched,
 }
@@ -54,10 +58,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
         if !self.teeth.mesh.engagement.corner_contact() {
             sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
-        if WITH_EFFECTS && self.ends() {
+        if WITH_EFFECTS {
+            warm_up(model, step, sums);
+        }
+        if WITH_EFFECTS && self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
-            Cycle { pitch: model.periods[LEFT] }.add(sums.bias, turned, step.h, torque);
+            Cycle { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
         }
         if let (true, Some(watch)) = (WITH_EFFECTS, &model.watch) {
             let passed = Passed::new(self, (step, pending), sums.begin);
@@ -66,13 +73,22 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
     }
 }
 
+/// Lets the heat of a step warm the nodes, where the scene asks for it.
+#[inline]
+fn warm_up<const N: usize>(model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
+    if let Some(network) = &model.thermal {
+        network.advance(sums.thermal, sums.heat, step.h, step.end.v[CARRIER].abs());
+    }
+}
+
 impl LedgerEquations<MOST> for IdealEquations<'_> {
     fn check_deflection(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
         Ok(())
     }
 
-    fn record(&self, _: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
         add_to_ledger(step, sums.work, sums.heat, true);
+        warm_up(model, step, sums);
     }
 }
 

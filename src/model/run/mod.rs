@@ -25,5 +25,5 @@ pub use failure::{StepFailure, six_digits};
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use readings::CostClass;
 pub use reports::Reported;
-pub use sensitivity::{Along, Direction, STENCIL};
+pub use sensitivity::{Direction, STENCIL, StencilReadings};
 pub use simulation::Simulation;

@@ -14,6 +14,7 @@ use crate::model::outputs::{LedgerReadings, Motion, resultants};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
+use crate::model::thermal::NODES;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::LineContact;
@@ -90,9 +91,9 @@ impl Simulation {
     fn forces_with(&mut self, extent: Extent) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| extent == Extent::Parts && !forces.has_parts) {
             let mut shown = self.with_inputs_applied();
-            if self.model.layout.ends() && self.state.pending_step.is_some() {
+            if self.model.layout.has_ends() && self.state.pending_step.is_some() {
                 // means over mesh cycles count up to the present
-                shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
+                shown.get_or_insert_with(|| self.clone()).state.torque_means = self.completed().0.torque_means;
             }
             self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(extent));
         }
@@ -160,10 +161,15 @@ impl Simulation {
         if let Some(strength) = self.model.strength() {
             strength.read_damage(&watched.fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
-        if self.model.watch.as_ref().is_some_and(|watch| watch.mesh_history) {
+        if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
             watched
                 .mesh_history
                 .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+        }
+        let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
+        thermal[..NODES].copy_from_slice(&state.thermal.temperatures);
+        if let Some(network) = &self.model.thermal {
+            thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = state.friction[range].iter();
@@ -233,7 +239,9 @@ impl Simulation {
         match &self.model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
             Gears::Ideal(_) => CostClass::Ideal,
-            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.fault => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.is_tooth_broken => {
+                CostClass::TeethInDetail
+            }
             Gears::Teeth(teeth) if teeth.effect_terms.body_effects.act_in(&self.state) => CostClass::TeethAndBodies,
             Gears::Teeth(_) => CostClass::Teeth,
         }

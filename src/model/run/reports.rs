@@ -71,6 +71,8 @@ impl Simulation {
         let friction = teeth.effect_terms.detailed.friction.as_ref()?;
         let mut found = None;
         let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        let viscosity = equations.acting.oil_viscosity;
+        let friction = viscosity.map_or(*friction, |viscosity| friction.with_viscosity(viscosity));
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {
                 equations.detail(&point, g, s, |slice| {

@@ -4,7 +4,7 @@
 //! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
 //! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
 
-use super::imposed::{add_impulse, body_effects, imposed_speeds};
+use super::imposed::{add_impulse, imposed_speeds};
 use super::{STATES, Simulation};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::Gears;
@@ -55,12 +55,12 @@ impl Direction {
 }
 
 /// Readings at the points of the central difference along a direction.
-pub struct Along<T> {
+pub struct StencilReadings<T> {
     read: [T; STENCIL.len()],
     apart: f64,
 }
 
-impl<T> Along<T> {
+impl<T> StencilReadings<T> {
     /// Derivative of a value of the readings.
     pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
         // the slope of a constant is exactly 0
@@ -72,7 +72,7 @@ impl<T> Along<T> {
 
 impl Simulation {
     /// Number n of degrees of freedom.
-    pub fn freedoms(&self) -> usize {
+    pub fn degrees_of_freedom(&self) -> usize {
         self.model.ideal.plan.layout().count()
     }
 
@@ -81,7 +81,7 @@ impl Simulation {
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
             let (acceleration, _) = equations.evaluate(&at);
             dq[..n].copy_from_slice(&equations.rates(&at.v)[..n]);
             dv[..n].copy_from_slice(&acceleration[..n]);
@@ -93,7 +93,7 @@ impl Simulation {
     pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
             let linearisation = equations.linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);
@@ -113,7 +113,7 @@ impl Simulation {
     /// The same simulation at positions `q` and velocities `v`, for its outputs there; its ledger is unchanged.
     pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
         let mut moved = self.clone();
-        let n = self.freedoms();
+        let n = self.degrees_of_freedom();
         moved.state.q[..n].copy_from_slice(&q[..n]);
         moved.state.v[..n].copy_from_slice(&v[..n]);
         moved.forces = None;
@@ -122,7 +122,7 @@ impl Simulation {
 
     /// Derivatives of the rates of positions and velocities along `direction`.
     pub fn rate_slopes(&self, direction: &Direction) -> [[f64; MAX_DOF]; 2] {
-        let (n, state) = (self.freedoms(), &self.state);
+        let (n, state) = (self.degrees_of_freedom(), &self.state);
         let mut slopes = [[0.0; MAX_DOF]; 2];
         if direction.moves() {
             let mut rows = [0.0; 4 * MAX_DOF * MAX_DOF];
@@ -132,24 +132,24 @@ impl Simulation {
                 slopes[i / n][i % n] = by(&row[..n], &direction.q[..n]) + by(&row[n..], &direction.v[..n]);
             }
         }
-        let forced = self.forced(direction);
+        let input_acceleration_slopes = self.input_acceleration_slopes(direction);
         for i in 0..n {
-            slopes[1][i] += forced[i];
+            slopes[1][i] += input_acceleration_slopes[i];
         }
         slopes
     }
 
     /// Derivatives of the accelerations by the inputs alone.
-    fn forced(&self, direction: &Direction) -> [f64; MAX_DOF] {
+    fn input_acceleration_slopes(&self, direction: &Direction) -> [f64; MAX_DOF] {
         let (inputs, state) = (&self.inputs, &self.state);
-        let mut forced = [0.0; MAX_DOF];
+        let mut input_acceleration_slopes = [0.0; MAX_DOF];
         let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
         let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
         with_equations!(self.model, state, inputs, |equations| {
-            let by_inputs = equations.forced(&state.point(), &change, &input_derivatives);
-            forced.iter_mut().zip(by_inputs).for_each(|(forced, by_inputs)| *forced = by_inputs);
+            let by_inputs = equations.input_accelerations(&state.point(), &change, &input_derivatives);
+            input_acceleration_slopes.iter_mut().zip(by_inputs).for_each(|(slope, by_inputs)| *slope = by_inputs);
         });
-        forced
+        input_acceleration_slopes
     }
 
     /// The direction in which state and inputs change with time.
@@ -175,7 +175,7 @@ impl Simulation {
     }
 
     /// Forces along `direction`. Meshes do not change where nothing moves, so they are left out there.
-    pub fn forces_along(&self, direction: &Direction) -> Along<Forces> {
+    pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
         if direction.moves() {
             self.along(direction, |displaced| displaced.forces_of_state(Extent::Parts))
         } else {
@@ -184,23 +184,23 @@ impl Simulation {
     }
 
     /// Loaded tooth pairs along `direction`.
-    pub fn pair_lines_along(&self, direction: &Direction) -> Along<PairLines> {
+    pub fn pair_lines_along(&self, direction: &Direction) -> StencilReadings<PairLines> {
         if direction.moves() {
             self.along(direction, Self::pair_lines_of_state)
         } else {
-            Along { read: Default::default(), apart: 1.0 }
+            StencilReadings { read: Default::default(), apart: 1.0 }
         }
     }
 
-    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> Along<T> {
-        let size = self.size(direction);
+    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> StencilReadings<T> {
+        let size = self.natural_size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
         let mut displaced = Self { forces: None, ..self.clone() };
         let read = STENCIL.map(|(place, _)| {
             self.displace(&mut displaced, direction, place * apart);
             read(&displaced)
         });
-        Along { read, apart }
+        StencilReadings { read, apart }
     }
 
     /// Rates of the ledger.
@@ -225,12 +225,12 @@ impl Simulation {
     }
 
     /// The largest change in `direction`, in natural magnitudes.
-    fn size(&self, direction: &Direction) -> f64 {
+    fn natural_size(&self, direction: &Direction) -> f64 {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {
             let weights = equations.weights(&state.point());
-            for i in 0..equations.freedoms() {
+            for i in 0..equations.degrees_of_freedom() {
                 largest = largest.max((weights.q[i] * direction.q[i]).abs());
                 largest = largest.max((weights.v[i] * direction.v[i]).abs());
             }
@@ -266,7 +266,7 @@ impl Simulation {
             let mut state = self.state;
             state.q[CARRIER] += place * APART * angle;
             let command = self.inputs.carrier_speed + place * APART * command;
-            body_effects(&self.model).carrier_speed(&state.q, command)
+            self.model.body_effects().carrier_speed(&state.q, command)
         };
         let here = at(0.0);
         STENCIL.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART

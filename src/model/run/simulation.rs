@@ -13,6 +13,7 @@ use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method, Start};
 use crate::model::setup::{HEATS, Parameters};
+use crate::model::thermal::Thermal;
 use crate::problem::Problem;
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
@@ -47,6 +48,7 @@ impl Simulation {
         let mut simulation =
             Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
+        state.thermal = Thermal::uniform(parameters.oil.temperature);
         start::speeds(model, inputs, state);
         // a tooth that is broken from the start on
         break_tooth(model, inputs, state);
@@ -123,6 +125,9 @@ impl Simulation {
     pub fn tune(&mut self, parameters: &Parameters) {
         progress::complete(&self.model, (&mut self.state, &mut self.watched));
         Arc::make_mut(&mut self.model).tune(parameters);
+        if self.model.thermal.is_none() {
+            self.state.thermal = Thermal::uniform(parameters.oil.temperature);
+        }
         self.watched.last_loads = None;
         self.forces = None;
     }

@@ -2,7 +2,6 @@
 
 use super::carried::Carried;
 use super::equilibrium::{ROUNDS, press_sides, pressed_as_they_are, settle, settle_as_they_are};
-use super::imposed::body_effects;
 use crate::integrate::Point;
 use crate::model::assembly::{Ideal, Model, SIGMA};
 use crate::model::dynamics::{LARGEST, Largest, State};
@@ -15,7 +14,7 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
     let rest = model.parameters.scene.start == Start::Rest;
-    let command = body_effects(model).carrier_speed(&state.q, inputs.carrier_speed);
+    let command = model.body_effects().carrier_speed(&state.q, inputs.carrier_speed);
     let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { command };
     let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
     let [left, right] = inputs.side_speed;
@@ -40,7 +39,7 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     }
     for g in (0..layout.groups).filter(|_| follow || plan.spin_imposed) {
         v[layout.planet(g)] = spin;
-        if layout.pins {
+        if layout.has_pins {
             v[layout.pin(g)] = v[CARRIER];
         }
     }
@@ -88,7 +87,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
     // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
-    let otherwise = equations.in_detail() || equations.pins() || equations.bodies_of_gears().is_some();
+    let otherwise = equations.in_detail() || equations.has_pins() || equations.bodies_of_gears().is_some();
     let mut settled = true;
     if !plan.spin_imposed || otherwise {
         let found = settle(equations, &carried, &point);

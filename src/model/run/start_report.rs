@@ -102,10 +102,10 @@ fn unequal(plan: &Plan, found: &Found) -> Option<String> {
     let sum: f64 = parts.iter().sum();
     let equal = sum / plan.planets as f64;
     (sum > 2.0 * LEAST_LOAD && parts.iter().any(|&part| part < LITTLE * equal)).then(|| {
-        let each = parts.iter().enumerate().map(|(i, part)| format!("planet[{}] {:.3}", i + 1, part / sum));
+        let shares = parts.iter().enumerate().map(|(i, part)| format!("planet[{}] {:.3}", i + 1, part / sum));
         format!(
             "the planets carry unequal parts of the load at the start: {} of it",
-            each.collect::<Vec<_>>().join(", ")
+            shares.collect::<Vec<_>>().join(", ")
         )
     })
 }

@@ -34,14 +34,14 @@ fn resolution(time: f64) -> f64 {
 pub fn next_change(model: &Model, state: &State) -> Option<f64> {
     let p = &model.parameters;
     let onset = p.specs.tooth_fault.onset;
-    (p.effects.tooth_fault && !state.fault && onset > 0.0 && !has_come(onset, state)).then_some(onset)
+    (p.effects.tooth_fault && !state.is_tooth_broken && onset > 0.0 && !has_come(onset, state)).then_some(onset)
 }
 
 /// Whether a tooth breaks now, by its time or by the trigger.
 pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let p = &model.parameters;
     let onset = p.specs.tooth_fault.onset;
-    p.effects.tooth_fault && !state.fault && (inputs.fault > 0.5 || onset > 0.0 && has_come(onset, state))
+    p.effects.tooth_fault && !state.is_tooth_broken && (inputs.fault > 0.5 || onset > 0.0 && has_come(onset, state))
 }
 
 /// Whether `time` [s] has come, up to the rounding of times.

@@ -19,7 +19,7 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
     if let Some(strength) = &watch.strength {
         count_fatigue(equations, (model, strength), step, (&mut watched.fatigue, &mut watched.last_loads));
     }
-    if watch.mesh_history {
+    if watch.keeps_mesh_history {
         add_to_history(equations, model, step, &mut watched.mesh_history);
     }
 }
@@ -57,7 +57,7 @@ pub fn count_fatigue(
     }
     if from < 1.0 {
         let members = &layout.members[..groups];
-        let teeth = (groups, equations.fault);
+        let teeth = (groups, equations.is_tooth_broken);
         let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
         let last = last.get_or_insert_default();
         let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
@@ -89,7 +89,11 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history
 
 /// A quantity that depends linearly on the motion.
 fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
-    let Extension { start, end, bends } = extension;
+    let Extension { start, end, coefficients } = extension;
     let nothing = of(&Point::ZERO);
-    Curve { start: of(start), end: of(end), bends: bends.each_ref().map(|bend| of(bend) - nothing) }
+    Curve {
+        start: of(start),
+        end: of(end),
+        coefficients: coefficients.each_ref().map(|coefficient| of(coefficient) - nothing),
+    }
 }

@@ -32,7 +32,7 @@ pub struct Layout {
     /// Members of each group.
     pub members: [f64; MAX_GROUPS],
     /// Whether pins and seats move.
-    pub pins: bool,
+    pub has_pins: bool,
     /// Which bodies are attached, of `ATTACHED`.
     pub attached: [bool; attached::COUNT],
 }
@@ -51,7 +51,7 @@ impl Layout {
     /// Index of the planets of group `g`.
     #[inline]
     pub fn planet(&self, g: usize) -> usize {
-        CARRIER + 1 + if self.pins { 2 } else { 0 } + g
+        CARRIER + 1 + if self.has_pins { 2 } else { 0 } + g
     }
     /// Index of the pin of group `g`.
     #[inline]
@@ -67,7 +67,7 @@ impl Layout {
     #[inline]
     pub fn body(&self, k: usize) -> usize {
         let before = self.attached[..k].iter().map(|&is| usize::from(is)).sum::<usize>();
-        self.planet(self.groups * if self.pins { 2 } else { 1 } + before)
+        self.planet(self.groups * if self.has_pins { 2 } else { 1 } + before)
     }
     /// Indices of the attached bodies and of those that they turn against.
     pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
@@ -80,13 +80,13 @@ impl Layout {
     }
     /// Whether half-shafts have ends, which both have then.
     #[inline]
-    pub fn ends(&self) -> bool {
+    pub fn has_ends(&self) -> bool {
         self.attached[0]
     }
     /// Whether half-shafts have ends, if no pins and seats move and nothing else is attached.
     pub fn plain(&self) -> Option<bool> {
-        let others = self.pins || self.attached[ENDS..].contains(&true);
-        (!others).then(|| self.ends())
+        let others = self.has_pins || self.attached[ENDS..].contains(&true);
+        (!others).then(|| self.has_ends())
     }
     /// Degrees of freedom.
     #[inline]

@@ -6,6 +6,7 @@ mod input_derivatives;
 mod inputs;
 pub mod layout;
 mod material;
+mod oil;
 mod plan;
 mod solver;
 
@@ -16,5 +17,6 @@ pub use layout::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET,
 };
 pub use material::{InertiaSpec, Material};
+pub use oil::OilSpec;
 pub use plan::{Group, Plan, Requests};
 pub use solver::{Method, SolidTeeth, SolverSpec};

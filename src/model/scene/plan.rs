@@ -43,7 +43,7 @@ pub struct Plan {
     /// and their moments of inertia, those of ends of half-shafts aside [kg·m²].
     pub attached_inertia: [f64; attached::COUNT],
     /// Pins and seats give way.
-    pub pins: bool,
+    pub has_pins: bool,
     /// Representation of tooth contact.
     pub contact: GearContact,
 }
@@ -80,7 +80,7 @@ impl Plan {
                 |k| if k < ENDS { shafts.contains(&true) } else { requests.attached[k] > 0.0 },
             ),
             attached_inertia: requests.attached,
-            pins: requests.pins,
+            has_pins: requests.pins,
             contact: scene.gear_contact,
         };
         if plan.contact == GearContact::Ideal {
@@ -159,7 +159,7 @@ impl Plan {
                 n => n,
             },
             members: self.groups.map(|g| g.members),
-            pins: self.pins,
+            has_pins: self.has_pins,
             attached: self.attached,
         }
     }
@@ -183,7 +183,7 @@ impl Plan {
     }
 
     /// Degrees of freedom, the imposed ones among them; there are twice as many states.
-    pub fn freedoms(&self) -> usize {
+    pub fn degrees_of_freedom(&self) -> usize {
         match self.contact {
             GearContact::Ideal => 2 + self.layout().attached().count(),
             _ => self.layout().count(),
@@ -221,7 +221,7 @@ impl Plan {
             side(1),
             self.planets,
             self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
-            2 * self.freedoms(),
+            2 * self.degrees_of_freedom(),
         )
     }
 }

@@ -68,6 +68,21 @@ pub fn heats() -> impl Iterator<Item = Heat> {
     (0..EFFECTS.len()).filter(|&i| is_first(i)).filter_map(|i| EFFECTS[i].heat)
 }
 
+/// Names of the outputs of all heats of the ledger.
+pub const HEAT_OUTPUTS: [&str; HEATS] = {
+    let (mut outputs, mut place, mut i) = (["heat.contact"; HEATS], CONTACT_HEAT, 0);
+    while i < EFFECTS.len() {
+        if is_first(i)
+            && let Some(heat) = EFFECTS[i].heat
+        {
+            place += 1;
+            outputs[place] = heat.output;
+        }
+        i += 1;
+    }
+    outputs
+};
+
 /// Place of a heat in the ledger.
 pub fn heat_index(heat: Option<Heat>) -> usize {
     let place = heat.and_then(|heat| heats().position(|other| other.output == heat.output));

@@ -5,7 +5,7 @@ use crate::contact::ContactSpec;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::Setting;
 use crate::model::effects::{EffectParameters, Effects};
-use crate::model::scene::{InertiaSpec, Material, Scene, SolidTeeth, SolverSpec};
+use crate::model::scene::{InertiaSpec, Material, OilSpec, Scene, SolidTeeth, SolverSpec};
 
 spec! {
     /// All parameters; the default is the study's straight case.
@@ -14,6 +14,8 @@ spec! {
         pub geometry: GearSpec = GearSpec::default(),
         /// Material of the gears.
         pub material: Material = Material::default(),
+        /// Oil.
+        pub oil: OilSpec = OilSpec::default(),
         /// Moments of inertia.
         pub inertia: InertiaSpec = InertiaSpec::default(),
         /// Contact law.
@@ -44,11 +46,12 @@ impl Parameters {
             geometry: &self.geometry,
             pair,
             material: &self.material,
+            oil: &self.oil,
             inertia: &self.inertia,
             contact: &self.contact,
             teeth: None,
             on: false,
-            heat: 0,
+            heat_index: 0,
         };
         SceneEffects { effects: &self.effects, parameters: &self.specs, setting }
     }

@@ -4,7 +4,7 @@ use super::effect_outputs::heat_index;
 use crate::model::effect_kinds::{
     BUILT, BodyEffect, Changes, Effect, FlankFriction, FrictionSource, Instant, Setting, ToothEffects,
 };
-use crate::model::effects::{Declared, EffectParameters, Effects, configured};
+use crate::model::effects::{EffectEntry, EffectParameters, Effects, configured};
 use crate::model::scene::{Plan, Requests};
 use crate::problem::Problem;
 
@@ -21,28 +21,28 @@ pub struct SceneEffects<'a> {
 
 impl<'a> SceneEffects<'a> {
     /// Effects that may act, each with its own setting.
-    fn acting(&self) -> impl Iterator<Item = (&'static Declared, Setting<'a>, &'a dyn Effect)> + use<'a> {
+    fn acting(&self) -> impl Iterator<Item = (&'static EffectEntry, Setting<'a>, &'a dyn Effect)> + use<'a> {
         let setting = self.setting;
         configured(self.effects, self.parameters)
             .into_iter()
-            .filter(|(declared, on, _)| BUILT && (*on || declared.may_act_unswitched))
-            .map(move |(declared, on, effect)| {
-                (declared, Setting { on, heat: heat_index(declared.heat), ..setting }, effect)
+            .filter(|(entry, on, _)| BUILT && (*on || entry.may_act_unswitched))
+            .map(move |(entry, on, effect)| {
+                (entry, Setting { on, heat_index: heat_index(entry.heat), ..setting }, effect)
             })
     }
 
     /// What is wrong with them in this scene.
     pub fn problems(&self) -> Vec<Problem> {
         let mut found = Vec::new();
-        for (declared, on, _) in configured(self.effects, self.parameters) {
-            if let (false, true, Some(switch)) = (BUILT, on, declared.switch) {
+        for (entry, on, _) in configured(self.effects, self.parameters) {
+            if let (false, true, Some(switch)) = (BUILT, on, entry.switch) {
                 found
                     .push(Problem::new(switch, "this build leaves all effects out; switch it off or use a full build"));
             }
         }
         let contact = self.setting.scene.gear_contact;
-        for (declared, setting, effect) in self.acting() {
-            if let (Some(needs), Some(switch)) = (declared.needs, declared.switch)
+        for (entry, setting, effect) in self.acting() {
+            if let (Some(needs), Some(switch)) = (entry.needs, entry.switch)
                 && !needs.contacts.contains(&contact)
             {
                 let contacts: Vec<&str> = needs.contacts.iter().map(|contact| contact.literal()).collect();
@@ -76,12 +76,12 @@ impl<'a> SceneEffects<'a> {
     /// What they require of the plan.
     pub fn requests(&self) -> Requests {
         self.acting().fold(Requests::default(), |all, (_, setting, effect)| {
-            let one = effect.requests(&setting);
+            let request = effect.requests(&setting);
             Requests {
-                individual: all.individual || one.individual,
-                pins: all.pins || one.pins,
-                shafts: [0, 1].map(|s| all.shafts[s] || one.shafts[s]),
-                attached: std::array::from_fn(|k| all.attached[k] + one.attached[k]),
+                individual: all.individual || request.individual,
+                pins: all.pins || request.pins,
+                shafts: [0, 1].map(|s| all.shafts[s] || request.shafts[s]),
+                attached: std::array::from_fn(|k| all.attached[k] + request.attached[k]),
             }
         })
     }
@@ -96,6 +96,11 @@ impl<'a> SceneEffects<'a> {
         self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
     }
 
+    /// Whether any asks for the viscosity of the oil.
+    pub fn oil_acts(&self) -> bool {
+        self.acting().any(|(_, _, effect)| effect.is_oiled())
+    }
+
     /// Dry friction.
     pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
         self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting))
@@ -104,8 +109,8 @@ impl<'a> SceneEffects<'a> {
 
 /// Sets the readings of all effects that change at any instant.
 pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, mut out: &mut [f64]) {
-    for (declared, on, effect) in configured(effects, parameters) {
-        let count = declared.readings.iter().filter(|reading| reading.changes == Changes::Always).count();
+    for (entry, on, effect) in configured(effects, parameters) {
+        let count = entry.readings.iter().filter(|reading| reading.changes == Changes::Always).count();
         let (its, others) = out.split_at_mut(count);
         if count > 0 {
             effect.read(&Instant { on, ..*at }, its);

@@ -68,6 +68,7 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
             ));
         }
     }
+    found.extend(p.oil.problem());
     found.extend(p.scene_effects(pair).problems());
     found
 }

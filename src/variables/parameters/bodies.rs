@@ -1,10 +1,10 @@
-//! Rows of material and moments of inertia.
+//! Rows of material, oil and moments of inertia.
 
-use crate::declaration::units::{self, MPA};
+use crate::declaration::units::{self, DEG_C, MM2_PER_S, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 
-/// Rows of `material.…` and `inertia.…`.
+/// Rows of `material.…`, `oil.…` and `inertia.…`.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     vec![
         row("material.young_modulus", "Young's modulus of both gears").when("scene.gear_contact != ideal").real(
@@ -19,6 +19,24 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         ),
         row("material.density", "Density of the gears")
             .real(units::KG_PER_M3, (100.0, 3e4), |p| &mut p.material.density),
+        row(
+            "oil.temperature",
+            "Temperature of the oil and of all that rubs in it; with effects.warm_up that at the start, or of a given sump",
+        )
+        .tunable()
+        .real((units::KELVIN, DEG_C), (213.15, 673.15), |p| &mut p.oil.temperature),
+        row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
+            .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
+            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_40),
+        row("oil.viscosity_100", "Kinematic viscosity of the oil at 100 degC")
+            .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
+            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_100),
+        row("oil.density", "Density of the oil at 15 degC")
+            .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
+            .real(units::KG_PER_M3, (500.0, 2000.0), |p| &mut p.oil.density),
+        row("oil.density_fall", "Fall of the density of the oil per temperature")
+            .when("tooth_friction.viscosity_from_oil = true or bearing_drag.viscosity_from_oil = true")
+            .real(units::KG_PER_M3_K, (0.0, 2.0), |p| &mut p.oil.density_fall),
         row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
             .switch(|p| &mut p.inertia.from_geometry),
         row("inertia.carrier", "Carrier with ring gear and cross-shaft about its axis, without planets").real(

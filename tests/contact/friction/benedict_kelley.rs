@@ -7,7 +7,8 @@ fn spec() -> ToothFrictionSpec {
     ToothFrictionSpec { oil_viscosity: 0.010, roughness: 0.5e-6, ..ToothFrictionSpec::default() }
 }
 
-const AT: Conditions<f64> = Conditions { sliding: 2.0, rolling: 8.0, line_load: 400e3, radius: 0.01, modulus: 1.15e11 };
+const AT: Conditions<f64> =
+    Conditions { sliding: 2.0, sum_speed: 8.0, line_load: 400e3, radius: 0.01, modulus: 1.15e11 };
 
 #[test]
 fn value_equals_the_formula_by_hand() {
@@ -27,7 +28,7 @@ fn original_inch_units_give_the_same_within_their_rounding() {
 #[test]
 fn full_films_and_rough_flanks_are_reported() {
     assert_eq!(outside(&spec(), &AT), None);
-    let fast = Conditions { sliding: 30.0, rolling: 60.0, line_load: 1e4, ..AT };
+    let fast = Conditions { sliding: 30.0, sum_speed: 60.0, line_load: 1e4, ..AT };
     assert_eq!(coefficient(&spec(), &fast), 0.0127 * (1.13 / (1.13 - 0.5)));
     assert!(outside(&spec(), &fast).is_some());
     let rough = ToothFrictionSpec { roughness: 0.8e-6, ..spec() };

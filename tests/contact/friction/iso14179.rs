@@ -4,7 +4,7 @@ use bevel_differential::friction::iso14179::*;
 use bevel_differential::friction::{Conditions, ToothFrictionSpec};
 
 const AT: Conditions<f64> =
-    Conditions { sliding: 1.0, rolling: 4.0, line_load: 320e3, radius: 0.010, modulus: 1.15e11 };
+    Conditions { sliding: 1.0, sum_speed: 4.0, line_load: 320e3, radius: 0.010, modulus: 1.15e11 };
 
 #[test]
 fn value_equals_the_formula_by_hand() {
@@ -25,9 +25,9 @@ fn small_loads_count_as_150_newton_per_millimetre_and_are_reported() {
     let at = |line_load| Conditions { line_load, ..AT };
     assert_eq!(coefficient(&spec, &at(1e4)), coefficient(&spec, &at(1.2e5)));
     assert_eq!((outside(&AT), outside(&at(1e4)).unwrap().quantity), (None, "line load w"));
-    let fast = Conditions { rolling: 40.0, ..AT };
+    let fast = Conditions { sum_speed: 40.0, ..AT };
     assert_eq!(outside(&fast).unwrap().quantity, "sum speed v_Σ");
-    assert_eq!(coefficient(&spec, &fast), coefficient(&spec, &Conditions { rolling: 90.0, ..AT }));
+    assert_eq!(coefficient(&spec, &fast), coefficient(&spec, &Conditions { sum_speed: 90.0, ..AT }));
 }
 
 #[test]

@@ -10,7 +10,8 @@ fn spec(law: FrictionLaw) -> ToothFrictionSpec {
     ToothFrictionSpec { law, static_ratio: 1.4, ..ToothFrictionSpec::default() }
 }
 
-const AT: Conditions<f64> = Conditions { sliding: 0.3, rolling: 3.0, line_load: 300e3, radius: 8e-3, modulus: 1.15e11 };
+const AT: Conditions<f64> =
+    Conditions { sliding: 0.3, sum_speed: 3.0, line_load: 300e3, radius: 8e-3, modulus: 1.15e11 };
 
 /// splitmix64.
 struct Random(u64);
@@ -40,7 +41,7 @@ impl Random {
 fn dual(at: &Conditions<f64>) -> Conditions<Dual<4>> {
     Conditions {
         sliding: Dual::variable(at.sliding, 0),
-        rolling: Dual::variable(at.rolling, 1),
+        sum_speed: Dual::variable(at.sum_speed, 1),
         line_load: Dual::variable(at.line_load, 2),
         radius: Dual::variable(at.radius, 3),
         modulus: at.modulus,
@@ -59,13 +60,14 @@ fn coefficient_and_derivatives_are_finite_and_odd_for_all_finite_arguments() {
             stribeck_speed: random.any(),
             regularisation_speed: random.any(),
             oil_viscosity: random.any(),
+            viscosity_from_oil: false,
             lubricant_factor: random.any(),
             roughness: random.any(),
         };
         let spec = if round % 3 == 0 { wild } else { spec(law) };
         let at = Conditions {
             sliding: random.any(),
-            rolling: random.any(),
+            sum_speed: random.any(),
             line_load: random.any(),
             radius: random.any(),
             modulus: random.any(),
@@ -86,25 +88,25 @@ fn derivatives_agree_with_central_differences_through_zero_sliding_and_at_every_
         AT,
         Conditions { sliding: 0.0, ..AT },
         Conditions { sliding: 4e-4, ..AT },
-        Conditions { sliding: -2e-3, rolling: 2e-3, ..AT },
-        Conditions { sliding: 0.0, rolling: 0.0, ..AT },
+        Conditions { sliding: -2e-3, sum_speed: 2e-3, ..AT },
+        Conditions { sliding: 0.0, sum_speed: 0.0, ..AT },
         Conditions { line_load: 153e3, ..AT },
         Conditions { line_load: 1.1e3, ..AT },
         Conditions { line_load: -1.0, ..AT },
-        Conditions { sliding: 20.0, rolling: 33.0, line_load: 4e4, ..AT },
-        Conditions { sliding: 5.0, rolling: 4.0, line_load: 2e6, ..AT },
+        Conditions { sliding: 20.0, sum_speed: 33.0, line_load: 4e4, ..AT },
+        Conditions { sliding: 5.0, sum_speed: 4.0, line_load: 2e6, ..AT },
     ];
     for law in LAWS {
         for at in &places {
             let exact = signed_coefficient(&spec(law), &dual(at)).d;
-            let scales = [at.sliding.abs().max(1e-3), at.rolling.abs().max(1e-3), at.line_load.abs(), at.radius];
+            let scales = [at.sliding.abs().max(1e-3), at.sum_speed.abs().max(1e-3), at.line_load.abs(), at.radius];
             for (i, scale) in scales.into_iter().enumerate() {
                 let h = scale * 1e-4;
                 let moved = |by: f64| {
-                    let mut x = [at.sliding, at.rolling, at.line_load, at.radius];
+                    let mut x = [at.sliding, at.sum_speed, at.line_load, at.radius];
                     x[i] += by;
-                    let [sliding, rolling, line_load, radius] = x;
-                    let at = Conditions { sliding, rolling, line_load, radius, modulus: at.modulus };
+                    let [sliding, sum_speed, line_load, radius] = x;
+                    let at = Conditions { sliding, sum_speed, line_load, radius, modulus: at.modulus };
                     signed_coefficient(&spec(law), &at)
                 };
                 // fourth order, so that the comparison is as sharp as rounding lets it be

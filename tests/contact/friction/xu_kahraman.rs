@@ -9,7 +9,7 @@ fn value_equals_the_formula_by_hand() {
     let modulus = 1.15e11;
     let at = Conditions {
         sliding: 5.0,
-        rolling: 20.0,
+        sum_speed: 20.0,
         line_load: 1e18 * std::f64::consts::PI * 0.010 / modulus,
         radius: 0.010,
         modulus,
@@ -29,7 +29,7 @@ fn value_equals_the_formula_by_hand() {
     assert!((value / by_hand - 1.0).abs() < 1e-12, "{value} {by_hand}");
     assert!((0.017..0.018).contains(&value), "{value}");
     assert_eq!(outside(&spec, &at), None);
-    let slow = Conditions { sliding: 0.05, rolling: 0.4, ..at };
+    let slow = Conditions { sliding: 0.05, sum_speed: 0.4, ..at };
     assert_eq!(outside(&spec, &slow).unwrap().quantity, "entraining speed V_e");
     let light = Conditions { line_load: 1e4, ..at };
     assert_eq!(outside(&spec, &light).unwrap().quantity, "Hertzian pressure P");
@@ -42,7 +42,7 @@ fn the_ranges_of_the_fit_are_those_of_the_thesis() {
     let quantity = |[speed, ratio, pressure, radius, rms]: [f64; 5]| {
         let (radius, modulus) = (radius * 1e-3, 1.15e11);
         let line_load = (pressure * 1e9).powi(2) * std::f64::consts::PI * radius / modulus;
-        let at = Conditions { sliding: ratio * speed, rolling: 2.0 * speed, line_load, radius, modulus };
+        let at = Conditions { sliding: ratio * speed, sum_speed: 2.0 * speed, line_load, radius, modulus };
         outside(&spec(rms * 1e-6), &at).map(|outside| outside.quantity)
     };
     let usual = [10.0, 0.5, 1.0, 20.0, 0.3];

@@ -142,6 +142,7 @@ pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState {
             if w == 0.0 { 0.0 } else { random.between(-0.02, 0.02) },
         ],
         wrapped: 3,
+        viscosity: None,
     }
 }
 

@@ -49,7 +49,7 @@ fn between(gears: &Gears, a: &PairPlace, b: &PairPlace) -> f64 {
                 [sign * across, along, sign * moment]
             };
             let further = if i == 0 { a.tooth - b.tooth } else { a.number - b.number };
-            GearBody::moved(&gears.on_bodies.between_teeth(i, further as f64), &load(a), &load(b))
+            GearBody::displacement(&gears.on_bodies.between_teeth(i, further as f64), &load(a), &load(b))
         })
         .sum()
 }

@@ -81,7 +81,7 @@ fn a_planet_s_meshes_move_each_other_as_its_body_does() {
         };
         let half_turns = (left.number + right.number) as f64;
         let angle = std::f64::consts::PI + half_turns * std::f64::consts::TAU / 10.0;
-        let between = body.between(angle);
+        let between = body.compliance_between(angle);
         let ([q, n, m], r) = (root(left.s), root(right.s));
         let acting = [-q, n, -m];
         let t: f64 = (0..3).map(|a| r[a] * (0..3).map(|b| between[a][b] * acting[b]).sum::<f64>()).sum();

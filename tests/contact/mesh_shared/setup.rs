@@ -101,7 +101,7 @@ impl Gears {
         };
         let mesh = Mesh { law, cone, engagement: Engagement::new(&pair, true, 0.05) };
         let mut detailed = Detailed::new(&pair, spring, damping, if cut { face } else { whole }, false, friction);
-        (detailed.seats, detailed.thrust) = (cut, cut);
+        (detailed.has_seats, detailed.needs_thrust) = (cut, cut);
         let teeth = FlankGaps::perfect(&pair, 2);
         Self { pair, on_bodies, stiffness, bodies, teeth, mesh, detailed, moment }
     }
@@ -200,6 +200,7 @@ pub fn random_states(random: &mut Lcg, pair: &Pair, w: f64) -> [DetailedState; 2
             ],
             rate: [between(random, 1.0), between(random, 1.0), axial[1]],
             wrapped: 0,
+            viscosity: None,
         }
     })
 }

@@ -142,7 +142,7 @@ impl Differential {
         };
         turn(self.p.inertia.carrier, Body::Carrier);
         for i in 0..plan.planets {
-            turn(orbit, if plan.pins { Body::Pin(i) } else { Body::Carrier });
+            turn(orbit, if plan.has_pins { Body::Pin(i) } else { Body::Carrier });
         }
         let frame = balance.rate;
         let mut turn = |inertia: f64, body: Body| {

@@ -90,7 +90,9 @@ impl Scene {
         image.q.swap(0, 1);
         image.v.swap(0, 1);
         let [seats, ends] = [[layout.seat(0), layout.seat(1)], [layout.end(0), layout.end(1)]];
-        for ([left, right], _) in [(seats, layout.pins), (ends, layout.ends())].into_iter().filter(|(_, are)| *are) {
+        for ([left, right], _) in
+            [(seats, layout.has_pins), (ends, layout.has_ends())].into_iter().filter(|(_, are)| *are)
+        {
             image.q.swap(left, right);
             image.v.swap(left, right);
         }

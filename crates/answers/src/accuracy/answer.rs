@@ -10,7 +10,7 @@ use super::reference::{self, Richest};
 use super::search::{Found, is_within, search};
 use super::switches::{Status, Switch, effects};
 use super::want::{self, Want};
-use crate::problem::wrong;
+use crate::problem::question_error;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
@@ -43,7 +43,7 @@ pub struct Answer {
     /// Number of the chosen run; none if nothing is accurate enough.
     pub chosen: Option<usize>,
     /// The next cheaper run, which fails.
-    pub cheaper: Option<usize>,
+    pub too_coarse: Option<usize>,
     /// The next dearer run with a smaller error.
     pub richer: Option<usize>,
     /// Plainer levels and laws.
@@ -78,7 +78,7 @@ pub enum Role {
     /// The plainer level that is chosen does not know it, and is accurate enough all the same.
     NotKnown,
     /// Part of the question: what is built in, broken or driven, and not in this scene.
-    NotThere,
+    NotInScene,
     /// Set off by the scene.
     SetOff,
     /// Gives outputs alone, and none of them is wanted.
@@ -103,10 +103,10 @@ impl Answer {
 
 /// Answers `question` for `scene`. `progress` reports each run to the caller, who may stop the work.
 pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Result<Answer> {
-    let (scene, wants) = want::parse(scene, &question.wants).map_err(wrong)?;
+    let (scene, wants) = want::parse(scene, &question.wants).map_err(question_error)?;
     let latest = scene.stop_time - LEAST_POINTS * scene.step;
     if !(0.0..=latest).contains(&question.from) {
-        return Err(wrong(format!(
+        return Err(question_error(format!(
             "--from {} s: scene {} runs for {} s in steps of {} s; at most {latest} s leaves something to judge",
             question.from, scene.name, scene.stop_time, scene.step
         )));
@@ -119,12 +119,12 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     let mut bench = Bench::new(&wants, question.from, reference, [spent, limit], progress);
     let found = search(&mut bench, &scene, &richest, question.within, question.timed);
     let roles = roles(&mut bench, &scene, &richest, &found, question.within);
-    let [cheaper, richer] = neighbours(&bench, question.within, found.chosen);
+    let [too_coarse, richer] = neighbours(&bench, question.within, found.chosen);
     // runs that were stopped have failed, and mean nothing
     bench.progress.check_stopped()?;
     let mut seconds = [None; 4];
     if question.timed {
-        for (seconds, run) in seconds.iter_mut().zip([found.chosen, cheaper, richer]) {
+        for (seconds, run) in seconds.iter_mut().zip([found.chosen, too_coarse, richer]) {
             let scene = run.map(|run| bench.trials[run].scene.clone());
             *seconds = scene.map(|scene| bench.seconds(&scene));
         }
@@ -142,7 +142,7 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
         reference,
         scales,
         trials,
-        cheaper,
+        too_coarse,
         richer,
         seconds,
         scene,
@@ -178,7 +178,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
             (None, Status::NotAsked) => Role::NotAsked,
             (None, _) if in_rich => Role::NotKnown,
             (None, Status::SetOff) => Role::SetOff,
-            (None, Status::NotThere) => Role::NotThere,
+            (None, Status::NotInScene) => Role::NotInScene,
             (None, Status::On | Status::Off) => Role::Refused(
                 refused.map_or_else(|| format!("not with {}", richest.gears.text()), |(_, why)| why.clone()),
             ),

@@ -7,7 +7,7 @@ const FINEST: f64 = 1e-6;
 
 /// The fraction that `text` says: "1%", "1 %" or "0.01".
 pub fn fraction(text: &str) -> Result<f64, Problems> {
-    let wrong = |what: &str| {
+    let problem = |what: &str| {
         Problems::from(Problem::of("within", text, format!("within {text}: {what}; write it as 1% or 0.01")))
     };
     let trimmed = text.trim();
@@ -15,12 +15,12 @@ pub fn fraction(text: &str) -> Result<f64, Problems> {
         Some(number) => (number.trim_end(), 100.0),
         None => (trimmed, 1.0),
     };
-    let value = number.parse::<f64>().map_err(|_| wrong("is no number"))? / per;
+    let value = number.parse::<f64>().map_err(|_| problem("is no number"))? / per;
     if !value.is_finite() {
-        return Err(wrong("is no number"));
+        return Err(problem("is no number"));
     }
     if value < FINEST {
-        return Err(wrong(if value > 0.0 {
+        return Err(problem(if value > 0.0 {
             "must be 1e-6 or more: no model of gears is as accurate as that"
         } else {
             "must be above 0"
@@ -28,7 +28,7 @@ pub fn fraction(text: &str) -> Result<f64, Problems> {
     }
     if value >= 1.0 {
         let meant = if per == 1.0 && value < 100.0 { format!(" (did you mean {number}%?)") } else { String::new() };
-        return Err(wrong(&format!("must be below 100 %{meant}")));
+        return Err(problem(&format!("must be below 100 %{meant}")));
     }
     Ok(value)
 }
@@ -42,7 +42,7 @@ mod tests {
         for (text, wanted) in [("1%", 0.01), ("1 %", 0.01), (" 0.5%", 0.005), ("0.01", 0.01), ("1e-3", 0.001)] {
             assert_eq!(fraction(text).expect(text), wanted, "{text}");
         }
-        for (text, told) in [
+        for (text, wanted_text) in [
             ("", "no number"),
             ("%", "no number"),
             ("one", "no number"),
@@ -58,7 +58,7 @@ mod tests {
             ("1e9", "below 100 %"),
         ] {
             let problem = fraction(text).expect_err(text).to_string();
-            assert!(problem.contains(told) && problem.contains("1% or 0.01"), "{text}: {problem}");
+            assert!(problem.contains(wanted_text) && problem.contains("1% or 0.01"), "{text}: {problem}");
         }
     }
 }

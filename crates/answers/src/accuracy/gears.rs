@@ -19,11 +19,11 @@ pub struct Gears {
     /// Law; it counts where there are teeth.
     pub law: ContactLaw,
     /// Gear bodies give way.
-    pub bodies: bool,
+    pub has_bodies: bool,
 }
 
-const fn gears(level: GearContact, law: ContactLaw, bodies: bool) -> Gears {
-    Gears { level, law, bodies }
+const fn gears(level: GearContact, law: ContactLaw, has_bodies: bool) -> Gears {
+    Gears { level, law, has_bodies }
 }
 
 /// All of them, the plainest first. Solid teeth are a worse model of a flank, and not among them.
@@ -42,14 +42,14 @@ impl Gears {
     pub fn of(p: &Parameters) -> Self {
         let level = p.scene.gear_contact;
         let law = if level == GearContact::Tooth { p.contact.law } else { ContactLaw::Impact };
-        Self { level, law, bodies: p.effects.body_compliance }
+        Self { level, law, has_bodies: p.effects.body_compliance }
     }
 
     /// `scene` with them; effects that they do not know go.
     pub fn of_scene(self, scene: &Scene) -> Result<Settled, Vec<Problem>> {
         let mut scene = scene.clone();
         let p = &mut scene.parameters;
-        (p.scene.gear_contact, p.effects.body_compliance) = (self.level, self.bodies);
+        (p.scene.gear_contact, p.effects.body_compliance) = (self.level, self.has_bodies);
         if self.level == GearContact::Tooth {
             p.contact.law = self.law;
         }
@@ -61,7 +61,7 @@ impl Gears {
         let (level, law) = (self.level.literal(), self.law.literal());
         match self.level {
             GearContact::Ideal | GearContact::Lumped => level.into(),
-            _ => format!("{level} {law}{}", if self.bodies { " + gear bodies" } else { "" }),
+            _ => format!("{level} {law}{}", if self.has_bodies { " + gear bodies" } else { "" }),
         }
     }
 }
@@ -81,9 +81,9 @@ pub fn richest(scene: &Scene) -> Gears {
     };
     let is_own = level != GearContact::Tooth || own.law != start.law || sets(scene, &OF_THE_LAW);
     let law = if is_own { own.law } else { ContactLaw::LineWeber };
-    let bodies_set_off = !own.bodies && sets(scene, &["effects.body_compliance"]);
-    let bodies = level == GearContact::Tooth && law != ContactLaw::Impact && !bodies_set_off;
-    Gears { level, law, bodies }
+    let bodies_set_off = !own.has_bodies && sets(scene, &["effects.body_compliance"]);
+    let has_bodies = level == GearContact::Tooth && law != ContactLaw::Impact && !bodies_set_off;
+    Gears { level, law, has_bodies }
 }
 
 /// What is plainer than `richest`, the plainest first; laws that are not those of the scene's own values are left out.
@@ -94,7 +94,7 @@ pub fn plainer(scene: &Scene, richest: Gears) -> Vec<Gears> {
         let teeth = gears.level == GearContact::Tooth;
         let as_rich = |law: ContactLaw| (law as i32) <= (richest.law as i32);
         let of_law = if own_law { gears.law == richest.law } else { as_rich(gears.law) };
-        !teeth || of_law && (richest.bodies || !gears.bodies)
+        !teeth || of_law && (richest.has_bodies || !gears.has_bodies)
     };
     let lower = |gears: &Gears| (gears.level as i32) <= (richest.level as i32);
     known.filter(|gears| lower(gears) && fits(gears)).collect()

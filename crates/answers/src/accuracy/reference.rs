@@ -11,7 +11,7 @@ use super::price;
 use super::record::{Record, in_one_line};
 use super::switches::{Status, effects, settled};
 use super::want::Want;
-use crate::problem::wrong;
+use crate::problem::question_error;
 use crate::progress::Progress;
 use crate::scene::Scene;
 
@@ -43,8 +43,9 @@ pub fn richest(scene: &Scene) -> Result<Richest> {
     for switch in effects().filter(|switch| switch.status(scene) == Status::NotAsked) {
         switch.set(&mut base.parameters, false);
     }
-    let first =
-        gears.of_scene(&base).map_err(|found| wrong(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
+    let first = gears
+        .of_scene(&base)
+        .map_err(|found| question_error(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
     let mut refused: Vec<_> = first.without.iter().map(|&name| (name, format!("not with {}", gears.text()))).collect();
     let mut rich = first.scene;
     let candidate = |status| matches!(status, Status::Off) || status == Status::NotAsked;
@@ -91,7 +92,8 @@ pub fn run(
         progress.begin_task(0.0, &format!("the reference, tolerance {tolerance:.0e}"));
         let record = Record::of(&scene, question.from, f64::INFINITY, progress)
             .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
-        let (values, cost) = (values(wants, &record).map_err(wrong)?, price::cost(&scene.parameters, &record.effort));
+        let (values, cost) =
+            (values(wants, &record).map_err(question_error)?, price::cost(&scene.parameters, &record.effort));
         let (reason, effort) = ("the reference".into(), record.effort);
         Ok::<_, anyhow::Error>((Trial { scene, reason, values, errors: Vec::new(), effort, cost }, record))
     };
@@ -103,7 +105,7 @@ pub fn run(
         tolerance *= FINER[1];
         spent += between.cost + finest.cost;
         let scales = wants.iter().map(|want| want.scale(&finest.scene, &record)).collect::<Result<Vec<f64>, _>>();
-        let scales = scales.map_err(wrong)?;
+        let scales = scales.map_err(question_error)?;
         let stray = |i: usize| {
             let from = |other: &Trial| Want::error(other.values[i], finest.values[i], scales[i]);
             from(&last).max(from(&between))

@@ -54,10 +54,10 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
         }
         None => lines.push(("Use", "no setting runs to its end; see the reference.".into())),
     }
-    for (title, run, place) in [("Too coarse", answer.cheaper, 1), ("Richer", answer.richer, 2)] {
+    for (title, run, place) in [("Too coarse", answer.too_coarse, 1), ("Richer", answer.richer, 2)] {
         if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
-            let what = difference(&chosen.scene.parameters, &run.scene.parameters);
-            lines.push((title, format!("{what}: {}.", error_and_cost(answer, run, place))));
+            let changes = difference(&chosen.scene.parameters, &run.scene.parameters);
+            lines.push((title, format!("{changes}: {}.", error_and_cost(answer, run, place))));
         }
     }
     lines.push(("Reference", reference(answer)));
@@ -95,8 +95,8 @@ fn wanted(answer: &Answer) -> String {
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let from = if answer.from > 0.0 { format!(" from {} s on", units::digits(answer.from)) } else { String::new() };
-    format!("{names} within {} %{from}.", units::digits(100.0 * answer.within))
+    let from = if answer.from > 0.0 { format!(" from {} s on", units::six_digits(answer.from)) } else { String::new() };
+    format!("{names} within {} %{from}.", units::six_digits(100.0 * answer.within))
 }
 
 /// Error and cost of `run`; `place` is its index in [`Answer::seconds`].
@@ -230,7 +230,7 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
         }
     }
     let of = |is: fn(&Role) -> bool| names(&|switch, role| is(role).then(|| switch.name().into()));
-    push("Not judged", prefixed("not in the scene: ", of(|role| matches!(role, Role::NotThere))));
+    push("Not judged", prefixed("not in the scene: ", of(|role| matches!(role, Role::NotInScene))));
     push("Set off", prefixed("by the scene: ", of(|role| matches!(role, Role::SetOff))));
     push(
         "Not asked",

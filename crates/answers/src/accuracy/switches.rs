@@ -31,7 +31,7 @@ pub enum Status {
     /// Set off by the scene: its author says that it is not there.
     SetOff,
     /// Off, and part of the question.
-    NotThere,
+    NotInScene,
     /// Only gives outputs, and none of them is wanted.
     NotAsked,
 }
@@ -90,7 +90,7 @@ impl Switch {
         } else if scene.settings.iter().any(|setting| setting.row.name == self.row.name) {
             Status::SetOff
         } else if PART_OF_THE_QUESTION.contains(&self.row.name) {
-            Status::NotThere
+            Status::NotInScene
         } else {
             Status::Off
         }

@@ -35,7 +35,7 @@ pub struct Row {
 
 /// All runs, the reference last.
 pub fn rows(answer: &Answer) -> Vec<Row> {
-    let places = [(answer.chosen, "chosen"), (answer.cheaper, "cheaper"), (answer.richer, "richer")];
+    let places = [(answer.chosen, "chosen"), (answer.too_coarse, "cheaper"), (answer.richer, "richer")];
     let place = |i: usize| places.into_iter().find(|(run, _)| *run == Some(i)).map_or("", |(_, place)| place);
     let last = Row { worst: String::new(), ..row(answer, "reference", &answer.reference) };
     answer.trials.iter().enumerate().map(|(i, trial)| row(answer, place(i), trial)).chain([last]).collect()

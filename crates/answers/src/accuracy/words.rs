@@ -101,12 +101,12 @@ mod tests {
     #[test]
     fn a_difference_names_what_differs() {
         let p = Parameters::default();
-        let mut other = p;
-        other.scene.gear_contact = GearContact::Lumped;
-        other.effects.backlash = false;
-        other.effects.half_shaft = true;
-        other.solver.relative_tolerance = 1e-3;
-        assert_eq!(difference(&p, &other), "lumped, without backlash, with half_shaft, tolerance 1e-3");
+        let mut changed = p;
+        changed.scene.gear_contact = GearContact::Lumped;
+        changed.effects.backlash = false;
+        changed.effects.half_shaft = true;
+        changed.solver.relative_tolerance = 1e-3;
+        assert_eq!(difference(&p, &changed), "lumped, without backlash, with half_shaft, tolerance 1e-3");
         assert_eq!(difference(&p, &p), "the same");
     }
 }

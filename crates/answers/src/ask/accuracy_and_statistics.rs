@@ -15,7 +15,7 @@ use crate::accuracy::statistic::{Rotation, Statistic};
 use crate::accuracy::switches::Switch;
 use crate::accuracy::words::difference;
 use crate::accuracy::{Question, chosen, report, table};
-use crate::problem::{Problem, Problems, wrong};
+use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
 use crate::scene::{script, ssv};
 
@@ -73,7 +73,7 @@ pub struct StatisticNameQuestion {
 
 impl StatisticNameQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
-        let statistic = Statistic::parse(&self.statistic).map_err(wrong)?;
+        let statistic = Statistic::parse(&self.statistic).map_err(question_error)?;
         let angle = match statistic {
             Statistic::Order { of, .. } => Some(of.word()),
             _ => None,
@@ -93,7 +93,7 @@ impl AccuracyQuestion {
         };
         let found = answer(&scene, &question, progress)?;
         let wants: Vec<String> = found.wants.iter().map(|want| want.text(&found.scene)).collect();
-        let place = |run: Option<usize>| {
+        let setting_json = |run: Option<usize>| {
             let run = run.map(|run| &found.trials[run])?;
             let [on, own] = [&run.scene.parameters, &found.choice()?.scene.parameters];
             Some(json!({"set": changed(&run.scene), "difference": difference(own, on)}))
@@ -110,9 +110,9 @@ impl AccuracyQuestion {
             "uncertain": found.is_uncertain(),
             "runs": table::rows(&found),
             "csv": table::csv(&found)?,
-            "use": place(found.chosen),
-            "cheaper": place(found.cheaper),
-            "richer": place(found.richer),
+            "use": setting_json(found.chosen),
+            "cheaper": setting_json(found.too_coarse),
+            "richer": setting_json(found.richer),
             "reference": {
                 "set": changed(&found.reference.scene),
                 "values": found.reference.values,
@@ -120,7 +120,7 @@ impl AccuracyQuestion {
             },
             "seconds": found.seconds,
             "spent": found.spent,
-            "effects": found.effects.iter().map(|(switch, role)| effect(&found, switch, role)).collect::<Vec<_>>(),
+            "effects": found.effects.iter().map(|(switch, role)| role_json(&found, switch, role)).collect::<Vec<_>>(),
             "ssv": text(ssv::text)?,
             "python": text(script::text)?,
             "file": file,
@@ -129,14 +129,14 @@ impl AccuracyQuestion {
 }
 
 /// Role of an effect in the answer, as JSON for programs.
-fn effect(answer: &Answer, switch: &Switch, role: &Role) -> Value {
+fn role_json(answer: &Answer, switch: &Switch, role: &Role) -> Value {
     let (word, by, why) = match role {
         Role::Acts { by, chosen: true } if *by > answer.within => ("needed", Some(*by), None),
         Role::Acts { by, chosen: true } => ("kept", Some(*by), None),
         Role::Acts { by, chosen: false } => ("out", Some(*by), None),
         Role::Neutral { by, .. } => ("neutral", *by, None),
         Role::NotKnown => ("not_known", None, None),
-        Role::NotThere => ("not_there", None, None),
+        Role::NotInScene => ("not_there", None, None),
         Role::SetOff => ("set_off", None, None),
         Role::NotAsked => ("not_asked", None, None),
         Role::Kept(why) => ("kept", None, Some(why)),
@@ -156,7 +156,7 @@ impl StatisticsQuestion {
         }
         let mut record = Record { times: series[0].clone(), values: series[1..].to_vec(), ..Record::default() };
         let figures = self.figures.iter().map(|figure| {
-            let statistic = Statistic::parse(&figure.statistic).map_err(wrong)?;
+            let statistic = Statistic::parse(&figure.statistic).map_err(question_error)?;
             let values = |i: usize| record.values.get(i).with_context(|| format!("there is no series {i}"));
             values(figure.series)?;
             if let Statistic::Order { of, .. } = statistic {
@@ -166,7 +166,7 @@ impl StatisticsQuestion {
                 let phase = values(phase)?.clone();
                 record.phases[usize::from(of == Rotation::Shaft)] = phase;
             }
-            statistic.of(&record, figure.series).map_err(wrong)
+            statistic.of(&record, figure.series).map_err(question_error)
         });
         let figures: Vec<f64> = figures.collect::<Result<_>>()?;
         Ok(json!({"figures": figures}))

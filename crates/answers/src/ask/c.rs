@@ -65,13 +65,13 @@ pub unsafe extern "C" fn bd_free(reply: *mut c_char) {
 
 /// The reply to `question` as a caller in C gets it, for checks; `go_on` is asked from time to time.
 pub fn as_in_c(question: &CStr, numbers: &[f64], mut go_on: impl FnMut() -> bool) -> String {
-    unsafe extern "C" fn told<F: FnMut() -> bool>(context: *mut c_void, _: f64, _: *const c_char) -> c_int {
+    unsafe extern "C" fn on_progress<F: FnMut() -> bool>(context: *mut c_void, _: f64, _: *const c_char) -> c_int {
         // SAFETY: the context is the closure below, which outlives the call
         let go_on = unsafe { &mut *context.cast::<F>() };
         c_int::from(!go_on())
     }
     fn of<F: FnMut() -> bool>(_: &F) -> bd_progress {
-        Some(told::<F>)
+        Some(on_progress::<F>)
     }
     let progress = of(&go_on);
     let context = ptr::from_mut(&mut go_on).cast();
@@ -92,8 +92,8 @@ fn answer(question: &CStr, numbers: &[f64], progress: &mut Progress) -> Result<s
     match catch_unwind(AssertUnwindSafe(|| ask(&question, numbers, progress))) {
         Ok(answer) => answer.map_err(Refusal::from),
         Err(panic) => {
-            let told = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-            Err(internal(told.unwrap_or("a fault of this library")))
+            let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            Err(internal(message.unwrap_or("a fault of this library")))
         }
     }
 }
@@ -122,7 +122,7 @@ mod tests {
         serde_json::from_str(&text).expect("JSON")
     }
 
-    fn told(question: &CStr) -> (String, String) {
+    fn kind_and_message(question: &CStr) -> (String, String) {
         let reply = asked(question.as_ptr(), None);
         let word = |value: &serde_json::Value| value.as_str().unwrap_or_default().to_owned();
         (word(&reply["kind"]), word(&reply["problems"][0]["message"]))
@@ -143,7 +143,7 @@ mod tests {
             (c"{\"ask\": \"statistics\", \"points\": 0, \"figures\": []}", "points = 0"),
             (c"\xff", "not UTF-8"),
         ] {
-            let (_, message) = told(question);
+            let (_, message) = kind_and_message(question);
             assert!(message.contains(part), "{question:?}: {message}");
         }
         assert_eq!(asked(ptr::null(), None)["kind"], "use");

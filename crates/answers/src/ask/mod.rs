@@ -103,7 +103,7 @@ impl From<anyhow::Error> for Refusal {
                     .map(|cause| format!("{cause}: "))
                     .filter(|about| !found.to_string().starts_with(about.trim_end_matches(": ")))
                     .collect();
-                let problems = found.0.iter().map(|problem| problem.clone().in_place(&about)).collect();
+                let problems = found.0.iter().map(|problem| problem.clone().prefixed(&about)).collect();
                 Self { kind: "use", problems }
             }
             None => Self { kind: "failed", problems: vec![format!("{error:#}").into()] },

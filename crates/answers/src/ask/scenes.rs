@@ -80,8 +80,9 @@ pub struct PatternQuestion {
 impl ScenesQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let scenes = scene::all(&self.scenes)?;
-        let told = |scene: &Scene| json!({"name": scene.name, "description": scene.description, "file": scene.file});
-        Ok(json!({"scenes": scenes.iter().map(told).collect::<Vec<_>>()}))
+        let scene_json =
+            |scene: &Scene| json!({"name": scene.name, "description": scene.description, "file": scene.file});
+        Ok(json!({"scenes": scenes.iter().map(scene_json).collect::<Vec<_>>()}))
     }
 }
 

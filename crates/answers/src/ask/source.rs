@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde::Deserialize;
 
-use crate::problem::{Problem, Problems, wrong};
+use crate::problem::{Problem, Problems, question_error};
 use crate::scene::{Scene, assignments, find, load};
 
 /// More communication points than this are a slip, and would not fit into memory.
@@ -38,8 +38,8 @@ impl Source {
         assignments::apply(&mut scene, &self.set)?;
         let Scene { stop_time, step, .. } = scene;
         if stop_time / step > MOST_POINTS {
-            let told = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");
-            let message = format!("{stop_time} s in steps of {step} s are {told}");
+            let reason = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");
+            let message = format!("{stop_time} s in steps of {step} s are {reason}");
             return Err(Problems::from(Problem::of("step", step.to_string(), message)).into());
         }
         Ok(scene)
@@ -49,5 +49,5 @@ impl Source {
 /// Seconds of a time that is left out, or written as a number or with its unit; `name` says which in the error.
 pub fn seconds(name: &str, text: Option<&str>) -> Result<Option<f64>> {
     let read = text.map(crate::scene::units::seconds).transpose();
-    read.map_err(|problem| wrong(format!("{name}: {problem}")))
+    read.map_err(|problem| question_error(format!("{name}: {problem}")))
 }

@@ -93,8 +93,8 @@ fn setting(assignment: &str) -> Result<Setting, problem::Problem> {
     if counts(setting.row.name) {
         Ok(setting)
     } else {
-        let told = "does not change the geometry; parameters that do";
-        Err(problem::Problem::of(name.trim(), text, format!("{} {told}: {}", setting.row.name, names().join(", "))))
+        let reason = "does not change the geometry; parameters that do";
+        Err(problem::Problem::of(name.trim(), text, format!("{} {reason}: {}", setting.row.name, names().join(", "))))
     }
 }
 

@@ -6,12 +6,12 @@ use super::design::Design;
 use super::dimension::{DimensionGroup, DimensionValue, ISO_23509, dimensions};
 
 /// Mean over outer cone distance.
-pub fn mean(d: &Design) -> f64 {
+pub fn mean_ratio(d: &Design) -> f64 {
     d.pair.mean_cone / d.pair.outer_cone
 }
 
 /// Inner over outer cone distance.
-pub fn toe(d: &Design) -> f64 {
+pub fn toe_ratio(d: &Design) -> f64 {
     d.pair.inner_cone / d.pair.outer_cone
 }
 
@@ -54,16 +54,16 @@ pub fn groups() -> Vec<DimensionGroup> {
             "outer_pitch_diameter_d_e" "d_e" Length ISO_23509, "at the heel, m_et z",
                 |d, i| d.pair.outer_pitch_diameter(i);
             "mean_pitch_diameter_d_m" "d_m" Length ISO_23509, "in the middle of the face",
-                |d, i| d.pair.outer_pitch_diameter(i) * mean(d);
+                |d, i| d.pair.outer_pitch_diameter(i) * mean_ratio(d);
             "inner_pitch_diameter_d_i" "d_i" Length ISO_23509, "at the toe",
-                |d, i| d.pair.outer_pitch_diameter(i) * toe(d);
+                |d, i| d.pair.outer_pitch_diameter(i) * toe_ratio(d);
             "outside_diameter_d_ae" "d_ae" Length ISO_23509, "also outer tip diameter, d_e + 2 h_ae cos δ", tip_diameter;
-            "mean_tip_diameter_d_am" "d_am" Length None, "in the middle of the face", |d, i| tip_diameter(d, i) * mean(d);
-            "inner_tip_diameter_d_ai" "d_ai" Length ISO_23509, "at the toe", |d, i| tip_diameter(d, i) * toe(d);
+            "mean_tip_diameter_d_am" "d_am" Length None, "in the middle of the face", |d, i| tip_diameter(d, i) * mean_ratio(d);
+            "inner_tip_diameter_d_ai" "d_ai" Length ISO_23509, "at the toe", |d, i| tip_diameter(d, i) * toe_ratio(d);
             "outer_root_diameter_d_fe" "d_fe" Length ISO_23509, "at the heel, d_e - 2 h_fe cos δ", root_diameter;
             "mean_root_diameter_d_fm" "d_fm" Length None, "in the middle of the face",
-                |d, i| root_diameter(d, i) * mean(d);
-            "inner_root_diameter_d_fi" "d_fi" Length ISO_23509, "at the toe", |d, i| root_diameter(d, i) * toe(d);
+                |d, i| root_diameter(d, i) * mean_ratio(d);
+            "inner_root_diameter_d_fi" "d_fi" Length ISO_23509, "at the toe", |d, i| root_diameter(d, i) * toe_ratio(d);
         ),
         dimensions!("diameters, on the spheres R_e and R_i that the teeth of the solids end on", DimensionValue::Gear,
             "outer_tip_diameter_on_sphere" "" Length None, "at the heel, 2 R_e sin δ_a",
@@ -81,7 +81,7 @@ pub fn groups() -> Vec<DimensionGroup> {
             "crossing_point_to_crown_t_xo" "t_xo" Length ISO_23509, "from the apex to the tip at the heel, on the back cone",
                 crown;
             "crossing_point_to_front_crown_t_xi" "t_xi" Length ISO_23509, "from the apex to the tip at the toe",
-                |d, i| crown(d, i) * toe(d);
+                |d, i| crown(d, i) * toe_ratio(d);
             "apex_to_outer_pitch_circle" "" Length None, "from the apex to the plane of d_e",
                 |d, i| d.pair.outer_cone * cos(d.pair.gears[i].pitch);
             "apex_to_crown_on_sphere" "" Length None, "from the apex to the tip at the heel of the solid, R_e cos δ_a",

@@ -1,7 +1,7 @@
 //! Dimensions that both gears share: modules, cone distances, path of contact, backlash.
 
 use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
-use super::gear_rows::{mean, toe};
+use super::gear_rows::{mean_ratio, toe_ratio};
 
 /// The rows.
 pub fn groups() -> Vec<DimensionGroup> {
@@ -13,8 +13,8 @@ pub fn groups() -> Vec<DimensionGroup> {
                 p.max(s) / p.min(s)
             };
             "outer_transverse_module_m_et" "m_et" Length ISO_23509, "at the heel, given", |d| d.pair.module;
-            "mean_normal_module_m_mn" "m_mn" Length ISO_23509, "in the middle of the face", |d| d.pair.module * mean(d);
-            "inner_module_m_i" "m_i" Length None, "at the toe", |d| d.pair.module * toe(d);
+            "mean_normal_module_m_mn" "m_mn" Length ISO_23509, "in the middle of the face", |d| d.pair.module * mean_ratio(d);
+            "inner_module_m_i" "m_i" Length None, "at the toe", |d| d.pair.module * toe_ratio(d);
             "normal_pressure_angle_alpha_n" "α_n" Angle ISO_23509, "at the pitch cone, given", |d| d.pair.pressure_angle;
             "face_width_b" "b" Length ISO_23509, "given", |d| d.spec.face_width;
             "outer_cone_distance_R_e" "R_e" Length ISO_23509, "from the apex to the heel, along the pitch cone",
@@ -26,7 +26,7 @@ pub fn groups() -> Vec<DimensionGroup> {
             "outer_working_depth_h_we" "h_we" Length None, "both addenda at the heel",
                 |d| d.pair.gears[0].addendum + d.pair.gears[1].addendum;
             "mean_working_depth_h_mw" "h_mw" Length ISO_23509, "both addenda in the middle of the face",
-                |d| (d.pair.gears[0].addendum + d.pair.gears[1].addendum) * mean(d);
+                |d| (d.pair.gears[0].addendum + d.pair.gears[1].addendum) * mean_ratio(d);
         ),
         dimensions!("backlash", DimensionValue::Pair,
             "outer_transverse_backlash_j_et" "j_et" Length ISO_23509, "along the outer pitch circle, given",
@@ -34,7 +34,7 @@ pub fn groups() -> Vec<DimensionGroup> {
             "outer_normal_backlash_j_en" "j_en" Length ISO_23509, "between the flanks at the heel, j_et cos α",
                 |d| d.pair.normal_backlash * d.pair.outer_cone;
             "mean_transverse_backlash_j_mt" "j_mt" Length ISO_23509, "along the mean pitch circle",
-                |d| d.spec.backlash * mean(d);
+                |d| d.spec.backlash * mean_ratio(d);
             "mean_normal_backlash_j_mn" "j_mn" Length ISO_23509, "between the flanks in the middle of the face",
                 |d| d.pair.normal_backlash * d.pair.mean_cone;
         ),
@@ -78,7 +78,7 @@ mod tests {
         let of = |key: &str| rows.iter().find(|row| row.key == key).map_or(f64::NAN, |row| row.shown(&design, 0));
         let wanted = 0.2 * cos(design.pair.pressure_angle);
         assert!((of("outer_normal_backlash_j_en") - wanted).abs() < 1e-15);
-        assert!((of("mean_normal_backlash_j_mn") - wanted * mean(&design)).abs() < 1e-15);
+        assert!((of("mean_normal_backlash_j_mn") - wanted * mean_ratio(&design)).abs() < 1e-15);
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use bevel_differential::numeric::{cos, sin, tan};
 
 use super::design::Design;
 use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
-use super::gear_rows::{mean, toe};
+use super::gear_rows::{mean_ratio, toe_ratio};
 
 /// Whole depth at the heel.
 fn depth(d: &Design, i: usize) -> f64 {
@@ -23,7 +23,7 @@ fn thickness(d: &Design, i: usize) -> f64 {
 
 /// Pitch diameter of the virtual gear in the middle of the face: d_mn with the spiral angle β = 0.
 fn virtual_mean_diameter(d: &Design, i: usize) -> f64 {
-    d.planar.diameter[i] * mean(d)
+    d.planar.diameter[i] * mean_ratio(d)
 }
 
 /// Half angle of a tooth on the virtual gear.
@@ -65,15 +65,15 @@ fn heights() -> DimensionGroup {
         "outer_dedendum_h_fe" "h_fe" Length ISO_23509, "at the heel", |d, i| d.pair.gears[i].dedendum;
         "outer_whole_depth_h_e" "h_e" Length ISO_23509, "at the heel", depth;
         "mean_addendum_h_am" "h_am" Length ISO_23509, "in the middle of the face",
-            |d, i| d.pair.gears[i].addendum * mean(d);
+            |d, i| d.pair.gears[i].addendum * mean_ratio(d);
         "mean_dedendum_h_fm" "h_fm" Length ISO_23509, "in the middle of the face",
-            |d, i| d.pair.gears[i].dedendum * mean(d);
-        "mean_whole_depth_h_m" "h_m" Length ISO_23509, "in the middle of the face", |d, i| depth(d, i) * mean(d);
-        "inner_addendum_h_ai" "h_ai" Length ISO_23509, "at the toe", |d, i| d.pair.gears[i].addendum * toe(d);
-        "inner_dedendum_h_fi" "h_fi" Length ISO_23509, "at the toe", |d, i| d.pair.gears[i].dedendum * toe(d);
-        "inner_whole_depth_h_i" "h_i" Length ISO_23509, "at the toe", |d, i| depth(d, i) * toe(d);
+            |d, i| d.pair.gears[i].dedendum * mean_ratio(d);
+        "mean_whole_depth_h_m" "h_m" Length ISO_23509, "in the middle of the face", |d, i| depth(d, i) * mean_ratio(d);
+        "inner_addendum_h_ai" "h_ai" Length ISO_23509, "at the toe", |d, i| d.pair.gears[i].addendum * toe_ratio(d);
+        "inner_dedendum_h_fi" "h_fi" Length ISO_23509, "at the toe", |d, i| d.pair.gears[i].dedendum * toe_ratio(d);
+        "inner_whole_depth_h_i" "h_i" Length ISO_23509, "at the toe", |d, i| depth(d, i) * toe_ratio(d);
         "clearance_c" "c" Length ISO_23509, "from this root to the mate's tip, in the middle of the face",
-            |d, i| clearance(d, i) * mean(d);
+            |d, i| clearance(d, i) * mean_ratio(d);
         "outer_clearance_c_e" "c_e" Length None, "from this root to the mate's tip, at the heel", clearance;
     )
 }
@@ -92,9 +92,9 @@ fn thicknesses() -> DimensionGroup {
             |d, i| d.pair.gears[i].half_angle(d.pair.gears[i].tip);
         "outer_circular_tooth_thickness_s_e" "s_e" Length None, "arc of the outer pitch circle", thickness;
         "mean_normal_circular_tooth_thickness_s_mn" "s_mn" Length ISO_23509, "arc of the mean pitch circle",
-            |d, i| thickness(d, i) * mean(d);
+            |d, i| thickness(d, i) * mean_ratio(d);
         "inner_circular_tooth_thickness_s_i" "s_i" Length None, "arc of the inner pitch circle",
-            |d, i| thickness(d, i) * toe(d);
+            |d, i| thickness(d, i) * toe_ratio(d);
         "outer_chordal_tooth_thickness_s_ec" "s_ec" Length None, "straight across the outer pitch circle, d_e sin γ",
             |d, i| d.pair.outer_pitch_diameter(i) * sin(d.pair.gears[i].half_pitch);
         "outer_chordal_addendum_h_aec" "h_aec" Length None, "from that chord to the tip, h_ae + d_e (1 - cos γ) cos δ / 2",
@@ -108,10 +108,10 @@ fn thicknesses() -> DimensionGroup {
             |d, i| {
                 let gear = &d.pair.gears[i];
                 let diameter = virtual_mean_diameter(d, i) * cos(gear.pitch);
-                gear.addendum * mean(d) + diameter / 2.0 * (1.0 - cos(virtual_half_angle(d, i)))
+                gear.addendum * mean_ratio(d) + diameter / 2.0 * (1.0 - cos(virtual_half_angle(d, i)))
             };
         "tip_land_at_heel" "" Length None, "arc of the tip circle at R_e", land;
-        "tip_land_at_toe" "" Length None, "arc of the tip circle at R_i", |d, i| land(d, i) * toe(d);
+        "tip_land_at_toe" "" Length None, "arc of the tip circle at R_i", |d, i| land(d, i) * toe_ratio(d);
         "tip_land_in_modules" "" Ratio None, "the same at heel and toe; the FMU warns below 0.2", |d, i| land(d, i) / d.pair.module;
         "angular_backlash" "" Angle None, "rotation of this gear with the mate held, 2 j_et / d_e",
             |d, i| 2.0 * d.spec.backlash / d.pair.outer_pitch_diameter(i);

@@ -22,7 +22,7 @@ pub struct PatternFindings {
     /// Greatest pressure [Pa].
     pub pitch_pressure: f64,
     /// Whether it is the drive flank that bears.
-    pub drive: bool,
+    pub is_drive: bool,
     /// Force of the pair [N].
     pub force: f64,
     /// Greatest pressure at or above the pitch line over the engagement [Pa], and at which cone distance [m]. Further
@@ -43,7 +43,7 @@ impl PatternFindings {
         let gear = &record.pair.gears[0];
         let height = |c: &LoadedSection, cone: f64| cone * (c.polar[0] - gear.pitch);
         let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
-        let above = record.engagement().filter(|c| !c.corner && c.polar[0] >= gear.pitch);
+        let above = record.engagement().filter(|c| !c.is_corner && c.polar[0] >= gear.pitch);
         let peak = above.max_by(|a, b| a.pressure.total_cmp(&b.pressure));
         let face = record.pair.outer_cone - record.pair.inner_cone;
         // a face of which one end is bare has its sections at the other
@@ -56,7 +56,7 @@ impl PatternFindings {
             ends: [end(first, record.pair.inner_cone), end(last, record.pair.outer_cone)],
             bearing: pitch.iter().map(|c| c.width).sum::<f64>() / face,
             pitch_pressure: greatest(&mut pitch.iter().map(|c| c.pressure)),
-            drive: record.followed.0,
+            is_drive: record.followed.0,
             force: pitch.iter().map(LoadedSection::force).sum(),
             peak: peak.map_or([0.0; 2], |c| [c.pressure, c.cone]),
             most: greatest(&mut record.engagement().map(|c| c.line_load)),
@@ -70,7 +70,7 @@ impl PatternFindings {
     fn cells(&self) -> [String; CELLS] {
         [
             self.case[1].clone(),
-            if self.drive { "drive" } else { "coast" }.into(),
+            if self.is_drive { "drive" } else { "coast" }.into(),
             format!("{:.1}", 1e-3 * self.force),
             format!("{:+.2}", (1e5 * self.centroid).round() / 100.0 + 0.0),
             format!("{:.0}/{:.0}", 1e-3 * self.ends[0], 1e-3 * self.ends[1]),
@@ -134,7 +134,7 @@ pub fn csv(found: &[PatternFindings]) -> Result<String> {
     let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm"])?;
     for f in found {
         let [name, title] = &f.case;
-        let flank = if f.drive { "drive" } else { "coast" };
+        let flank = if f.is_drive { "drive" } else { "coast" };
         let numbers = [
             1e-3 * f.force,
             1e3 * f.centroid,

@@ -36,7 +36,7 @@ pub struct LoadedSection {
     /// Tooth pair.
     pub name: PairName,
     /// Whether the section touches at a tip corner.
-    pub corner: bool,
+    pub is_corner: bool,
     /// Place on the path of contact, as it follows from the planet's rotation [rad].
     pub s: f64,
     /// Cone distance [m].
@@ -138,7 +138,7 @@ impl Engagement {
         for c in &self.contacts {
             let [planet, side] = [0, 1].map(|i| 1e3 * c.cone * (c.polar[i] - self.pair.gears[i].pitch));
             let flank = if c.name.0 { "drive" } else { "coast" };
-            let marks = [u8::from(c.name == self.followed), u8::from(c.corner)].map(|mark| mark.to_string());
+            let marks = [u8::from(c.name == self.followed), u8::from(c.is_corner)].map(|mark| mark.to_string());
             let lengths = [1e3 * c.cone, 1e3 * c.width, planet, side, 1e-3 * c.line_load, 1e3 * c.radius];
             let mut cells = vec![case.to_owned(), format!("{:.6}", c.time), flank.to_owned()];
             cells.extend(c.name.1.map(|tooth| tooth.to_string()));
@@ -189,7 +189,7 @@ fn contact(
     LoadedSection {
         time,
         name: (load.flank == Flank::Drive, load.teeth),
-        corner: load.spot != Spot::Path,
+        is_corner: load.spot != Spot::Path,
         s: load.s,
         cone,
         width,

@@ -29,7 +29,7 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
     if problems.0.is_empty() && named.iter().any(|name| TIMES.contains(name)) {
         problems.extend(check_step(scene.step, scene.stop_time).err());
     }
-    Problems(problems.0.into_iter().map(|problem| problem.in_place("--set: ")).collect()).or(())?;
+    Problems(problems.0.into_iter().map(|problem| problem.prefixed("--set: ")).collect()).or(())?;
     // a run that ends earlier does not come to what is set later
     let stop_time = scene.stop_time;
     scene.events.retain(|event| event.time <= stop_time);
@@ -47,8 +47,8 @@ fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problem> {
             }
             let setting = Setting::new(name, &value)?;
             if scene.input_tables.iter().any(|table| table.row.name == name) {
-                let told = "follows a table in the scene, which overrides a value; change the table";
-                return Err(Problem::of(name, text, format!("{name} {told}")));
+                let message = "follows a table in the scene, which overrides a value; change the table";
+                return Err(Problem::of(name, text, format!("{name} {message}")));
             }
             setting.apply(&mut scene.parameters, &mut scene.inputs);
             scene.settings.retain(|known| known.row.name != name);

@@ -29,7 +29,7 @@ const MARK: char = '\u{feff}';
 struct Column {
     /// Its place in the file, and its header as written.
     place: usize,
-    head: String,
+    header_cell: String,
     row: &'static Variable,
     unit: String,
     values: Vec<f64>,
@@ -54,19 +54,19 @@ pub fn read(file: &Path, period: Option<f64>) -> Result<Vec<InputTable>, Vec<Str
 /// The inputs in `text`; problems begin with their place in it.
 fn parse(text: &str, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
     let mut reader = ReaderBuilder::new().comment(Some(COMMENT)).trim(Trim::All).from_reader(text.as_bytes());
-    let told = |error: csv::Error| vec![told(text, &error)];
-    let header = reader.headers().map_err(told)?.clone();
+    let csv_problems = |error: csv::Error| vec![csv_problem(text, &error)];
+    let header = reader.headers().map_err(csv_problems)?.clone();
     let (time_place, time_unit, mut columns) = columns(&header)?;
     let mut times = Vec::new();
     let mut problems = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(told)?;
+        let record = record.map_err(csv_problems)?;
         let line = line(text, record.position());
         match time(&record[time_place], &time_unit, times.last().copied()) {
             Ok(time) => times.push(time),
             Err(problem) => {
-                let (head, cell) = (&header[time_place], &record[time_place]);
-                problems.push(format!(", line {line}, column {head}, value \"{cell}\": {problem}"));
+                let (header_cell, cell) = (&header[time_place], &record[time_place]);
+                problems.push(format!(", line {line}, column {header_cell}, value \"{cell}\": {problem}"));
                 // later times cannot be compared with this one
                 break;
             }
@@ -89,27 +89,28 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
     let mut columns: Vec<Column> = Vec::new();
     let mut time = None;
     let mut problems = Vec::new();
-    for (place, head) in header.iter().enumerate() {
-        let (name, unit) = split_head(head);
+    for (place, header_cell) in header.iter().enumerate() {
+        let (name, unit) = split_header_cell(header_cell);
         if name == TIME && time.is_none() {
             let known = units::seconds(&format!("0 {unit}")).map(|_| unit.to_owned());
-            time = Some((place, known.map_err(|_| wrong_time_unit(head, unit))));
+            time = Some((place, known.map_err(|_| wrong_time_unit(header_cell, unit))));
             continue;
         }
         match input(name, unit) {
             Ok(row) if columns.iter().any(|column| column.row.name == row.name) => {
-                problems.push(format!(", column {head}: the input stands here twice; remove one of the columns"));
+                problems
+                    .push(format!(", column {header_cell}: the input stands here twice; remove one of the columns"));
             }
             Ok(row) => columns.push(Column {
                 place,
-                head: head.to_owned(),
+                header_cell: header_cell.to_owned(),
                 row,
                 unit: unit.to_owned(),
                 values: Vec::new(),
                 wrong: None,
                 wrong_count: 0,
             }),
-            Err(problem) => problems.push(format!(", column {head}: {problem}")),
+            Err(problem) => problems.push(format!(", column {header_cell}: {problem}")),
         }
     }
     match time {
@@ -131,8 +132,8 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
     Err(problems)
 }
 
-fn wrong_time_unit(head: &str, unit: &str) -> String {
-    format!(", column {head}: {unit} is no unit of time; write one of {}", units::times().join(", "))
+fn wrong_time_unit(header_cell: &str, unit: &str) -> String {
+    format!(", column {header_cell}: {unit} is no unit of time; write one of {}", units::times().join(", "))
 }
 
 /// The input `name`, if it may be given in `unit`.
@@ -148,9 +149,9 @@ fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
 }
 
 /// Name and unit of `name [unit]`; the unit is empty if there is none.
-fn split_head(head: &str) -> (&str, &str) {
-    let parts = head.strip_suffix(']').and_then(|head| head.rsplit_once('['));
-    parts.map_or((head, ""), |(name, unit)| (name.trim(), unit.trim()))
+fn split_header_cell(header_cell: &str) -> (&str, &str) {
+    let parts = header_cell.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
+    parts.map_or((header_cell, ""), |(name, unit)| (name.trim(), unit.trim()))
 }
 
 fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
@@ -177,7 +178,7 @@ impl Column {
         match self.value(cell) {
             Ok(value) => self.values.push(value),
             Err(problem) => {
-                let first = || format!(", line {line}, column {}, value \"{cell}\": {problem}", self.head);
+                let first = || format!(", line {line}, column {}, value \"{cell}\": {problem}", self.header_cell);
                 self.wrong = self.wrong.take().or_else(|| Some(first()));
                 self.wrong_count += 1;
             }
@@ -201,7 +202,7 @@ impl Column {
     }
 }
 
-fn told(text: &str, error: &csv::Error) -> String {
+fn csv_problem(text: &str, error: &csv::Error) -> String {
     match error.kind() {
         ErrorKind::UnequalLengths { expected_len, len, .. } => {
             let line = line(text, error.position());

@@ -34,7 +34,7 @@ use toml::{Table, Value};
 
 use super::set::{Setting, closest, real, variable, written};
 use super::times::{check_step, seconds, span};
-use super::units::digits;
+use super::units::six_digits;
 use super::{Event, InputTable, Scene, input_file};
 use crate::problem::Problems;
 use crate::text::shown;
@@ -141,7 +141,7 @@ fn settings(place: &str, table: &Table, problems: &mut Problems) -> Vec<Setting>
     for (name, value) in flat {
         match Setting::new(&name, value) {
             Ok(setting) => found.push(setting),
-            Err(problem) => problems.push(problem.in_place(&format!("{place} "))),
+            Err(problem) => problems.push(problem.prefixed(&format!("{place} "))),
         }
     }
     found
@@ -163,10 +163,10 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
         .and_then(|value| seconds(&value).map_err(|problem| format!("[[at]] time = {}: {problem}", written(&value))));
     let time = time.map_err(|problem| problems.push(problem)).ok()?;
     if !stop_time.is_nan() && !(0.0..=stop_time).contains(&time) {
-        let [time, stop_time] = [time, stop_time].map(digits);
+        let [time, stop_time] = [time, stop_time].map(six_digits);
         problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
     }
-    let place = format!("[[at]] time = {} s:", digits(time));
+    let place = format!("[[at]] time = {} s:", six_digits(time));
     let settings = settings(&place, &table, problems);
     for setting in settings.iter().filter(|setting| !setting.may_come_later()) {
         let name = setting.row.name;
@@ -180,7 +180,7 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
     for event in events {
         for name in event.settings.iter().map(|setting| setting.row.name) {
             if input_tables.iter().any(|table| table.row.name == name) {
-                let time = digits(event.time);
+                let time = six_digits(event.time);
                 problems.push(format!(
                     "[[at]] time = {time} s: {name} follows a table, which would override this value; remove the table or the value"
                 ));
@@ -191,20 +191,23 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
 
 fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<InputTable> {
     let place = format!("[[table]] input = \"{}\":", entry.input);
-    let mut wrong = |what: String| problems.push(format!("{place} {what}"));
+    let mut report = |what: String| problems.push(format!("{place} {what}"));
     let row = match variable(&entry.input) {
         Ok(row) if !matches!(row.access, Access::Input(_)) => Err("is not an input".into()),
         found => found,
     };
-    let row = row.map_err(&mut wrong).ok()?;
+    let row = row.map_err(&mut report).ok()?;
     let mut numbers = |what: &str, entries: &[Value], read: &dyn Fn(&Value) -> Result<f64, String>| -> Vec<f64> {
-        let told = |entry: &Value, problem: String| format!("{what} {}: {problem}", written(entry));
-        entries.iter().filter_map(|entry| read(entry).map_err(|problem| wrong(told(entry, problem))).ok()).collect()
+        let entry_problem = |entry: &Value, problem: String| format!("{what} {}: {problem}", written(entry));
+        entries
+            .iter()
+            .filter_map(|entry| read(entry).map_err(|problem| report(entry_problem(entry, problem))).ok())
+            .collect()
     };
     let values = numbers("value", &entry.value, &|value| real(row, value));
     let times = numbers("time", &entry.time, &seconds);
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
-        wrong(format!(
+        report(format!(
             "has {} times and {} values; give as many of both, at least one",
             entry.time.len(),
             entry.value.len()
@@ -212,9 +215,9 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     }
     let rising = times.windows(2).all(|pair| pair[0] <= pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
     if !rising || !times.iter().all(|time| time.is_finite()) {
-        wrong("times must be 0 or more and must not fall".into());
+        report("times must be 0 or more and must not fall".into());
     }
-    let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(wrong).ok()?;
+    let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(report).ok()?;
     let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();
     (complete && rising).then_some(InputTable { row, times, values, period })
 }

@@ -40,7 +40,7 @@ fn cost(scene: &Scene) -> Option<String> {
     let all = numbers::significant(scene.stop_time * taken / simulated, 2);
     Some(format!(
         "{ratio} x real time on this machine, {all} s for all, as the first {} s take",
-        units::digits(simulated)
+        units::six_digits(simulated)
     ))
 }
 
@@ -65,7 +65,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     for (i, drive) in drives(scene).into_iter().enumerate() {
         line(if i == 0 { "drives" } else { "" }, &drive);
     }
-    let (freedoms, imposed) = (plan.freedoms(), plan.imposed());
+    let (freedoms, imposed) = (plan.degrees_of_freedom(), plan.imposed());
     line("size", &format!("{freedoms} degrees of freedom, {imposed} of them imposed; {} states", 2 * freedoms));
     line("cost class", meaning(simulation.cost()));
     if let Some(cost) = cost(scene) {
@@ -83,17 +83,17 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         line(if i == 0 { "effects" } else { "" }, effect);
     }
     let j = simulation.inertias();
-    let own = |s: usize| units::digits(j.side[s] - j.end[s]);
+    let own = |s: usize| units::six_digits(j.side[s] - j.end[s]);
     line(
         "inertias",
         &format!(
             "carrier with planets {}, side gears {} and {}, their ends {} and {}, planet {} kg.m2",
-            units::digits(j.carrier),
+            units::six_digits(j.carrier),
             own(0),
             own(1),
-            units::digits(j.end[0]),
-            units::digits(j.end[1]),
-            units::digits(j.planet)
+            units::six_digits(j.end[0]),
+            units::six_digits(j.end[1]),
+            units::six_digits(j.planet)
         ),
     );
     for event in &scene.events {

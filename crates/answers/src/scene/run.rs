@@ -231,15 +231,15 @@ impl SceneResult {
     pub fn text(&self) -> String {
         let mut table = Table::new(["output", "unit", "min", "mean", "max", "end"]).left([0, 1]);
         for o in &self.outputs {
-            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::digits(units::shown(o.row, value)));
+            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::six_digits(units::shown(o.row, value)));
             table.push([o.row.name, units::name(o.row)].map(str::to_owned).into_iter().chain(numbers));
         }
         let mut out = table.terminal();
         out.push_str(&format!(
             "\n{}\nenergy residual {} of the {} J that went through; computed in {:.2} s\n",
             self.account,
-            units::digits(self.relative_residual()),
-            units::digits(self.throughput),
+            units::six_digits(self.relative_residual()),
+            units::six_digits(self.throughput),
             self.took.as_secs_f64()
         ));
         out

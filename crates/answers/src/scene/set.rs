@@ -33,12 +33,12 @@ impl Setting {
     /// `name` set to `value`, or what is wrong with it.
     pub fn new(name: &str, value: &Value) -> Result<Self, Problem> {
         let row = variable(name).map_err(|message| Problem { variable: Some(name.into()), ..message.into() })?;
-        let wrong = |what: String| {
+        let problem = |what: String| {
             let written = written(value);
             let message = format!("{name} = {written}: {what}");
-            Problem { hint: Problem::from(what).hint, ..Problem::of(name, written, message) }.at(row)
+            Problem { hint: Problem::from(what).hint, ..Problem::of(name, written, message) }.about(row)
         };
-        Ok(Self { row, value: known(row, value).map_err(wrong)? })
+        Ok(Self { row, value: known(row, value).map_err(problem)? })
     }
 
     /// A parameter, or an input at the start, with the value that it has there; outputs have none.

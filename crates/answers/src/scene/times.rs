@@ -17,9 +17,9 @@ pub fn seconds(value: &Value) -> Result<f64, String> {
 
 /// Seconds of a length of time: finite and above zero. `key` names it in the error.
 pub fn span(key: &str, value: &Value) -> Result<f64, String> {
-    let wrong = |what: String| format!("{key} = {}: {what}", written(value));
-    let span = seconds(value).map_err(wrong)?;
-    if span > 0.0 && span.is_finite() { Ok(span) } else { Err(wrong("must be above 0 s".into())) }
+    let message = |what: String| format!("{key} = {}: {what}", written(value));
+    let span = seconds(value).map_err(message)?;
+    if span > 0.0 && span.is_finite() { Ok(span) } else { Err(message("must be above 0 s".into())) }
 }
 
 /// Whether a communication step fits into the simulated time.

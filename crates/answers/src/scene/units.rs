@@ -21,7 +21,7 @@ pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
         return Ok(number);
     }
     match unit.display.iter().find(|shown| shown.name == name) {
-        Some(shown) => Ok(number / shown.factor),
+        Some(shown) => Ok(shown.read(number)),
         None if plain => Err(format!("takes a number without a unit; \"{text}\" has the unit {name}")),
         None => Err(format!("unit {name} of \"{text}\" does not fit; units that do: {}", names(&unit).join(", "))),
     }
@@ -81,16 +81,16 @@ pub fn name(row: &Variable) -> &'static str {
 
 /// SI `value` in the display unit of `row`.
 pub fn shown(row: &Variable, value: f64) -> f64 {
-    row.display.map_or(value, |display| value * display.factor)
+    row.display.map_or(value, |display| display.show(value))
 }
 
 /// Text of the SI `value` in the display unit of `row`, with the name of the unit.
 pub fn text(row: &Variable, value: f64) -> String {
-    format!("{} {}", digits(shown(row, value)), name(row)).trim_end().to_owned()
+    format!("{} {}", six_digits(shown(row, value)), name(row)).trim_end().to_owned()
 }
 
 /// Text of a number with six significant digits.
-pub fn digits(value: f64) -> String {
+pub fn six_digits(value: f64) -> String {
     numbers::short(value, 6)
 }
 

@@ -97,7 +97,7 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
     let side = theory.pair().outer_pitch_diameter(1) * 1e3 / 2.0;
     let straight = &results.straight;
     let [undercut, jams] = theory.standard_addenda_interfere();
-    let what = match (undercut, jams) {
+    let consequence = match (undercut, jams) {
         (true, true) => "undercut the planet and jam in the side gear",
         (true, false) => "undercut the planet: the side gear's tips reach below its base circle",
         (false, true) => "jam in the side gear",
@@ -157,7 +157,7 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
          for an exact solution."
             .to_owned(),
         format!(
-            "Geometry: standard addenda (1.0 modules) {what}; the limit is {:.3} modules at {:.0} deg. Long and short \
+            "Geometry: standard addenda (1.0 modules) {consequence}; the limit is {:.3} modules at {:.0} deg. Long and short \
              addenda, the default, cure it. The face width of {:.0} mm is {:.3} R_e, above the usual R_e/3. The contact ratio is {:.4} \
              on the sphere; Tredgold's planar approximation, which the study uses, gives {:.4} ({:+.2} %).",
             theory.addendum_limit(),

@@ -8,7 +8,7 @@ use comfy_table::{CellAlignment, LineStyle, TableStyle};
 /// Width of paragraphs.
 const WIDTH: usize = 118;
 /// Characters that the line under the head spans at most in a last column of sentences.
-const LAST: usize = 24;
+const LAST_COLUMN: usize = 24;
 
 /// A table of texts; columns are right-aligned unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,18 +50,18 @@ impl Table {
         });
         let lines = drawn.lines().map(|line| line.trim_end().to_owned()).enumerate();
         lines.fold(String::new(), |mut out, (i, line)| {
-            let line = if i == 1 { "-".repeat(line.len().saturating_sub(self.past_rule())) } else { line };
+            let line = if i == 1 { "-".repeat(line.len().saturating_sub(self.beyond_rule())) } else { line };
             let _ = writeln!(out, "{line}");
             out
         })
     }
 
     /// Characters of the last column that the line under the head leaves out, where the column holds long sentences.
-    fn past_rule(&self) -> usize {
+    fn beyond_rule(&self) -> usize {
         let Some(last) = self.head.len().checked_sub(1).filter(|last| self.left.contains(last)) else { return 1 };
         let cells = self.rows.iter().filter_map(|row| row.get(last)).chain([&self.head[last]]);
         let width = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
-        1 + width.saturating_sub(LAST.max(self.head[last].chars().count()))
+        1 + width.saturating_sub(LAST_COLUMN.max(self.head[last].chars().count()))
     }
 
     /// Markdown, for a document.

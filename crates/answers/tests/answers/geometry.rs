@@ -198,9 +198,9 @@ fn text_and_json_have_the_same_rows_with_the_same_numbers() -> Result<()> {
             });
             let values = values.collect::<Vec<_>>().join(" ");
             let wanted = words(&format!("{} {values}", row.symbol));
-            let told = format!("{}: {}", row.term(), row.meaning);
-            let found = lines.iter().any(|line| words(line).starts_with(&wanted) && line.ends_with(&told));
-            assert!(found, "no line \"{wanted} ... {told}\"");
+            let ending = format!("{}: {}", row.term(), row.meaning);
+            let found = lines.iter().any(|line| words(line).starts_with(&wanted) && line.ends_with(&ending));
+            assert!(found, "no line \"{wanted} ... {ending}\"");
         }
         for part in parts {
             // the parser keeps one of two equal keys
@@ -258,12 +258,15 @@ fn refused(settings: &[&str]) -> String {
 
 #[test]
 fn errors_are_reported_at_once_with_name_range_and_unit() {
-    let told =
+    let message =
         refused(&["geometry.modul=4mm", "geometry.backlash=60mm", "geometry.planet_teeth=ten", "geometry.module"]);
-    assert!(told.contains("no variable \"geometry.modul\"; did you mean geometry.module?"), "{told}");
-    assert!(told.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"), "{told}");
-    assert!(told.contains("geometry.planet_teeth = \"ten\": must be a whole number"), "{told}");
-    assert!(told.contains("\"geometry.module\" is not of the form name=value"), "{told}");
+    assert!(message.contains("no variable \"geometry.modul\"; did you mean geometry.module?"), "{message}");
+    assert!(
+        message.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"),
+        "{message}"
+    );
+    assert!(message.contains("geometry.planet_teeth = \"ten\": must be a whole number"), "{message}");
+    assert!(message.contains("\"geometry.module\" is not of the form name=value"), "{message}");
     assert!(refused(&["module=4mm"]).contains("did you mean geometry.module?"));
     assert!(refused(&["geometry.module=4"]).contains("did you mean 4 mm"));
     assert!(refused(&["geometry.module=4mm", "geometry.module=5mm"]).contains("geometry.module is set twice"));

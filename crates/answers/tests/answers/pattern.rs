@@ -23,7 +23,7 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
     let gear = &record.pair.gears[0];
     let all: Vec<&LoadedSection> = record.engagement().collect();
     let (first, last) = (all[0], all[all.len() - 1]);
-    assert!(first.corner && last.corner && first.s < record.pair.path.low && last.s > record.pair.path.high);
+    assert!(first.is_corner && last.is_corner && first.s < record.pair.path.low && last.s > record.pair.path.high);
     assert!(first.polar[0] < gear.pitch && (last.polar[0] - gear.tip).abs() < 0.01);
     // light at both ends, and one pair bears all of the mesh at the pitch point
     let pitch = record.at_pitch_point();
@@ -41,7 +41,7 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
         assert!((arcs - record.pair.line_of_action()).abs() < 2e-3, "{arcs}");
     }
     let found = PatternFindings::new(&case(&errors), &record).expect("findings");
-    assert!(found.drive && found.bearing > 0.999 && (found.ends[0] / found.ends[1] - 1.0).abs() < 1e-9);
+    assert!(found.is_drive && found.bearing > 0.999 && (found.ends[0] / found.ends[1] - 1.0).abs() < 1e-9);
     assert!(markdown(&[found]).contains("| a case, shown | drive |"));
     let envelope = Envelope::new(&record);
     let most = envelope.pressure.iter().flatten().fold(0.0, |a: f64, &b| a.max(b));
@@ -56,7 +56,7 @@ fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
     let errors = ToothErrorSpec { axis_offset: 3e-5, ..ToothErrorSpec::default() };
     let record = record(&errors);
     let found = PatternFindings::new(&case(&errors), &record).expect("findings");
-    assert!(found.drive && found.centroid < -2e-4 && found.ends[0] > 1.1 * found.ends[1], "{found:?}");
+    assert!(found.is_drive && found.centroid < -2e-4 && found.ends[0] > 1.1 * found.ends[1], "{found:?}");
     // e = −ε cosα on planet 1 and +ε cosα on planet 2 under one approach a: (a + e)^1.5 shares the torque
     let record = &record;
     let pitch = record.at_pitch_point();

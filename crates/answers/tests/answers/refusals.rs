@@ -54,12 +54,12 @@ fn a_scene_that_is_not_there_or_too_long_is_refused_by_name() {
 fn gears_that_cannot_be_built_are_refused_with_all_reasons() {
     let set = ["geometry.face_width=41mm", "geometry.planet_count=3", "geometry.planet_bore=60mm"];
     let found = refused(json!({"ask": "geometry", "set": set, "facets": 0, "thicken": "1 kg"}));
-    let told: Vec<&str> = found.problems.iter().map(|problem| problem.message.as_str()).collect();
-    let told = told.join("\n");
+    let messages: Vec<&str> = found.problems.iter().map(|problem| problem.message.as_str()).collect();
+    let messages = messages.join("\n");
     for reason in
         ["no teeth at the toe", "cannot be assembled", "root circle at the toe", "facets 0: must be", "thicken 1 kg"]
     {
-        assert!(told.contains(reason), "{reason}: {told}");
+        assert!(messages.contains(reason), "{reason}: {messages}");
     }
 }
 

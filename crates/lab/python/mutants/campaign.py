@@ -19,7 +19,7 @@ from pathlib import Path
 from build import WATCH, built
 from changes import drawn
 
-ROOMS = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
+MODULES = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
 PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
 # a test that takes so many times as long as without a change, and so many seconds more, does not come to its end
 PATIENCE, GRACE = 5.0, 10.0
@@ -33,7 +33,7 @@ def main():
         raise SystemExit(f"{count} changes: a run takes 1 to {WATCH - 1}")
     folder.mkdir(parents=True, exist_ok=True)
     build = ["cargo", "test", "--no-run", *(word for name in PROGRAMS for word in ("--test", name))]
-    changes, messages = built(repository, folder, lambda source, refused: drawn(source, ROOMS, count, seed, refused), build)
+    changes, messages = built(repository, folder, lambda source, refused: drawn(source, MODULES, count, seed, refused), build)
     programs = programs_of(messages)
     tests = watched(programs, folder, len(changes))
     done = known(folder)
@@ -127,9 +127,9 @@ def report(changes, fates, seed, repository):
     """Counts by module, and the survivors with what docs/mutants.toml says about them."""
     said = tomllib.loads((repository / "docs" / "mutants.toml").read_text(encoding="utf-8")).get("survivor", [])
     rows = []
-    for room in [*dict.fromkeys(change.room for change in changes), "all"]:
-        own = [fate["fate"] for change, fate in zip(changes, fates) if room in (change.room, "all")]
-        rows.append(f"| {room if room == 'all' else f'`{room}`'} | {len(own)} | {own.count('noticed')} | {own.count('no end')} | "
+    for module in [*dict.fromkeys(change.module for change in changes), "all"]:
+        own = [fate["fate"] for change, fate in zip(changes, fates) if module in (change.module, "all")]
+        rows.append(f"| {module if module == 'all' else f'`{module}`'} | {len(own)} | {own.count('noticed')} | {own.count('no end')} | "
                     f"{own.count('survived')} |")
     lines = [f"{len(changes)} changes, drawn by seed {seed}:", "", "| module | changes | noticed | timed out | survived |",
              "|---|---:|---:|---:|---:|", *rows]

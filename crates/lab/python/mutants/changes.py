@@ -36,16 +36,16 @@ class Change:
         return f"{' '.join(self.before.split())} → {' '.join(self.after.split())}"
 
     @property
-    def room(self) -> str:
+    def module(self) -> str:
         """The folder of the file, of the model the folder within."""
         parts = self.file.split("/")
         return "/".join(parts[:3 if parts[1] == "model" else 2])
 
 
-def drawn(root: Path, rooms: list[str], count: int, seed: int, without: set[Change] = frozenset(), kind=None) -> list[Change]:
-    """`count` changes of the files in the modules `rooms`, drawn by a seed; none within another, none of `without`. `kind`: all
+def drawn(root: Path, modules: list[str], count: int, seed: int, without: set[Change] = frozenset(), kind=None) -> list[Change]:
+    """`count` changes of the files in `modules`, drawn by a seed; none within another, none of `without`. `kind`: all
     changes of a file, those of `possible` if it is not given."""
-    files = sorted(file.relative_to(root).as_posix() for room in rooms for file in (root / room).rglob("*.rs")
+    files = sorted(file.relative_to(root).as_posix() for module in modules for file in (root / module).rglob("*.rs")
                    if not file.stem.endswith("tests") and "tests" not in file.parts)
     everything = [change for file in files for change in (kind or possible)(root, file)]
     random.Random(seed).shuffle(everything)

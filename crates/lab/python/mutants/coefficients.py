@@ -9,7 +9,7 @@ from pathlib import Path
 
 from changes import CLOSED, Change, is_const, is_tests, tree
 
-ROOMS = ["src/contact", "src/friction", "src/geometry", "src/model/dynamics", "src/model/effects", "src/strength"]
+MODULES = ["src/contact", "src/friction", "src/geometry", "src/model/dynamics", "src/model/effects", "src/strength"]
 LARGER = 1.02
 # named constants of formulas; others are limits, steps, roundings and units
 CONSTANTS = {

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from build import WATCH, built
 from changes import drawn
-from coefficients import LARGER, ROOMS, coefficients, opened
+from coefficients import LARGER, MODULES, coefficients, opened
 
 HEAD = ("coefficient", "value", "noticed", "experiment", "variable", "time_s", "off_by", "unit", "times_tolerance", "remark")
 
@@ -30,7 +30,7 @@ def main():
 
     def draw(source, refused):
         opened(source)
-        return drawn(source, ROOMS, count, seed, refused, coefficients)
+        return drawn(source, MODULES, count, seed, refused, coefficients)
 
     changes, messages = built(repository, folder, draw, ["cargo", "build", "--lib"])
     unit = packed(fmu, library_of(messages), folder / "wrong.fmu")

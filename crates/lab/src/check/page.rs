@@ -43,8 +43,8 @@ impl TestPageCommand {
             None => paths::page().join(FILE),
         };
         ensure!(page.is_file(), "{} is not there; make it: cargo run --release -- page", paths::shown(&page));
-        let node =
-            found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
+        let node = program_file(OsStr::new("node"))
+            .context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
         let environment = environment(ENVIRONMENT, |what| progress.stage(what))?;
@@ -82,15 +82,15 @@ impl TestPageCommand {
 fn chromium() -> Result<PathBuf> {
     if let Some(named) = env::var_os(CHROME).filter(|named| !named.is_empty()) {
         let shown = Path::new(&named).display().to_string();
-        return found(&named)
+        return program_file(&named)
             .with_context(|| format!("{CHROME} = {shown}: this program does not run; name a Chromium"));
     }
-    found(OsStr::new("chromium"))
+    program_file(OsStr::new("chromium"))
         .with_context(|| format!("Chromium is not installed: apt install chromium, or name one by {CHROME}"))
 }
 
 /// The file of a program that runs, on the search path unless `name` is a path.
-fn found(name: &OsStr) -> Option<PathBuf> {
+fn program_file(name: &OsStr) -> Option<PathBuf> {
     let folders = env::var_os("PATH").unwrap_or_default();
     let named = Path::new(name);
     let beside = env::split_paths(&folders).map(|folder| folder.join(named).with_extension(env::consts::EXE_EXTENSION));

@@ -118,8 +118,9 @@ fn kind(reply: &str) -> Option<String> {
         return Some("answer".into());
     }
     let problems = value["problems"].as_array().filter(|problems| !problems.is_empty())?;
-    let told = problems.iter().all(|problem| problem["message"].as_str().is_some_and(|message| !message.is_empty()));
-    value["kind"].as_str().filter(|_| told).map(str::to_owned)
+    let have_messages =
+        problems.iter().all(|problem| problem["message"].as_str().is_some_and(|message| !message.is_empty()));
+    value["kind"].as_str().filter(|_| have_messages).map(str::to_owned)
 }
 
 /// A question, some of them broken.
@@ -198,12 +199,12 @@ fn source(random: &mut Random) -> Value {
 }
 
 fn assignments(random: &mut Random) -> Value {
-    let one = |random: &mut Random| {
+    let assignment = |random: &mut Random| {
         let name = if random.chance(6) { random.pick(&["stop_time", "step"]).to_owned() } else { variable(random) };
         let text = if random.chance(2) { random.pick(&ODD).to_owned() } else { odd_number(random).to_string() };
         if random.chance(30) { text } else { format!("{name}={text}") }
     };
-    json!((0..random.below(4)).map(|_| one(random)).collect::<Vec<_>>())
+    json!((0..random.below(4)).map(|_| assignment(random)).collect::<Vec<_>>())
 }
 
 fn wanted(random: &mut Random) -> String {

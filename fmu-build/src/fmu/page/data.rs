@@ -1,7 +1,7 @@
 //! What the page knows of the library: variables from the table, scenes from their files, prices of effects.
 
 use anyhow::{Context, Result};
-use bevel_differential::model::effects::Declared;
+use bevel_differential::model::effects::EffectEntry;
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable, guid, table};
 use serde_json::{Map, Value, json};
@@ -54,6 +54,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
         "unit": row.unit.map(|unit| unit.name),
         "shown": units::name(row),
         "factor": row.display.map_or(1.0, |shown| shown.factor),
+        "offset": row.display.map_or(0.0, |shown| shown.offset),
         "min": row.range.map(|range| range.min),
         "max": row.range.map(|range| range.max),
         "start": start,
@@ -64,7 +65,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
 }
 
 /// Whether the effect brings the output.
-fn gives(effect: &Declared, output: &str) -> bool {
+fn gives(effect: &EffectEntry, output: &str) -> bool {
     let heat = effect.heat.map(|heat| heat.output);
     heat.into_iter().chain(effect.readings.iter().map(|reading| reading.name)).any(|name| name == output)
 }

@@ -112,8 +112,8 @@ def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: fl
     places = {run.place: run for run in runs if run.place}
 
     def choice(key, place):
-        told = found[key]
-        return None if told is None else Choice(told["set"], places[place], told["difference"])
+        answered = found[key]
+        return None if answered is None else Choice(answered["set"], places[place], answered["difference"])
 
     def effects(role):
         return {effect["name"]: effect["by"] for effect in found["effects"] if effect["role"] == role}
@@ -164,10 +164,10 @@ def _drawn(style, found, file):
     short = wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + " …"
     axes.set_title(f"{found.scene}: {short}")
     axes.legend(ncols=2)
-    told = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
+    chosen_text = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
     style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects or tolerance, compared with "
                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
-                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {told}.")
+                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.")
     if file is not None:
         style.save(picture, file)
     return picture

@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Opens the page and prints its address. Returns 0. Raises `DifferentialError`."""
-    page = found()
+    page = page_file()
     if arguments.path:
         print(page)
         return 0
@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def found() -> Path:
+def page_file() -> Path:
     """The page of this package, or of the repository that it is used from."""
     package = Path(str(importlib.resources.files(__package__.partition(".")[0])))
     places = [package / "page" / FILE]

@@ -8,7 +8,7 @@ from .arguments import add_farm, add_fmu, add_set, assignment, farm, once
 # keys of a plan file, and the name of each option here
 KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
-USUAL = {"plan": "random", "seed": 0, "start": 0.0}
+DEFAULTS = {"plan": "random", "seed": 0, "start": 0.0}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _merged(arguments):
     """Values of the plan file, replaced or extended by those of the command line."""
-    given = {**USUAL, **(_read(arguments.plan_file) if arguments.plan_file else {})}
+    given = {**DEFAULTS, **(_read(arguments.plan_file) if arguments.plan_file else {})}
     for name in ("scene", "plan", "runs", "seed", "start"):
         if getattr(arguments, name) is not None:
             given[name] = getattr(arguments, name)

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 # no message has this level
 SILENT = logging.CRITICAL + 1
 # time limit for a scheduler and its workers to answer, s
-PATIENCE = 5.0
+ANSWER_TIMEOUT = 5.0
 # a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
 ALLOWED_FAILURES = 0
 # a worker that takes longer to start again is given up for good
 RESTART = 300.0
 SETTINGS = {
     "distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
-    "distributed.worker.multiprocessing-method": "spawn", "distributed.comm.timeouts.connect": f"{PATIENCE:g}s",
+    "distributed.worker.multiprocessing-method": "spawn", "distributed.comm.timeouts.connect": f"{ANSWER_TIMEOUT:g}s",
     # dask's own measurements are not read
     "distributed.worker.profile.enabled": False, "distributed.admin.system-monitor.interval": "10s",
     "distributed.admin.tick.interval": "500ms", "distributed.admin.log-length": 0,
@@ -106,12 +106,12 @@ def _interrupts_for_this_process_alone():
 
 def _connected(distributed, scheduler):
     try:
-        client = distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False)
+        client = distributed.Client(scheduler, timeout=ANSWER_TIMEOUT, set_as_default=False)
     except (OSError, ValueError, TimeoutError):
         raise DifferentialError(f"scheduler {scheduler}: nothing answers there; start one by dask scheduler, or leave it out to "
                                 "use the cores of this machine") from None
     try:
-        client.wait_for_workers(1, timeout=PATIENCE)
+        client.wait_for_workers(1, timeout=ANSWER_TIMEOUT)
     except TimeoutError:
         client.close()
         raise DifferentialError(f"scheduler {scheduler}: it has no workers; start some by dask worker {scheduler}") from None

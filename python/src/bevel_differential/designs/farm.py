@@ -23,7 +23,7 @@ LAST_CHUNKS = 4
 # chunks that a worker has in its queue, so that it never waits
 AT_HAND = 2
 # time without any worker after which none will come any more, s
-DESERTED = 60.0
+NO_WORKER_TIMEOUT = 60.0
 
 
 class Farm:
@@ -58,7 +58,7 @@ class Farm:
     def rows(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[Row, None, None]:
         """Rows as they complete. `task`: a `Task`, or an object with its `evaluate` and `close` that can be pickled."""
         designs = list(designs)
-        rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()
+        rows = self._here(task, designs) if self._client is None else _TaskRun(self._client, task, designs).rows()
         return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
 
     @staticmethod
@@ -67,14 +67,14 @@ class Farm:
             yield task.evaluate(run, values)
 
 
-class _Run:
+class _TaskRun:
     """Designs of one task on their way through the workers."""
 
     def __init__(self, client, task, designs):
         self.client, self.left, self.packed = client, deque(designs), pickle.dumps(task)
         self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
         # designs of chunks whose worker died, to be run one by one; designs whose worker died again, to be run alone
-        self.singles, self.suspects = deque(), []
+        self.retry_singly, self.retry_alone = deque(), []
 
     def rows(self):
         try:
@@ -97,19 +97,19 @@ class _Run:
             except queue.Empty:
                 now = time.monotonic()
                 seen = now if self.client.nthreads() else seen
-                if now - seen > DESERTED:
-                    raise DifferentialError(f"all workers have been gone for {DESERTED:g} s; start some and go on") from None
+                if now - seen > NO_WORKER_TIMEOUT:
+                    raise DifferentialError(f"all workers have been gone for {NO_WORKER_TIMEOUT:g} s; start some and go on") from None
 
     def _fill(self):
         """Hands out chunks until all workers have enough."""
         workers = max(1, sum(self.client.nthreads().values()))
-        while (self.left or self.singles) and len(self.under_way) < AT_HAND * workers:
-            size = 1 if self.singles else min(self._size(workers), len(self.left))
-            source = self.singles or self.left
+        while (self.left or self.retry_singly) and len(self.under_way) < AT_HAND * workers:
+            size = 1 if self.retry_singly else min(self._size(workers), len(self.left))
+            source = self.retry_singly or self.left
             self._submit([source.popleft() for _ in range(size)])
-        if self.suspects and not self.under_way:
+        if self.retry_alone and not self.under_way:
             # alone, so that no other design can be the cause if the worker dies
-            self._submit([self.suspects.pop()], alone=True)
+            self._submit([self.retry_alone.pop()], alone=True)
 
     def _submit(self, chunk, alone=False):
         future = self.client.submit(evaluated, self.packed, chunk, pure=False)
@@ -133,7 +133,7 @@ class _Run:
             if alone:
                 return [Row(run, dict(values), message="its worker process died each time") for run, values in chunk]
             # one by one, to find the design that kills it
-            (self.suspects if len(chunk) == 1 else self.singles).extend(chunk)
+            (self.retry_alone if len(chunk) == 1 else self.retry_singly).extend(chunk)
             return []
         recent = sum(row.seconds for row in rows) / len(rows)
         self.seconds = max(1e-6, recent if self.seconds is None else 0.5 * (self.seconds + recent))
@@ -147,14 +147,14 @@ def _with_bar(rows, total):
 
 
 # on a worker: the last task and its pickled form, for each thread, as an instance belongs to one thread
-_own = threading.local()
+_of_thread = threading.local()
 
 
 def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
     """Rows of a chunk, on a worker. Each chunk brings the pickled task. The worker keeps the task, with the FMU's instance,
     for the next chunks."""
-    if getattr(_own, "packed", None) != packed:
-        if hasattr(_own, "task"):
-            _own.task.close()
-        _own.task, _own.packed = pickle.loads(packed), packed
-    return [_own.task.evaluate(run, values) for run, values in chunk]
+    if getattr(_of_thread, "packed", None) != packed:
+        if hasattr(_of_thread, "task"):
+            _of_thread.task.close()
+        _of_thread.task, _of_thread.packed = pickle.loads(packed), packed
+    return [_of_thread.task.evaluate(run, values) for run, values in chunk]

@@ -33,8 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
-    if blow := problem.rates_start():
-        print(f"warning: {blow}", file=sys.stderr, flush=True)
+    if start_warning := problem.start_warning():
+        print(f"warning: {start_warning}", file=sys.stderr, flush=True)
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
     try:
@@ -54,7 +54,7 @@ def _optimise(arguments, problem, out, store, workers):
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
 
-    def each(generation, best):
+    def after_generation(generation, best):
         print(f"generation {generation} of {total}: {len(store.rows)} designs, {len(best)} on the front",
               flush=True)
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
@@ -62,18 +62,18 @@ def _optimise(arguments, problem, out, store, workers):
     task = DesignTask(problem, thorough=True)
     with task.scene:
         compared = {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
-    best = search(problem, workers, store, each)
+    best = search(problem, workers, store, after_generation)
     rows = thinned(best, problem.objectives, problem.front)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
     confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, workers)}
     to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
-    told = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
-    told += _confirmation(confirmed.values(), problem)
-    (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
+    notes = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
+    notes += _confirmation(confirmed.values(), problem)
+    (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in notes), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
-    print("\n".join(["", table, *told]))
+    print("\n".join(["", table, *notes]))
     for letter, (reason, row) in zip(LETTERS, reasons):
         (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
         free = write_gears(problem, row, out / letter)

@@ -149,14 +149,14 @@ class Confirmed:
 
     def flat(self, problem: Problem) -> dict:
         """As a row of a table: the design, what follows from it, and for each model figures, differences and what it breaks."""
-        told = {**self.row.flat(), **problem.complete(self.row.values)}
+        table_row = {**self.row.flat(), **problem.complete(self.row.values)}
         for model, row in self.models.items():
             for each in problem.objectives:
                 want = str(each.want)
-                told[f"{want} | {model}"] = row.figures.get(want, float("nan"))
-                told[f"{want} | {model}, difference"] = self.difference(model, want)
-            told[f"breaks | {model}"] = "; ".join(row.refused)
-        return told
+                table_row[f"{want} | {model}"] = row.figures.get(want, float("nan"))
+                table_row[f"{want} | {model}, difference"] = self.difference(model, want)
+            table_row[f"breaks | {model}"] = "; ".join(row.refused)
+        return table_row
 
 
 def evaluated(farm: Farm, task: DesignTask, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Iterator[DesignRow]:

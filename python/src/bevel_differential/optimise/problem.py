@@ -146,7 +146,7 @@ class Problem:
         """What objectives and conditions are about, each once."""
         return list(dict.fromkeys(each.want for each in (*self.objectives, *self.conditions)))
 
-    def rates_start(self) -> str:
+    def start_warning(self) -> str:
         """Which wanted figures are those of a start out of equilibrium, and what helps; empty where none is."""
         rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)))
         known = self.known({})
@@ -162,9 +162,9 @@ class Problem:
         """Of all that decides about results, but the number of generations, so that a search can go on."""
         state = self.scene.__getstate__()
         state["fmu"] = self.scene.fmu.description.guid
-        told = [state, *map(str, self.objectives), *map(str, self.conditions), *map(repr, self.space.dimensions),
-                *map(repr, self.followers), self.population, self.starts, self.seed]
-        return hashlib.sha256(json.dumps(told, default=str, sort_keys=True).encode()).hexdigest()
+        decisive = [state, *map(str, self.objectives), *map(str, self.conditions), *map(repr, self.space.dimensions),
+                    *map(repr, self.followers), self.population, self.starts, self.seed]
+        return hashlib.sha256(json.dumps(decisive, default=str, sort_keys=True).encode()).hexdigest()
 
 
 class _Reader:

@@ -68,9 +68,9 @@ def _unless(cells, nothing, label, compared):
 def _with_heights(values):
     """Parameters with the addenda and dedenda that the addendum system makes, in modules."""
     addenda, dedenda = heights({name.removeprefix("geometry."): value for name, value in values.items()})
-    told = {f"geometry.{gear}_{what}": height / values["geometry.module"]
-            for what, pair in (("addendum", addenda), ("dedendum", dedenda)) for gear, height in zip(("planet", "side"), pair)}
-    return {**values, **told}
+    in_modules = {f"geometry.{gear}_{what}": height / values["geometry.module"]
+                  for what, pair in (("addendum", addenda), ("dedendum", dedenda)) for gear, height in zip(("planet", "side"), pair)}
+    return {**values, **in_modules}
 
 
 def _line(catalogue, label, name, values):

@@ -57,28 +57,28 @@ def _teeth_caption(run, pair):
 
 
 def _table(run, pair):
-    both = [("number of teeth", "z", [str(gear.teeth) for gear in pair.gears]),
-            ("pitch angle", "δ", [_deg(gear.pitch) for gear in pair.gears]),
-            ("face angle (tip cone)", "δ_a", [_deg(gear.tip) for gear in pair.gears]),
-            ("root angle", "δ_f", [_deg(gear.root) for gear in pair.gears]),
-            ("base angle", "δ_b", [_deg(gear.base) for gear in pair.gears]),
-            ("outer pitch diameter", "d_e", [words.mm(pair.module * gear.teeth) for gear in pair.gears]),
-            ("outside diameter", "d_ae", [words.mm(pair.module * gear.teeth + 2.0 * gear.addendum * math.cos(gear.pitch))
-                                          for gear in pair.gears]),
-            ("outer addendum", "h_ae", [words.mm(gear.addendum) for gear in pair.gears]),
-            ("outer dedendum", "h_fe", [words.mm(gear.dedendum) for gear in pair.gears]),
-            ("bore", "", [words.mm(gear.bore) if gear.bore else "none" for gear in pair.gears]),
-            ("mass", "", [words.quantity(run.constant(f"geometry.{name}_mass"), "kg") for name in GEARS])]
-    one = [("outer transverse module", "m_et", words.mm(pair.module)), ("normal pressure angle", "α_n", _deg(pair.pressure_angle)),
-           ("shaft angle", "Σ", _deg(run.value("geometry.shaft_angle"))), ("face width", "b", words.mm(pair.face_width)),
-           ("outer cone distance", "R_e", words.mm(pair.outer_cone)),
-           ("mean cone distance", "R_m", words.mm(pair.outer_cone - 0.5 * pair.face_width)),
-           ("inner cone distance", "R_i", words.mm(pair.inner_cone)),
-           ("outer transverse backlash", "j_et", words.mm(float(run.value("geometry.backlash")))),
-           ("contact ratio", "ε_α", words.number(run.constant("geometry.contact_ratio"))),
-           ("number of planets", "", str(pair.planets))]
-    rows = [(name, symbol, *values) for name, symbol, values in both]
-    rows += [(name, symbol, value, value) for name, symbol, value in one]
+    of_gears = [("number of teeth", "z", [str(gear.teeth) for gear in pair.gears]),
+                ("pitch angle", "δ", [_deg(gear.pitch) for gear in pair.gears]),
+                ("face angle (tip cone)", "δ_a", [_deg(gear.tip) for gear in pair.gears]),
+                ("root angle", "δ_f", [_deg(gear.root) for gear in pair.gears]),
+                ("base angle", "δ_b", [_deg(gear.base) for gear in pair.gears]),
+                ("outer pitch diameter", "d_e", [words.mm(pair.module * gear.teeth) for gear in pair.gears]),
+                ("outside diameter", "d_ae", [words.mm(pair.module * gear.teeth + 2.0 * gear.addendum * math.cos(gear.pitch))
+                                              for gear in pair.gears]),
+                ("outer addendum", "h_ae", [words.mm(gear.addendum) for gear in pair.gears]),
+                ("outer dedendum", "h_fe", [words.mm(gear.dedendum) for gear in pair.gears]),
+                ("bore", "", [words.mm(gear.bore) if gear.bore else "none" for gear in pair.gears]),
+                ("mass", "", [words.quantity(run.constant(f"geometry.{name}_mass"), "kg") for name in GEARS])]
+    of_pair = [("outer transverse module", "m_et", words.mm(pair.module)), ("normal pressure angle", "α_n", _deg(pair.pressure_angle)),
+               ("shaft angle", "Σ", _deg(run.value("geometry.shaft_angle"))), ("face width", "b", words.mm(pair.face_width)),
+               ("outer cone distance", "R_e", words.mm(pair.outer_cone)),
+               ("mean cone distance", "R_m", words.mm(pair.outer_cone - 0.5 * pair.face_width)),
+               ("inner cone distance", "R_i", words.mm(pair.inner_cone)),
+               ("outer transverse backlash", "j_et", words.mm(float(run.value("geometry.backlash")))),
+               ("contact ratio", "ε_α", words.number(run.constant("geometry.contact_ratio"))),
+               ("number of planets", "", str(pair.planets))]
+    rows = [(name, symbol, *values) for name, symbol, values in of_gears]
+    rows += [(name, symbol, value, value) for name, symbol, value in of_pair]
     return Table(("quantity", "symbol", "planet", "side gear"), rows,
                  "The gears, with the symbols of ISO 23509. Addenda by the rule "
                  f"{run.literal('geometry.addendum_system')}.", left=2)

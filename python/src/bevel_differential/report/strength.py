@@ -64,7 +64,7 @@ def section(run: Simulated) -> Section:
         found.say(f"Stresses are not available, as the FMU says: {reason}.")
         return found
     stresses = limits(run)
-    if all(np.max(each.stress) <= 0.0 for each in stresses):
+    if all(np.max(limited.stress) <= 0.0 for limited in stresses):
         found.say("No tooth was loaded at any communication point, so that there is no stress to show.")
     else:
         found.add(Picture("stress", _draw(run, stresses), _caption(run, stresses)))
@@ -74,8 +74,8 @@ def section(run: Simulated) -> Section:
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
                     "of the solver, the picture only the communication points; "
                     "1000 is the most that a safety factor shows.", left=2))
-    if told := advice(run):
-        found.say(told)
+    if text := advice(run):
+        found.say(text)
     return found
 
 
@@ -84,28 +84,28 @@ def _draw(picture, run, stresses: tuple[Limited, ...]):
     upper, lower = picture.subplots(2, 1, sharex=True)
     for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
         top = 0.0
-        for each in rows:
-            label, colour = LABELS[each.output]
-            panel.plot(run.time, each.stress / MPA, color=colour, label=label)
-            top = max(top, float(np.max(each.stress)) / MPA, float(np.max(each.limit)) / MPA)
+        for limited in rows:
+            label, colour = LABELS[limited.output]
+            panel.plot(run.time, limited.stress / MPA, color=colour, label=label)
+            top = max(top, float(np.max(limited.stress)) / MPA, float(np.max(limited.limit)) / MPA)
             # rolling is told of the step that ends at a point
-            panel.step(run.time, each.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(each)}")
+            panel.step(run.time, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
         panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     lower.set_xlabel("time, s")
 
 
-def _limit(each):
-    low, high = float(np.min(each.limit[1:])) / MPA, float(np.max(each.limit[1:])) / MPA
+def _limit(limited):
+    low, high = float(np.min(limited.limit[1:])) / MPA, float(np.max(limited.limit[1:])) / MPA
     return words.quantity(low, "MPa") if low == high else f"{words.number(low)} or {words.quantity(high, 'MPa')}"
 
 
 def _caption(run, stresses):
     parts = []
-    for each in stresses:
-        k = each.worst()
-        parts.append(f"{LABELS[each.output][0]} {words.quantity(each.stress[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
-                     f"{words.percent(each.stress[k] / each.limit[k])} of the limit of {words.quantity(each.limit[k] / MPA, 'MPa')}")
+    for limited in stresses:
+        k = limited.worst()
+        parts.append(f"{LABELS[limited.output][0]} {words.quantity(limited.stress[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
+                     f"{words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
     highest = float(np.max(run.series("stress.contact_max"))) / MPA
     return (f"Stresses of all teeth that are rated, each with its own limit, at the points at which they come nearest to it: "
             f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll are loaded on both flanks and keep "

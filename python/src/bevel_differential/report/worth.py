@@ -164,41 +164,41 @@ def _cell(percent, nothing):
 
 def _caption(tried):
     # a mean tells more than a swing, which is large where hardly anything swings
-    one = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
-              key=lambda one: max(map(abs, one.mean.values())))
-    what, change = max(one.mean.items(), key=lambda pair: abs(pair[1]))
+    strongest = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
+                    key=lambda one: max(map(abs, one.mean.values())))
+    what, change = max(strongest.mean.items(), key=lambda pair: abs(pair[1]))
     return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
             "has in the scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than "
-            f"0.01 %. The largest change by one effect is that of {one.name}: the mean of {what} changes by "
+            f"0.01 %. The largest change by one effect is that of {strongest.name}: the mean of {what} changes by "
             f"{words.signed(100.0 * change)} %.")
 
 
-def _largest(one):
-    changes = [(f"{name} mean", change) for name, change in one.mean.items()]
-    changes += [(f"{name} peak to peak", change) for name, change in one.swing.items()]
+def _largest(trial):
+    changes = [(f"{name} mean", change) for name, change in trial.mean.items()]
+    changes += [(f"{name} peak to peak", change) for name, change in trial.swing.items()]
     return sorted(changes, key=lambda pair: -abs(pair[1]))
 
 
 def _table(run, tried):
     rows = []
-    for one in tried:
-        if one.refused:
-            rows.append((one.name, f"refused by the FMU: {one.refused}", "", ""))
-        elif not one.changes:
-            rows.append((one.name, _nothing(run, one), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
+    for trial in tried:
+        if trial.refused:
+            rows.append((trial.name, f"refused by the FMU: {trial.refused}", "", ""))
+        elif not trial.changes:
+            rows.append((trial.name, _nothing(run, trial), f"{words.number(trial.calls, 2)} ×", f"{words.number(trial.seconds, 2)} ×"))
         else:
-            changes = [(name, change) for name, change in _largest(one)[:NAMED] if abs(change) > one.nothing]
+            changes = [(name, change) for name, change in _largest(trial)[:NAMED] if abs(change) > trial.nothing]
             largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in changes]
-            rows.append((one.name, "; ".join(largest), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
+            rows.append((trial.name, "; ".join(largest), f"{words.number(trial.calls, 2)} ×", f"{words.number(trial.seconds, 2)} ×"))
     return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
                  "Evaluations of the tooth forces and time, times those of the scene. Times of short runs hold the start of the "
                  "simulation, in which the tables of new gears are made.", left=2)
 
 
-def _nothing(run, one):
+def _nothing(run, trial):
     # its own parameters, and those of others that say that they belong to it
     own = [variable for variable in run.scene.fmu.variables.values()
-           if variable.name.startswith(f"{one.name}.") or f"{PREFIX}{one.name}" in (variable.description or "")]
+           if variable.name.startswith(f"{trial.name}.") or f"{PREFIX}{trial.name}" in (variable.description or "")]
     zero = [variable.name for variable in own
             if variable.causality in ("parameter", "input") and variable.kind in ("Real", "Integer") and run.value(variable.name) == 0.0]
     why = f", as {words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0" if zero else ""

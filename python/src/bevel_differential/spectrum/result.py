@@ -106,9 +106,9 @@ class SpectrumResult:
     def warnings(self) -> list[str]:
         """What the FMU warned of, each once with the events that it is about."""
         events: dict[str, list[str]] = {}
-        for one in self.events:
-            for warning in one.warnings:
-                events.setdefault(warning, []).append(one.event.name)
+        for event_damage in self.events:
+            for warning in event_damage.warnings:
+                events.setdefault(warning, []).append(event_damage.event.name)
         return [f"{names[0] if len(names) == 1 else f'{len(names)} events'}: {warning}" for warning, names in events.items()]
 
     def table(self) -> np.ndarray:
@@ -119,14 +119,15 @@ class SpectrumResult:
         safety.flank_min of the event."""
         damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
         rows = []
-        for one, damage, slow in zip(self.events, damages, self.slow_damage):
+        for event_damage, damage, slow in zip(self.events, damages, self.slow_damage):
             mode = NAMES[int(np.argmax(damage))] if damage.max() > 0.0 else ""
-            event = one.event
+            event = event_damage.event
             rows.append((event.name, event.count, event.count * event.duration / HOUR, event.count * event.distance / KM, *damage,
-                         *slow, damage[self.critical] / total, mode, one.root_stress, one.safety_root, one.safety_flank))
+                         *slow, damage[self.critical] / total, mode, event_damage.root_stress, event_damage.safety_root,
+                         event_damage.safety_flank))
         fields = ["event", "count", "hours", "km", *MODES, "slow.planet", "slow.side", "share", "worst_mode", "root_stress",
                   "safety.root_min", "safety.flank_min"]
-        width = max(len(one.event.name) for one in self.events)
+        width = max(len(event_damage.event.name) for event_damage in self.events)
         texts = {"event": f"U{width}", "worst_mode": f"U{max(map(len, NAMES))}"}
         found = np.array(rows, [(name, texts.get(name, float)) for name in fields])
         return found[np.argsort(-found["share"], kind="stable")]

@@ -26,7 +26,7 @@ UNITS = {"motor.torque": "N.m", "motor.speed": "rad/s", "left_tyre.force": "N", 
          "right_tyre.slip": "", "body.speed": "m/s", "body.lateral_speed": "m/s", "body.yaw_rate": "rad/s",
          "body.lateral_acceleration": "m/s2", "body.steer": "rad"}
 # what `run` records if nothing is said
-USUAL = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "left.wheel_speed", "right.wheel_speed", "body.speed")
+DEFAULT_OUTPUTS = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "left.wheel_speed", "right.wheel_speed", "body.speed")
 # what a controller sets beside inputs of the differential
 REQUESTS = ("motor.request", "body.steer")
 
@@ -54,7 +54,7 @@ class Car:
         self.tyres = (left or Tyre(), right or Tyre())
         self._given = self._checked(differential or {})
 
-    def run(self, outputs: Sequence[str] = USUAL, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
+    def run(self, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
             steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
         """Simulates from 0 to `stop` in communication steps of `step` (s, or text such as "1 ms"). Records `outputs` of the
         differential and of the parts (`UNITS`) at each, SI.

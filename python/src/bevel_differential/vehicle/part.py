@@ -17,9 +17,9 @@ class Part:
     """A part with parameters, SI units. `described` lists them."""
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            name, value = f"{type(self).__name__}.{each.name}", getattr(self, each.name)
-            unit, least = each.metadata["unit"], each.metadata["least"]
+        for parameter in fields(self):
+            name, value = f"{type(self).__name__}.{parameter.name}", getattr(self, parameter.name)
+            unit, least = parameter.metadata["unit"], parameter.metadata["least"]
             try:
                 number = float(value)
             except (TypeError, ValueError):
@@ -27,9 +27,9 @@ class Part:
             if not math.isfinite(number) or (least is not None and not number > least):
                 allowed = "a finite number" if least is None else f"a finite number above {least:g}"
                 raise DifferentialError(f"{name} = {value!r}: it is {allowed}, {unit}")
-            setattr(self, each.name, number)
+            setattr(self, parameter.name, number)
 
     @classmethod
     def described(cls) -> dict[str, tuple[float, str, str]]:
         """Its parameters by name: (start value, unit, what it is)."""
-        return {each.name: (each.default, each.metadata["unit"], each.metadata["text"]) for each in fields(cls)}
+        return {parameter.name: (parameter.default, parameter.metadata["unit"], parameter.metadata["text"]) for parameter in fields(cls)}

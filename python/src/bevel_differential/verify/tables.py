@@ -46,14 +46,14 @@ def table(name: str, file: Path, variables: Mapping[str, Any], faults: list[str]
 
 def _is_kept(place, of, variables, faults, left_out):
     if of not in variables:
-        reason, told = UNKNOWN, f"{place}: {of}: there is no such variable{suggestion(of, variables)}"
+        reason, fault = UNKNOWN, f"{place}: {of}: there is no such variable{suggestion(of, variables)}"
     elif variables[of].type in _TEXTS:
-        reason, told = TEXT, f"{place}: {of}: values of the type {variables[of].type} are not read"
+        reason, fault = TEXT, f"{place}: {of}: values of the type {variables[of].type} are not read"
     else:
         return True
     if reason not in left_out:
-        raise Broken(told)
-    faults.append(f"{told}; the column is left out")
+        raise Broken(fault)
+    faults.append(f"{fault}; the column is left out")
     return False
 
 

@@ -9,7 +9,7 @@ const STIFFNESS: f64 = 1e3;
 /// A clutch with a limit torque equal to its load.
 fn clutch() -> DryFriction {
     let mut clutch = DryFriction::new(DAMPING_TIME, 0);
-    clutch.push(FrictionPart { per_load: 1.0, static_ratio: 1.0, ..FrictionPart::NONE }, STIFFNESS);
+    clutch.push(&[FrictionPart { per_load: 1.0, static_ratio: 1.0, ..FrictionPart::NONE }], STIFFNESS);
     clutch
 }
 
@@ -48,7 +48,7 @@ fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
 #[test]
 fn a_held_body_slides_where_its_command_falls_below_its_torque() {
     let mut brake = DryFriction::commanded(DAMPING_TIME, 0);
-    brake.push(FrictionPart { per_load: 1.0, ..FrictionPart::NONE }, STIFFNESS);
+    brake.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], STIFFNESS);
     // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached at six tenths of the way
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
     for speed in [0.0, 1e-12, -1e-12] {

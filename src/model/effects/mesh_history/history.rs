@@ -91,7 +91,7 @@ mod tests {
 
     /// A straight line.
     fn line(start: f64, end: f64) -> Curve {
-        Curve { start, end, bends: [0.0; 3] }
+        Curve { start, end, coefficients: [0.0; 3] }
     }
 
     /// Peak-to-peak values of a quantity that is the place itself, rolling from place to place in cycles.
@@ -152,8 +152,8 @@ mod tests {
 
     #[test]
     fn a_step_in_parts_is_the_step() {
-        let rolling = Curve { start: 0.3, end: 1.6, bends: [0.02, -0.05, 0.01] };
-        let quantity = Curve { start: 1.0, end: 0.5, bends: [4.0, -9.0, 3.0] };
+        let rolling = Curve { start: 0.3, end: 1.6, coefficients: [0.02, -0.05, 0.01] };
+        let quantity = Curve { start: 1.0, end: 0.5, coefficients: [4.0, -9.0, 3.0] };
         let mut whole = MeshHistory::default();
         whole.add(&rolling, &[quantity], 1.0);
         for part in [0.2, 0.5, 0.9] {

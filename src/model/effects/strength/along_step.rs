@@ -4,7 +4,7 @@
 //! both ends and in the middle of a step. The step is halved while Simpson's rule differs from the trapezoidal rule by more than
 //! [`ROUGH`] of the damage; the error of Simpson's rule is then some 1e-5. Peaks are those of the parabolas through these loads.
 
-use super::interval::{Three, bend, crest, mean, turn};
+use super::interval::{Three, crest, extremum, mean, second_difference};
 use super::overload::{Overload, Stressed};
 use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
 use crate::model::scene::MAX_GROUPS;
@@ -159,7 +159,7 @@ impl GearStrength {
         let mut smooth = true;
         for_each_flank(groups, |g, s, flank| {
             let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
-            smooth &= turn(bending).is_none() || bend(bending).abs() <= BLUNT * scale.bending;
+            smooth &= extremum(bending).is_none() || second_difference(bending).abs() <= BLUNT * scale.bending;
             for (kind, (counting, rates)) in [(PLANET_ROOT, planet(g)), (PITTING, planet(g)), (SIDE_ROOT, side(s))] {
                 let damage = parts.map(|at| at.damage[g][s][flank][kind]);
                 smooth &= counting == 0.0 || is_smooth(damage, rates, counting, ROUGH * scale.damage[kind]);
@@ -198,16 +198,16 @@ impl GearStrength {
             });
             let teeth = &mut fatigue.standing[s];
             if rolled {
-                teeth.change(rating);
+                teeth.next_teeth(rating);
             } else {
                 if teeth.are_new() {
-                    teeth.bend(rating, forces[0]);
+                    teeth.add_force(rating, forces[0]);
                 }
-                if let Some((force, _)) = turn(forces) {
-                    teeth.bend(rating, force);
+                if let Some((force, _)) = extremum(forces) {
+                    teeth.add_force(rating, force);
                 }
             }
-            teeth.bend(rating, forces[2]);
+            teeth.add_force(rating, forces[2]);
         }
     }
 
@@ -257,7 +257,7 @@ fn is_smooth(damage: Three, rates: Three, counting: f64, least: f64) -> bool {
     let done = [0, 1, 2].map(|k| damage[k] * rates[k]);
     // where a part of the interval counts, the load in that part is unknown: the damage must hardly change
     let spread = damage.into_iter().fold(0.0, f64::max) - damage.into_iter().fold(f64::INFINITY, f64::min);
-    bend(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
+    second_difference(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
 }
 
 /// Visits all flanks: group, side, and 0 for drive or 1 for coast.

@@ -48,7 +48,7 @@ impl Fatigue {
     /// Damage sums: roots of the worst planet and side gear, then their flanks.
     pub fn sums(&self, rating: &Rating) -> [f64; 4] {
         let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
-        let [left, right] = self.standing.map(|teeth| teeth.worst(rating));
+        let [left, right] = self.standing.map(|teeth| teeth.worst_sums(rating));
         [
             worst(&self.planets, ToothDamage::worst_root) + left[0].max(right[0]),
             worst(&self.sides, ToothDamage::worst_root) + left[1].max(right[1]),

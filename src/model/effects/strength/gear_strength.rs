@@ -1,14 +1,23 @@
 //! Rating constants of the gears, and the readings of stress, damage and safety factors.
 
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
+use crate::contact::detailed::SliceLoad;
 use crate::contact::pair_load::PairLoad;
+use crate::contact::tooth_friction::Sliding;
 use crate::model::effect_kinds::Setting;
+use crate::model::thermal::{GEARS, NODES, OIL};
 use crate::problem::Problem;
 use crate::strength::Rating;
 use crate::strength::face_load::root_factor;
+use crate::strength::flash::Flash;
 
 /// Number of readings of damage; the readings of safety follow them.
 const DAMAGES: usize = 4;
+
+/// Number of readings of stress; those of temperature follow them.
+const STRESSES: usize = 5;
+/// Largest safety factor that is told.
+const MOST_SAFETY: f64 = 1000.0;
 
 /// Rating constants of planet and side gear.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +26,8 @@ pub struct GearStrength {
     /// Application factor K_A: rated load over simulated load.
     application: f64,
     mean_cone: f64,
+    flash: Flash,
+    scuffing: f64,
 }
 
 impl GearStrength {
@@ -32,7 +43,9 @@ impl GearStrength {
                 spec.tool_radius
             ));
         };
-        Ok(Self { rating, application: spec.application_factor, mean_cone: setting.pair.mean_cone })
+        let flash = Flash { modulus: rating.contact.modulus, coefficient: spec.thermal_contact_coefficient };
+        let (application, mean_cone) = (spec.application_factor, setting.pair.mean_cone);
+        Ok(Self { rating, application, mean_cone, flash, scuffing: spec.scuffing_temperature })
     }
 
     /// Adds the load of a pair to that of its mesh.
@@ -68,6 +81,24 @@ impl GearStrength {
                 *reading = reading.max(stress);
             }
         }
+    }
+
+    /// Raises `flash` to the flash temperature of a slice [K]; beyond the path's ends the radii there count, as for pressure.
+    pub fn add_flash(&self, flash: &mut f64, slice: &SliceLoad) {
+        let radius = self.rating.contact.relative_radius(slice.s);
+        if let (Some(sliding), Some(radius)) = (slice.sliding.filter(|_| slice.normal > 0.0), radius) {
+            let sliding = Sliding { radius: radius * slice.cone, ..sliding };
+            *flash = flash.max(self.flash.temperature(&sliding, slice.friction / slice.normal));
+        }
+    }
+
+    /// Sets the readings of temperature and of the safety against scuffing by the largest `flash` temperature, with oil and
+    /// gears at `temperatures` [K].
+    pub fn read_flash(&self, flash: f64, temperatures: &[f64; NODES], readings: &mut [f64]) {
+        let (contact, oil) = (temperatures[GEARS] + flash, temperatures[OIL]);
+        let safety = (self.scuffing - oil) / (contact - oil);
+        let is_warmer = contact > oil && safety < MOST_SAFETY;
+        readings[STRESSES..].copy_from_slice(&[flash, contact, if is_warmer { safety } else { MOST_SAFETY }]);
     }
 
     /// Sets the readings of damage and of the safety factors.

@@ -4,21 +4,22 @@
 pub type Three = [f64; 3];
 
 /// By how much the value in the middle is off the straight line, twice.
-pub fn bend([begin, middle, end]: Three) -> f64 {
+pub fn second_difference([begin, middle, end]: Three) -> f64 {
     begin - 2.0 * middle + end
 }
 
 /// Where the parabola turns within the interval: its value there, and the part of the interval before.
-pub fn turn(values: Three) -> Option<(f64, f64)> {
+pub fn extremum(values: Three) -> Option<(f64, f64)> {
     let [begin, middle, end] = values;
-    let (bend, lean) = (bend(values), end - begin);
-    (lean.abs() < 2.0 * bend.abs()).then(|| (middle - lean * lean / (8.0 * bend), 0.5 - lean / (4.0 * bend)))
+    let (difference, lean) = (second_difference(values), end - begin);
+    (lean.abs() < 2.0 * difference.abs())
+        .then(|| (middle - lean * lean / (8.0 * difference), 0.5 - lean / (4.0 * difference)))
 }
 
 /// The largest value of the parabola, and the part of the interval before.
 pub fn crest(values: Three) -> (f64, f64) {
     let ends = if values[0] > values[2] { (values[0], 0.0) } else { (values[2], 1.0) };
-    match turn(values) {
+    match extremum(values) {
         Some(top) if top.0 > ends.0 => top,
         _ => ends,
     }
@@ -44,14 +45,14 @@ mod tests {
     fn turns_of_a_parabola_are_found_and_those_outside_are_none() {
         for sign in [1.0, -1.0] {
             for place in [0.01, 0.3, 0.5, 0.9] {
-                let (value, at) = turn(of(|t| sign * (2.0 - 3.0 * (t - place) * (t - place)))).unwrap();
+                let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - place) * (t - place)))).unwrap();
                 assert!((value - sign * 2.0).abs() < 1e-14 && (at - place).abs() < 1e-14, "{value} {at}");
             }
             for place in [-0.01, 1.01, 7.0] {
-                assert_eq!(turn(of(|t| sign * (t - place) * (t - place))), None);
+                assert_eq!(extremum(of(|t| sign * (t - place) * (t - place))), None);
             }
         }
-        assert_eq!((turn([4.0; 3]), turn([1.0, 2.0, 3.0])), (None, None));
+        assert_eq!((extremum([4.0; 3]), extremum([1.0, 2.0, 3.0])), (None, None));
         assert_eq!(crest(of(|t| (t - 0.3) * (t - 0.3))), (0.7 * 0.7, 1.0));
         assert!((crest(of(|t| 1.0 - (t - 0.3) * (t - 0.3))).0 - 1.0).abs() < 1e-15);
     }

@@ -1,6 +1,6 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use crate::declaration::units::{self, MPA};
+use crate::declaration::units::{self, DEG_C, DisplayUnit, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
@@ -27,6 +27,10 @@ spec! {
         pub contact_cycles: f64 = 5e7,
         /// Life factor of pitting at 10⁵ cycles Z_NT.
         pub contact_life_factor: f64 = 1.6,
+        /// Thermal contact coefficient B_M of the flanks [W·√s/(m²·K)].
+        pub thermal_contact_coefficient: f64 = 13_800.0,
+        /// Contact temperature at which flanks scuff in the oil [K].
+        pub scuffing_temperature: f64 = 673.15,
         /// Time after the start of the run from which safety and damage count [s].
         pub rate_from: f64 = 0.0,
     }
@@ -44,7 +48,7 @@ impl StrengthSpec {
 }
 
 impl Declare for StrengthSpec {
-    const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, and Miner damage";
+    const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, Miner damage, and flash temperature";
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
         why: "it follows from the forces of the meshes",
@@ -63,6 +67,24 @@ impl Declare for StrengthSpec {
             "Largest contact pressure by which flanks are rated, for safety.flank_min and damage: one pair \
              carries the mesh at the worse inner point of single contact, under the load factor of its face",
         ),
+        temperature(
+            "temperature.flash",
+            None,
+            "Largest flash temperature of the flanks (Blok) with effects.tooth_friction; else 0",
+        ),
+        temperature(
+            "temperature.contact",
+            Some(DEG_C),
+            "Largest contact temperature of the flanks: temperature.gears and the flash temperature",
+        ),
+        Reading {
+            name: "safety.scuffing",
+            unit: units::ONE,
+            display: None,
+            changes: Changes::Always,
+            description: "Safety factor S_B against scuffing at this instant: strength.scuffing_temperature less \
+                          temperature.oil over temperature.contact less temperature.oil; 1000 at most",
+        },
         damage("damage.planet", "Miner sum of the roots of the worst planet"),
         damage("damage.side", "Miner sum of the roots of the worse side gear"),
         damage("damage.planet_flank", "Miner sum of pitting of the worst planet"),
@@ -119,6 +141,15 @@ impl Declare for StrengthSpec {
                 "Application factor: load on the teeth over the simulated one, for what the scene does not contain",
             )
             .real(units::ONE, (0.1, 10.0), |p| &mut p.application_factor),
+            row("strength.thermal_contact_coefficient", "Thermal contact coefficient of the flanks (steel)")
+                .when("effects.tooth_friction = true")
+                .real(units::EFFUSIVITY, (100.0, 1e5), |p| &mut p.thermal_contact_coefficient),
+            row(
+                "strength.scuffing_temperature",
+                "Contact temperature at which flanks scuff, by a test of the oil (FZG; ISO/TS 10300-20)",
+            )
+            .when("effects.tooth_friction = true")
+            .real((units::KELVIN, DEG_C), (300.0, 2000.0), |p| &mut p.scuffing_temperature),
             row(
                 "strength.rate_from",
                 "Time after the start of the run from which safety and damage count: what a start that is not in \
@@ -130,6 +161,10 @@ impl Declare for StrengthSpec {
 }
 
 impl Effect for StrengthSpec {}
+
+const fn temperature(name: &'static str, display: Option<DisplayUnit>, description: &'static str) -> Reading {
+    Reading { name, unit: units::KELVIN, display, changes: Changes::Always, description }
+}
 
 const fn stress(name: &'static str, description: &'static str) -> Reading {
     Reading { name, unit: units::PASCAL, display: Some(MPA), changes: Changes::Always, description }

@@ -86,12 +86,12 @@ pub fn references(r: &mut Random, wanted: VariableKind) -> Vec<u32> {
         return fitting;
     }
     let wild = r.chance(12);
-    let one = |r: &mut Random| match r.below(4) {
+    let reference = |r: &mut Random| match r.below(4) {
         0 if wild => r.bits() as u32,
         1 if wild => r.below(rows.len()) as u32,
         _ => r.pick(&fitting),
     };
-    (0..r.below(5)).map(|_| one(r)).collect()
+    (0..r.below(5)).map(|_| reference(r)).collect()
 }
 
 /// The row of a value reference.

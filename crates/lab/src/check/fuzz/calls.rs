@@ -9,9 +9,9 @@ use bevel_differential::variables::guid;
 
 use super::arguments::{CallResult, Flaws, VariableKind, references, row};
 use super::functions::Function;
+use super::instance::FuzzedInstance;
 use super::random::Random;
 use super::states::{HELD, HeldStates, a_state, deserialize, get_state};
-use super::unit::Unit;
 
 /// Room for arrays of states and event indicators, and the largest count announced for it.
 const ROOM: usize = 64;
@@ -19,13 +19,13 @@ const ROOM: usize = 64;
 /// Sizes of communication steps that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 
-/// Calls `function` on `unit` through `c`, which is its component or a pointer that must be refused.
+/// Calls `function` on `instance` through `c`, which is its component or a pointer that must be refused.
 #[allow(clippy::too_many_lines)] // one arm per function
 pub fn call(
     function: Function,
     c: ComponentPointer,
     r: &mut Random,
-    unit: &mut Unit,
+    instance: &mut FuzzedInstance,
     held: &mut HeldStates,
 ) -> CallResult {
     use Function as F;
@@ -72,7 +72,7 @@ pub fn call(
         // the round frees and makes instances; here only what must do nothing
         F::fmi2FreeInstance => {
             run!(fmi2FreeInstance(ptr::null_mut()));
-            run!(fmi2FreeInstance(unit.c.wrapping_byte_add(1)));
+            run!(fmi2FreeInstance(instance.component.wrapping_byte_add(1)));
             CallResult::of(Status::Ok, f)
         }
         F::fmi2SetDebugLogging => {
@@ -80,7 +80,7 @@ pub fn call(
             let count = if r.chance(3) { 0 } else { r.below(names.len() + 1) };
             let pointer = f.pointer(r, names.as_ptr(), count > 0);
             let status = run!(fmi2SetDebugLogging(c, r.below(2) as i32, count, pointer));
-            unit.is_filtered |= c == unit.c && status != Status::Error;
+            instance.is_filtered |= c == instance.component && status != Status::Error;
             CallResult::of(status, f)
         }
         F::fmi2SetupExperiment => {
@@ -186,7 +186,7 @@ pub fn call(
             CallResult::of(run!(fmi2CompletedIntegratorStep(c, r.below(2) as i32, event, end)), f)
         }
         F::fmi2SetTime => {
-            let now = time_of(unit);
+            let now = time_of(instance);
             let time = if r.chance(12) { r.real() } else { now + r.pick(&[0.0, 1e-6, 1e-5, 1e-4]) };
             CallResult::of(run!(fmi2SetTime(c, time)), f)
         }
@@ -194,9 +194,9 @@ pub fn call(
             let mut x = [0.0; ROOM];
             // a step of Euler's from where the instance is, now and then with something wild in it
             let mut rates = [0.0; STATES];
-            run!(fmi2GetContinuousStates(unit.c, x.as_mut_ptr(), STATES));
-            run!(fmi2GetDerivatives(unit.c, rates.as_mut_ptr(), STATES));
-            unit.said();
+            run!(fmi2GetContinuousStates(instance.component, x.as_mut_ptr(), STATES));
+            run!(fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), STATES));
+            instance.take_log();
             let h = r.pick(&[0.0, 1e-7, 1e-6]);
             x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
             if r.chance(8) {
@@ -220,7 +220,7 @@ pub fn call(
             CallResult::of(run!(fmi2GetRealOutputDerivatives(c, vr, count, orders, place)), f).with(&numbers[..n])
         }
         F::fmi2DoStep => {
-            let now = time_of(unit);
+            let now = time_of(instance);
             let point = if r.chance(20) { r.real() } else { now };
             // no step that is meant to take hours: the host gets what it asks for
             let h = if r.chance(8) { r.pick(&NO_STEPS) } else { r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
@@ -257,11 +257,11 @@ fn a_kind(r: &mut Random) -> i32 {
 }
 
 /// Time of the instance [s]; 0 where it does not report it.
-fn time_of(unit: &Unit) -> f64 {
+fn time_of(instance: &FuzzedInstance) -> f64 {
     let mut now = 0.0;
     // SAFETY: a live component and a place
-    unsafe { fmi2GetRealStatus(unit.c, LAST_SUCCESSFUL_TIME, &mut now) };
-    unit.said();
+    unsafe { fmi2GetRealStatus(instance.component, LAST_SUCCESSFUL_TIME, &mut now) };
+    instance.take_log();
     now
 }
 
@@ -285,7 +285,7 @@ fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, functi
 
 /// fmi2Instantiate with anything; what is made is freed.
 fn instantiate(r: &mut Random) -> CallResult {
-    let recorder = super::unit::Recorder::default();
+    let recorder = super::instance::Recorder::default();
     let callbacks = recorder.callbacks();
     let right = CString::new(guid()).unwrap_or_default();
     let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));

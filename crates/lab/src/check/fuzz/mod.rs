@@ -7,12 +7,12 @@
 mod arguments;
 mod calls;
 mod functions;
+mod instance;
 mod random;
 mod round;
 mod scenes;
 mod states;
 mod tally;
-mod unit;
 
 pub use functions::Function;
 pub use round::{BrokenPromise, CALLS, run};

@@ -8,16 +8,16 @@ use cpu_time::ThreadTime;
 use super::arguments::CallResult;
 use super::calls::call;
 use super::functions::Function;
+use super::instance::FuzzedInstance;
 use super::random::Random;
 use super::scenes;
 use super::states::HeldStates;
 use super::tally::Tally;
-use super::unit::Unit;
 
 /// Calls of a round.
 pub const CALLS: usize = 500;
 /// Instances of a round.
-const UNITS: usize = 4;
+const INSTANCES: usize = 4;
 /// For one call in this many the states before and after it are compared.
 const COMPARED: usize = 6;
 /// Refusals in a row after which an instance is started again.
@@ -40,31 +40,31 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
     let outside = |what: &str| BrokenPromise { at: 0, function: "start of the round", what: what.to_owned() };
     let mut expected = Vec::new();
     for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
-        let plain = Unit::new(kind).ok_or_else(|| outside("no instance was made"))?;
+        let plain = FuzzedInstance::new(kind).ok_or_else(|| outside("no instance was made"))?;
         expected.push(scenes::study(&plain).ok_or_else(|| outside("the study's scene does not run"))?);
     }
-    let mut units = Vec::new();
-    for i in 0..UNITS {
-        let unit = Unit::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
+    let mut instances = Vec::new();
+    for i in 0..INSTANCES {
+        let instance = FuzzedInstance::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
         if i > 0 {
-            tally.scenes += u64::from(scenes::start(&unit, &mut r));
+            tally.started_instances += u64::from(scenes::start(&instance, &mut r));
         }
-        unit.said();
-        units.push(unit);
+        instance.take_log();
+        instances.push(instance);
     }
     let mut held = HeldStates::default();
     let outcome = (0..calls).try_for_each(|at| {
-        let unit = r.below(UNITS);
-        one((seed, at), &mut r, &mut units[unit], &mut held, tally)
+        let chosen = r.below(INSTANCES);
+        make_call((seed, at), &mut r, &mut instances[chosen], &mut held, tally)
     });
     for (mut state, _) in held.states.drain(..) {
         // SAFETY: a live component and a live state
-        unsafe { fmi2FreeFMUstate(units[0].c, &mut state) };
+        unsafe { fmi2FreeFMUstate(instances[0].component, &mut state) };
     }
     outcome?;
     // after a reset every instance behaves as new, whatever was called before
-    for unit in &units {
-        if scenes::study(unit).as_ref() != Some(&expected[unit.kind as usize]) {
+    for instance in &instances {
+        if scenes::study(instance).as_ref() != Some(&expected[instance.kind as usize]) {
             return Err(BrokenPromise {
                 at: calls,
                 function: "fmi2Reset",
@@ -76,54 +76,54 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
 }
 
 /// Makes one call and checks all that is promised about it.
-fn one(
+fn make_call(
     (seed, at): (u64, usize),
     r: &mut Random,
-    unit: &mut Unit,
+    instance: &mut FuzzedInstance,
     held: &mut HeldStates,
     tally: &mut Tally,
 ) -> Result<(), BrokenPromise> {
-    if unit.refused > PATIENCE {
-        unit.refused = 0;
-        tally.scenes += u64::from(scenes::start(unit, r));
-        unit.said();
+    if instance.refused > PATIENCE {
+        instance.refused = 0;
+        tally.started_instances += u64::from(scenes::start(instance, r));
+        instance.take_log();
     }
-    let function = draw(r, unit.kind);
+    let function = draw(r, instance.kind);
     let component = match r.below(150) {
         0 => ptr::null_mut(),
-        1 => unit.c.wrapping_byte_add(1),
-        _ => unit.c,
+        1 => instance.component.wrapping_byte_add(1),
+        _ => instance.component,
     };
-    let before = if r.chance(COMPARED) { unit.bytes() } else { None };
+    let before = if r.chance(COMPARED) { instance.bytes() } else { None };
     // processor time, so that other load of the machine does not count
     let start = ThreadTime::now();
-    let outcome = call(function, component, r, unit, held);
+    let outcome = call(function, component, r, instance, held);
     tally.count(function, outcome.status, start.elapsed(), (seed, at));
     let refused = !matches!(outcome.status, Status::Ok | Status::Warning);
-    unit.refused = if refused { unit.refused + 1 } else { 0 };
+    instance.refused = if refused { instance.refused + 1 } else { 0 };
     let broken = |what: String| BrokenPromise { at, function: function.name(), what };
-    let lines = unit.said();
+    let lines = instance.take_log();
     if let Some(line) = lines.iter().find(|line| line.message.contains("internal error")) {
         return Err(broken(line.message.clone()));
     }
-    check(function, component != unit.c, unit.is_filtered, &outcome, &lines).map_err(broken)?;
+    check(function, component != instance.component, instance.is_filtered, &outcome, &lines).map_err(broken)?;
     if let Some(before) = before {
         tally.compared += 1;
-        compare(function, refused, &before, unit).map_err(|what| BrokenPromise {
+        compare(function, refused, &before, instance).map_err(|what| BrokenPromise {
             at,
             function: function.name(),
             what: format!("{what}; it said: {lines:?}"),
         })?;
     }
     if let Some(restored) = outcome.restored
-        && unit.bytes().is_some_and(|bytes| bytes != restored)
+        && instance.bytes().is_some_and(|bytes| bytes != restored)
     {
         return Err(broken("the instance is not in the state that was set".into()));
     }
-    if unit.is_filtered && r.chance(10) {
+    if instance.is_filtered && r.chance(10) {
         // SAFETY: a live component; no categories means all
-        unsafe { fmi2SetDebugLogging(unit.c, 0, 0, ptr::null()) };
-        unit.is_filtered = false;
+        unsafe { fmi2SetDebugLogging(instance.component, 0, 0, ptr::null()) };
+        instance.is_filtered = false;
     }
     Ok(())
 }
@@ -134,7 +134,7 @@ fn check(
     is_foreign: bool,
     is_filtered: bool,
     outcome: &CallResult,
-    lines: &[super::unit::Line],
+    lines: &[super::instance::Line],
 ) -> Result<(), String> {
     let status = outcome.status;
     if let Some(what) = &outcome.broken {
@@ -165,7 +165,7 @@ fn check(
 }
 
 /// Calls that may change the instance although they fail: a start or a step may fail halfway.
-fn may_leave_a_mark(function: Function) -> bool {
+fn may_change_on_failure(function: Function) -> bool {
     use Function as F;
     matches!(
         function,
@@ -174,19 +174,19 @@ fn may_leave_a_mark(function: Function) -> bool {
 }
 
 /// Calls that only read.
-fn looks(function: Function) -> bool {
+fn only_reads(function: Function) -> bool {
     let name = function.name();
     name.starts_with("fmi2Get") || name.contains("erialize") || name == "fmi2FreeFMUstate"
 }
 
-fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) -> Result<(), String> {
-    let holds_still = looks(function) || refused && !may_leave_a_mark(function);
-    if !holds_still {
+fn compare(function: Function, refused: bool, before: &[u8], instance: &mut FuzzedInstance) -> Result<(), String> {
+    let must_not_change = only_reads(function) || refused && !may_change_on_failure(function);
+    if !must_not_change {
         return Ok(());
     }
     // in initialisation mode the first read builds the simulation
     let starts = before.get(PHASE) == Some(&(Phase::Initialization as u8));
-    match unit.bytes() {
+    match instance.bytes() {
         None => Err("the instance failed".into()),
         Some(after) if after != before && !starts => {
             Err("the call was refused or only reads, but changed the state".into())

@@ -3,8 +3,8 @@
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::{Access, table};
 
+use super::instance::FuzzedInstance;
 use super::random::Random;
-use super::unit::Unit;
 
 /// Scenes that are tried before the study's own is taken.
 const TRIES: usize = 4;
@@ -26,19 +26,19 @@ const SOLID: i32 = 4;
 const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
 
 /// Brings a fresh or reset instance to a running simulation; whether that succeeded.
-pub fn start(unit: &Unit, r: &mut Random) -> bool {
+pub fn start(instance: &FuzzedInstance, r: &mut Random) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
-        unsafe { fmi2Reset(unit.c) };
+        unsafe { fmi2Reset(instance.component) };
         if attempt < TRIES {
-            draw(unit, r);
+            draw(instance, r);
         }
-        if initialised(unit) {
-            if unit.kind == MODEL_EXCHANGE {
+        if initialised(instance) {
+            if instance.kind == MODEL_EXCHANGE {
                 // SAFETY: a live component and a place for the answer
                 unsafe {
-                    fmi2NewDiscreteStates(unit.c, &mut EventInfo::default());
-                    fmi2EnterContinuousTimeMode(unit.c);
+                    fmi2NewDiscreteStates(instance.component, &mut EventInfo::default());
+                    fmi2EnterContinuousTimeMode(instance.component);
                 }
             }
             return true;
@@ -48,19 +48,19 @@ pub fn start(unit: &Unit, r: &mut Random) -> bool {
 }
 
 /// Sets an instance up and initialises it; whether all calls succeed.
-fn initialised(unit: &Unit) -> bool {
+fn initialised(instance: &FuzzedInstance) -> bool {
     // SAFETY: a live component
     let statuses = unsafe {
         [
-            fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
-            fmi2EnterInitializationMode(unit.c),
-            fmi2ExitInitializationMode(unit.c),
+            fmi2SetupExperiment(instance.component, 0, 0.0, 0.0, 0, 0.0),
+            fmi2EnterInitializationMode(instance.component),
+            fmi2ExitInitializationMode(instance.component),
         ]
     };
     statuses == [Status::Ok; 3]
 }
 
-fn draw(unit: &Unit, r: &mut Random) {
+fn draw(instance: &FuzzedInstance, r: &mut Random) {
     let mut integers: Vec<(&str, i32)> = vec![("geometry.planet_count", 2 + r.below(3) as i32), ("solid.facets", 4)];
     for name in CHOICES {
         let Some(Access::Enumeration(kind, ..)) = find(name).map(|i| table().rows[i].access) else { continue };
@@ -78,13 +78,13 @@ fn draw(unit: &Unit, r: &mut Random) {
     for (name, value) in integers {
         if let Some(i) = find(name) {
             // SAFETY: a live component and one value
-            unsafe { fmi2SetInteger(unit.c, &(i as u32), 1, &value) };
+            unsafe { fmi2SetInteger(instance.component, &(i as u32), 1, &value) };
         }
     }
     for (i, row) in table().rows.iter().enumerate().filter(|(_, row)| row.name.starts_with("effects.")) {
         if matches!(row.access, Access::Boolean(_)) && r.chance(4) {
             // SAFETY: a live component and one value
-            unsafe { fmi2SetBoolean(unit.c, &(i as u32), 1, &(r.below(2) as i32)) };
+            unsafe { fmi2SetBoolean(instance.component, &(i as u32), 1, &(r.below(2) as i32)) };
         }
     }
     let values =
@@ -92,7 +92,7 @@ fn draw(unit: &Unit, r: &mut Random) {
     for (name, value) in values {
         if let (true, Some(i)) = (r.chance(2), find(name)) {
             // SAFETY: a live component and one value
-            unsafe { fmi2SetReal(unit.c, &(i as u32), 1, &value) };
+            unsafe { fmi2SetReal(instance.component, &(i as u32), 1, &value) };
         }
     }
 }
@@ -102,23 +102,23 @@ fn find(name: &str) -> Option<usize> {
 }
 
 /// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
-pub fn study(unit: &Unit) -> Option<Vec<u64>> {
+pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
     // SAFETY, for all: a live component and room for the counts passed
     unsafe {
-        let mut statuses = vec![fmi2Reset(unit.c)];
-        let fine = initialised(unit);
+        let mut statuses = vec![fmi2Reset(instance.component)];
+        let fine = initialised(instance);
         let mut numbers = vec![f64::NAN; bevel_differential::model::STATES + EVENT_INDICATORS];
-        if unit.kind == MODEL_EXCHANGE {
+        if instance.kind == MODEL_EXCHANGE {
             let (rates, indicators) = numbers.split_at_mut(bevel_differential::model::STATES);
-            statuses.push(fmi2GetDerivatives(unit.c, rates.as_mut_ptr(), rates.len()));
-            statuses.push(fmi2GetEventIndicators(unit.c, indicators.as_mut_ptr(), indicators.len()));
+            statuses.push(fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), rates.len()));
+            statuses.push(fmi2GetEventIndicators(instance.component, indicators.as_mut_ptr(), indicators.len()));
         } else {
-            statuses.extend([0.0, 1e-3, 2e-3].map(|t| fmi2DoStep(unit.c, t, 1e-3, 1)));
+            statuses.extend([0.0, 1e-3, 2e-3].map(|t| fmi2DoStep(instance.component, t, 1e-3, 1)));
             let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
             numbers.resize(outputs.len(), f64::NAN);
-            statuses.push(fmi2GetReal(unit.c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
+            statuses.push(fmi2GetReal(instance.component, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
         }
-        unit.said();
+        instance.take_log();
         let fine = fine && statuses.iter().all(|&status| status == Status::Ok);
         fine.then(|| numbers.into_iter().map(f64::to_bits).collect())
     }

@@ -6,8 +6,8 @@ use bevel_differential::fmi2::*;
 use bevel_differential::variables::fnv1a;
 
 use super::arguments::{CallResult, Flaws};
+use super::instance::serialised;
 use super::random::Random;
-use super::unit::serialised;
 
 /// Most states and blobs that are held at a time.
 pub const HELD: usize = 12;

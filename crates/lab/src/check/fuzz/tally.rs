@@ -15,7 +15,7 @@ const STATUSES: usize = 4;
 pub struct Tally {
     rows: Vec<FunctionTally>,
     /// Instances brought to a running simulation.
-    pub scenes: u64,
+    pub started_instances: u64,
     /// Calls before and after which states were compared.
     pub compared: u64,
     /// The call that took longest.
@@ -42,7 +42,7 @@ impl Default for Tally {
     fn default() -> Self {
         Self {
             rows: vec![FunctionTally::default(); Function::ALL.len()],
-            scenes: 0,
+            started_instances: 0,
             compared: 0,
             longest: LongestCall::default(),
         }
@@ -67,7 +67,7 @@ impl Tally {
     }
 
     /// Calls of `function` that returned fmi2OK.
-    pub fn done(&self, function: Function) -> u64 {
+    pub fn returned_ok(&self, function: Function) -> u64 {
         self.rows[function as usize].statuses[0]
     }
 
@@ -78,7 +78,7 @@ impl Tally {
             json!({"function": function.name(), "statuses": row.statuses, "seconds": row.total.as_secs_f64(),
                 "longest": row.longest.as_secs_f64()})
         });
-        json!({"scenes": self.scenes, "compared": self.compared, "rows": rows.collect::<Vec<_>>(),
+        json!({"scenes": self.started_instances, "compared": self.compared, "rows": rows.collect::<Vec<_>>(),
             "longest": {"seconds": took.as_secs_f64(), "function": function, "seed": seed, "at": at}})
     }
 }

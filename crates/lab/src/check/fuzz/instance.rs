@@ -12,9 +12,9 @@ mod recorder;
 pub use recorder::{Line, Recorder};
 
 /// An instance of the fuzzer.
-pub struct Unit {
+pub struct FuzzedInstance {
     /// The instance.
-    pub c: ComponentPointer,
+    pub component: ComponentPointer,
     /// Model exchange (0) or co-simulation (1).
     pub kind: i32,
     /// Lines that it logged.
@@ -22,33 +22,41 @@ pub struct Unit {
     /// Whether its log is filtered by category.
     pub is_filtered: bool,
     /// A state for comparisons, overwritten each time; NULL until it is needed.
-    pub kept: FmuState,
+    pub comparison_state: FmuState,
     /// Calls refused one after the other.
     pub refused: usize,
 }
 
-impl Unit {
+impl FuzzedInstance {
     /// A fresh instance; none if it is refused.
     pub fn new(kind: i32) -> Option<Self> {
         let recorder = Box::<Recorder>::default();
         let guid = CString::new(guid()).ok()?;
         let callbacks = recorder.callbacks();
         // SAFETY: all pointers are valid through the call, and the lines as long as the instance
-        let c = unsafe { fmi2Instantiate(c"unit".as_ptr(), kind, guid.as_ptr(), ptr::null(), &callbacks, 0, 0) };
-        (!c.is_null()).then(|| Self { c, kind, recorder, is_filtered: false, kept: ptr::null_mut(), refused: 0 })
+        let component =
+            unsafe { fmi2Instantiate(c"unit".as_ptr(), kind, guid.as_ptr(), ptr::null(), &callbacks, 0, 0) };
+        (!component.is_null()).then(|| Self {
+            component,
+            kind,
+            recorder,
+            is_filtered: false,
+            comparison_state: ptr::null_mut(),
+            refused: 0,
+        })
     }
 
     /// Lines logged since the last call of this function.
-    pub fn said(&self) -> Vec<Line> {
+    pub fn take_log(&self) -> Vec<Line> {
         std::mem::take(&mut *self.recorder.lines())
     }
 
     /// The whole state as bytes; none where the standard forbids reading it (after an error).
     pub fn bytes(&mut self) -> Option<Vec<u8>> {
-        // SAFETY: a live component; the state is NULL or this unit's own
-        let status = unsafe { fmi2GetFMUstate(self.c, &mut self.kept) };
-        let bytes = if status == Status::Ok { serialised(self.c, self.kept) } else { None };
-        self.said();
+        // SAFETY: a live component; the state is NULL or this instance's own
+        let status = unsafe { fmi2GetFMUstate(self.component, &mut self.comparison_state) };
+        let bytes = if status == Status::Ok { serialised(self.component, self.comparison_state) } else { None };
+        self.take_log();
         bytes
     }
 }
@@ -66,12 +74,12 @@ pub fn serialised(c: ComponentPointer, state: FmuState) -> Option<Vec<u8>> {
     (status == Status::Ok).then_some(bytes)
 }
 
-impl Drop for Unit {
+impl Drop for FuzzedInstance {
     fn drop(&mut self) {
-        // SAFETY: component and state are this unit's own
+        // SAFETY: component and state are this instance's own
         unsafe {
-            fmi2FreeFMUstate(self.c, &mut self.kept);
-            fmi2FreeInstance(self.c);
+            fmi2FreeFMUstate(self.component, &mut self.comparison_state);
+            fmi2FreeInstance(self.component);
         }
     }
 }

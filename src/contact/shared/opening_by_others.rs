@@ -1,16 +1,16 @@
 //! By how much the loads of others move pairs: what opens them when kinks of the force are predicted.
 
-use super::couplings::MOST;
+use super::couplings::MOST_PAIRS;
 use crate::contact::Flank;
 
 /// Arcs by which pairs are moved apart by others [rad].
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Moved {
-    pairs: [Option<(usize, Flank, i64, f64)>; MOST],
+pub struct OpeningByOthers {
+    pairs: [Option<(usize, Flank, i64, f64)>; MOST_PAIRS],
     count: usize,
 }
 
-impl Moved {
+impl OpeningByOthers {
     /// How far before they touch pairs count, over the deepest approach of flanks.
     pub const LOOKOUT: f64 = 0.5;
 

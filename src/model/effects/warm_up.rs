@@ -1,0 +1,171 @@
+//! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the heat of
+//! the ledger. Heat of brakes, half-shafts and of the final drive arises elsewhere and stays outside.
+//!
+//! Frictions whose values depend on temperature (`effect_kinds::slip_spec`) feel that of their node. Without this effect all
+//! nodes have the temperature `oil.temperature`.
+
+use super::limited_slip::CLUTCH_HEAT;
+use crate::declaration::units::{self, DEG_C};
+use crate::declaration::{Parameter, Row, row};
+use crate::model::effect_kinds::{Changes, Declare, Effect, Reading};
+use crate::model::thermal::network::Conductance;
+use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
+
+spec! {
+    /// Warming up of oil, gears, clutch packs, washers and case.
+    pub struct WarmUpSpec {
+        /// Temperature around the case [K].
+        pub ambient: f64 = 293.15,
+        /// Whether the oil keeps the temperature `oil.temperature`, as from a cooler or by the host.
+        pub sump_given: bool = false,
+        /// Heat capacity of the oil [J/K].
+        pub oil_capacity: f64 = 1800.0,
+        /// Specific heat of the gears, whose masses are those of their solids [J/(kg·K)].
+        pub gear_specific_heat: f64 = 460.0,
+        /// Heat capacity of the clutch packs [J/K].
+        pub clutch_capacity: f64 = 300.0,
+        /// Heat capacity of washers and pins [J/K].
+        pub washer_capacity: f64 = 60.0,
+        /// Heat capacity of the case [J/K].
+        pub case_capacity: f64 = 6000.0,
+        /// Conductance from the gears to the oil [W/K].
+        pub gears_to_oil: f64 = 20.0,
+        /// Its growth per carrier speed [W·s/(K·rad)].
+        pub gears_to_oil_per_speed: f64 = 0.2,
+        /// Conductance from the clutch packs to the oil [W/K].
+        pub clutch_to_oil: f64 = 10.0,
+        /// Conductance from washers and pins to the oil [W/K].
+        pub washers_to_oil: f64 = 5.0,
+        /// Conductance from the oil to the case [W/K].
+        pub oil_to_case: f64 = 30.0,
+        /// Conductance from the case to ambient [W/K].
+        pub case_to_ambient: f64 = 10.0,
+        /// Its growth per carrier speed [W·s/(K·rad)].
+        pub case_to_ambient_per_speed: f64 = 0.1,
+        /// Share of the heat of teeth, washers and clutches that goes into the oil at once.
+        pub oil_share: f64 = 0.0,
+    }
+}
+
+/// Reading of a temperature.
+macro_rules! temperature {
+    ($name:literal, $of:literal) => {
+        Reading {
+            name: concat!("temperature.", $name),
+            unit: units::KELVIN,
+            display: Some(DEG_C),
+            changes: Changes::ByStep,
+            description: concat!("Temperature of ", $of, "; oil.temperature without effects.warm_up"),
+        }
+    };
+}
+
+/// Reading of a heat of the network.
+macro_rules! heat {
+    ($name:literal, $of:literal) => {
+        Reading {
+            name: concat!("warm_up.", $name),
+            unit: units::JOULE,
+            display: None,
+            changes: Changes::ByStep,
+            description: $of,
+        }
+    };
+}
+
+impl Declare for WarmUpSpec {
+    const DESCRIPTION: &'static str =
+        "Temperatures of oil, gears, clutch packs, washers and case, by the heat of all frictions";
+    const READINGS: &'static [Reading] = &[
+        temperature!("oil", "the oil"),
+        temperature!("gears", "the gears"),
+        temperature!("clutch", "the clutch packs"),
+        temperature!("washers", "washers and pins"),
+        temperature!("case", "the case"),
+        heat!("stored", "Heat stored in all nodes since the start"),
+        heat!("given_off", "Heat given off to ambient and a given sump since the start"),
+    ];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        let capacity = |name, of, at| row(name, of).real(units::JOULE_PER_K, (1.0, 1e9), at);
+        let conductance = |name, of, at| row(name, of).tunable().real(units::WATT_PER_K, (0.0, 1e6), at);
+        let per_speed = |name, of, at| row(name, of).tunable().real(units::WATT_S_PER_K_RAD, (0.0, 1e4), at);
+        vec![
+            row("warm_up.ambient_temperature", "Temperature around the case").tunable().real(
+                (units::KELVIN, DEG_C),
+                (213.15, 673.15),
+                |p| &mut p.ambient,
+            ),
+            row("warm_up.sump_given", "Oil keeps oil.temperature, as with a cooler; false: it warms up")
+                .switch(|p| &mut p.sump_given),
+            capacity("warm_up.oil_capacity", "Heat capacity of the oil", |p| &mut p.oil_capacity),
+            row("warm_up.gear_specific_heat", "Specific heat of the gears, whose masses are those of their solids")
+                .real(units::JOULE_PER_KG_K, (1.0, 1e5), |p| &mut p.gear_specific_heat),
+            capacity("warm_up.clutch_capacity", "Heat capacity of the clutch packs", |p| &mut p.clutch_capacity),
+            capacity("warm_up.washer_capacity", "Heat capacity of washers and pins", |p| &mut p.washer_capacity),
+            capacity("warm_up.case_capacity", "Heat capacity of case and housing", |p| &mut p.case_capacity),
+            conductance("warm_up.gears_to_oil", "Conductance from the gears to the oil", |p| &mut p.gears_to_oil),
+            per_speed("warm_up.gears_to_oil_per_speed", "Growth of warm_up.gears_to_oil per carrier speed", |p| {
+                &mut p.gears_to_oil_per_speed
+            }),
+            conductance("warm_up.clutch_to_oil", "Conductance from the clutch packs to the oil", |p| {
+                &mut p.clutch_to_oil
+            }),
+            conductance("warm_up.washers_to_oil", "Conductance from washers and pins to the oil", |p| {
+                &mut p.washers_to_oil
+            }),
+            conductance("warm_up.oil_to_case", "Conductance from the oil to the case", |p| &mut p.oil_to_case),
+            conductance("warm_up.case_to_ambient", "Conductance from the case to ambient", |p| &mut p.case_to_ambient),
+            per_speed(
+                "warm_up.case_to_ambient_per_speed",
+                "Growth of warm_up.case_to_ambient per carrier speed",
+                |p| &mut p.case_to_ambient_per_speed,
+            ),
+            row("warm_up.oil_share", "Share of the heat of teeth, washers and clutches that goes into the oil at once")
+                .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_share),
+        ]
+    }
+}
+
+impl Effect for WarmUpSpec {}
+
+impl WarmUpSpec {
+    /// Where the heat `output` of the ledger enters: shares of the nodes.
+    fn shares(&self, output: &str) -> [f64; NODES] {
+        let mut shares = [0.0; NODES];
+        let node = match output {
+            "heat.contact" | "heat.tooth_friction" => GEARS,
+            "heat.thrust" => WASHERS,
+            "heat.support" => CASE,
+            "heat.drag" => OIL,
+            name if name == CLUTCH_HEAT.output => CLUTCH,
+            _ => return shares,
+        };
+        let direct = if matches!(node, GEARS | WASHERS | CLUTCH) { self.oil_share } else { 0.0 };
+        shares[OIL] += direct;
+        shares[node] += 1.0 - direct;
+        shares
+    }
+
+    /// The network, with gears of `mass` [kg] that start at the temperature `start` [K], for the heats `outputs` of the ledger.
+    pub fn network<const H: usize>(&self, mass: f64, start: f64, outputs: [&str; H]) -> Network<H> {
+        let constant = |at_rest| Conductance { at_rest, per_speed: 0.0 };
+        let gears = Conductance { at_rest: self.gears_to_oil, per_speed: self.gears_to_oil_per_speed };
+        let (clutch, washers, case) = (self.clutch_to_oil, self.washers_to_oil, self.oil_to_case);
+        Network {
+            capacity: [
+                self.oil_capacity,
+                self.gear_specific_heat * mass,
+                self.clutch_capacity,
+                self.washer_capacity,
+                self.case_capacity,
+            ],
+            to_oil: [Conductance::default(), gears, constant(clutch), constant(washers), constant(case)],
+            to_ambient: Conductance { at_rest: self.case_to_ambient, per_speed: self.case_to_ambient_per_speed },
+            ambient: self.ambient,
+            sump: self.sump_given.then_some(start),
+            shares: outputs.map(|output| self.shares(output)),
+            start,
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The oil: its viscosity and density over temperature.
+//!
+//! ```text
+//! log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T        ν [mm²/s], T [K]
+//! ρ = ρ₁₅ − k (T − 288.15 K)
+//! ```
+//!
+//! through the viscosities at 40 and 100 °C, by which ISO VG and index are defined.
+//!
+//! Source: C. Walther; ASTM D341, without its corrections below 2 mm²/s.
+
+use crate::problem::Problem;
+
+/// 40 and 100 °C [K], at which the viscosity is given.
+const POINTS: [f64; 2] = [313.15, 373.15];
+/// Temperature of the given density, 15 °C [K].
+const DENSITY_POINT: f64 = 288.15;
+/// Constant of Walther's equation [mm²/s].
+const WALTHER: f64 = 0.7;
+/// Square metres per second in a square millimetre per second.
+const MM2: f64 = 1e-6;
+/// Least density over the given one, far from any oil.
+const LEAST_DENSITY: f64 = 0.1;
+
+spec! {
+    /// The oil in the sump. The start values are those of an axle oil 75W-90.
+    pub struct OilSpec {
+        /// Temperature [K]: of the oil and of all that rubs in it; with the effect `warm_up` that at the start, or of a given sump.
+        pub temperature: f64 = 353.15,
+        /// Kinematic viscosity at 40 °C [m²/s].
+        pub viscosity_40: f64 = 100e-6,
+        /// Kinematic viscosity at 100 °C [m²/s].
+        pub viscosity_100: f64 = 15e-6,
+        /// Density at 15 °C [kg/m³].
+        pub density: f64 = 870.0,
+        /// Fall of the density per temperature [kg/(m³·K)].
+        pub density_fall: f64 = 0.65,
+    }
+}
+
+impl OilSpec {
+    /// A and B of Walther's line.
+    fn line(&self) -> [f64; 2] {
+        let double_log = |viscosity: f64| libm::log10(libm::log10(viscosity / MM2 + WALTHER));
+        let [thick, thin] = [self.viscosity_40, self.viscosity_100].map(double_log);
+        let [cool, warm] = POINTS.map(libm::log10);
+        let slope = (thick - thin) / (warm - cool);
+        [thick + slope * cool, slope]
+    }
+
+    /// Kinematic viscosity at `temperature` [K], in m²/s.
+    pub fn kinematic_viscosity(&self, temperature: f64) -> f64 {
+        let [a, b] = self.line();
+        let power = |exponent: f64| libm::pow(10.0, exponent);
+        MM2 * (power(power(a - b * libm::log10(temperature))) - WALTHER).max(0.01)
+    }
+
+    /// Density at `temperature` [K], in kg/m³.
+    pub fn density_at(&self, temperature: f64) -> f64 {
+        (self.density - self.density_fall * (temperature - DENSITY_POINT)).max(LEAST_DENSITY * self.density)
+    }
+
+    /// Dynamic viscosity at `temperature` [K], in Pa·s.
+    pub fn viscosity(&self, temperature: f64) -> f64 {
+        self.kinematic_viscosity(temperature) * self.density_at(temperature)
+    }
+
+    /// What is wrong with it.
+    pub fn problem(&self) -> Option<Problem> {
+        let Self { viscosity_40, viscosity_100, .. } = *self;
+        (viscosity_100 >= viscosity_40).then(|| {
+            problem!(
+                "oil.viscosity_100",
+                "{viscosity_100:e} m2/s is not below oil.viscosity_40 = {viscosity_40:e} m2/s: an oil thins as it warms up"
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn walther_s_line_runs_through_its_points_and_thickens_in_the_cold() {
+        let oil = OilSpec::default();
+        assert!((oil.kinematic_viscosity(313.15) / 100e-6 - 1.0).abs() < 1e-9);
+        assert!((oil.kinematic_viscosity(373.15) / 15e-6 - 1.0).abs() < 1e-9);
+        // by hand: (log log 100.7, log log 15.7) = (0.301 702, 0.077 612), A = 7.646 43, B = 2.943 62
+        let by_hand = |t: f64| {
+            let (y0, y1) = (100.7_f64.log10().log10(), 15.7_f64.log10().log10());
+            let (x0, x1) = (313.15_f64.log10(), 373.15_f64.log10());
+            let y = y0 + (y1 - y0) * (t.log10() - x0) / (x1 - x0);
+            10f64.powf(10f64.powf(y)) - 0.7
+        };
+        for t in [233.15, 273.15, 353.15, 423.15] {
+            assert!((oil.kinematic_viscosity(t) * 1e6 / by_hand(t) - 1.0).abs() < 1e-9, "{t}");
+        }
+        let change = oil.viscosity(233.15) / oil.viscosity(423.15);
+        assert!((1e3..1e5).contains(&change), "{change}");
+    }
+
+    #[test]
+    fn an_oil_that_thickens_as_it_warms_up_is_refused() {
+        let oil = OilSpec { viscosity_100: 120e-6, ..OilSpec::default() };
+        assert_eq!(oil.problem().map(|problem| problem.variable), Some("oil.viscosity_100"));
+        assert!(OilSpec::default().problem().is_none());
+    }
+}

@@ -1,0 +1,129 @@
+//! The thermal network of a differential: a star around the oil.
+//!
+//! ```text
+//! C_i θ̇_i = q_i − G_i (θ_i − θ_oil)          gears, clutch packs, washers
+//! C_c θ̇_c = q_c − G_c (θ_c − θ_oil) − G_a (θ_c − θ_a)      case, to ambient
+//! C_o θ̇_o = q_o + Σ G_i (θ_i − θ_oil)
+//! ```
+//!
+//! with the heat q_i that the ledger has for each node. Conductances may grow with a speed, as convection does. A step of the
+//! solver is taken by the implicit midpoint rule in parts that are short against the fastest node; what leaves one node enters
+//! another to the last bit, so that heat is lost nowhere.
+//!
+//! Source: the thermal balance of ISO/TR 14179-2, and thermal networks of axles and gear units (C. Changenet, X.
+//! Oviedo-Marlot, P. Velex, J. Mechanical Design 128 (2006), p. 1128).
+
+use super::{CASE, NODES, OIL, Thermal};
+
+/// Part of the fastest node's time constant that a step of the midpoint rule may take.
+const PART: f64 = 0.25;
+/// Most parts of a step of the solver, which is at most a second long.
+const MOST_PARTS: f64 = 1000.0;
+
+/// Conductance at rest, and its growth per speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Conductance {
+    /// At standstill [W/K].
+    pub at_rest: f64,
+    /// Per carrier speed [W·s/(K·rad)].
+    pub per_speed: f64,
+}
+
+/// Nodes and what joins them; `H` is the number of heats in the ledger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network<const H: usize> {
+    /// Heat capacities [J/K].
+    pub capacity: [f64; NODES],
+    /// Conductances to the oil; that of the oil is none.
+    pub to_oil: [Conductance; NODES],
+    /// From the case to ambient.
+    pub to_ambient: Conductance,
+    /// Ambient temperature [K].
+    pub ambient: f64,
+    /// Temperature of the oil, where it is given [K].
+    pub sump: Option<f64>,
+    /// Shares of each heat of the ledger that enter the nodes; what is left out stays outside.
+    pub shares: [[f64; NODES]; H],
+    /// Temperature of all nodes at the start [K].
+    pub start: f64,
+}
+
+impl Conductance {
+    fn at(self, speed: f64) -> f64 {
+        self.at_rest + self.per_speed * speed
+    }
+}
+
+impl<const H: usize> Network<H> {
+    /// Heat of the ledger in each node [J].
+    fn entering(&self, heat: &[f64; H]) -> [f64; NODES] {
+        std::array::from_fn(|i| heat.iter().zip(&self.shares).map(|(heat, share)| heat * share[i]).sum())
+    }
+
+    /// Heat stored since the start [J].
+    pub fn stored(&self, thermal: &Thermal) -> f64 {
+        (0..NODES).map(|i| self.capacity[i] * (thermal.temperatures[i] - self.start)).sum()
+    }
+
+    /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its sign [rad/s].
+    pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, speed: f64) {
+        let entering = self.entering(heat);
+        let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);
+        thermal.entered = entering;
+        thermal.since += h;
+        let to_oil = self.to_oil.map(|g| g.at(speed));
+        let to_ambient = self.to_ambient.at(speed);
+        let leaving = |i: usize| to_oil[i] + if i == CASE { to_ambient } else { 0.0 };
+        let all: f64 = to_oil.iter().sum();
+        let fastest =
+            (0..NODES).map(|i| if i == OIL { all } else { leaving(i) } / self.capacity[i]).fold(0.0, f64::max);
+        let parts = libm::ceil(h * fastest / PART).clamp(1.0, MOST_PARTS);
+        for _ in 0..parts as usize {
+            self.midpoint(thermal, &power, h / parts, (&to_oil, to_ambient));
+        }
+    }
+
+    /// A step by the midpoint rule: temperatures halfway follow from that of the oil, which balances all.
+    fn midpoint(
+        &self,
+        thermal: &mut Thermal,
+        power: &[f64; NODES],
+        h: f64,
+        (to_oil, to_ambient): (&[f64; NODES], f64),
+    ) {
+        let begin = thermal.temperatures;
+        let inertia: [f64; NODES] = std::array::from_fn(|i| 2.0 * self.capacity[i] / h);
+        // of every other node halfway: (known + conductance θ_oil)/sum
+        let known: [f64; NODES] = std::array::from_fn(|i| {
+            let ambient = if i == CASE { to_ambient * self.ambient } else { 0.0 };
+            inertia[i] * begin[i] + power[i] + ambient
+        });
+        let sum: [f64; NODES] =
+            std::array::from_fn(|i| inertia[i] + to_oil[i] + if i == CASE { to_ambient } else { 0.0 });
+        let oil = self.sump.unwrap_or_else(|| {
+            let (mut of, mut by) = (known[OIL], inertia[OIL]);
+            for i in GEARS_TO_CASE {
+                of += to_oil[i] * known[i] / sum[i];
+                by += to_oil[i] * (1.0 - to_oil[i] / sum[i]);
+            }
+            of / by
+        });
+        let (mut to_oil_now, mut halfway) = (power[OIL], [oil; NODES]);
+        for i in GEARS_TO_CASE {
+            halfway[i] = (known[i] + to_oil[i] * oil) / sum[i];
+            to_oil_now += to_oil[i] * (halfway[i] - oil);
+            thermal.temperatures[i] = 2.0 * halfway[i] - begin[i];
+        }
+        thermal.given_off += h * to_ambient * (halfway[CASE] - self.ambient);
+        match self.sump {
+            None => thermal.temperatures[OIL] = 2.0 * oil - begin[OIL],
+            Some(given) => {
+                thermal.given_off += h * to_oil_now - self.capacity[OIL] * (given - begin[OIL]);
+                thermal.temperatures[OIL] = given;
+            }
+        }
+    }
+}
+
+/// All nodes but the oil.
+const GEARS_TO_CASE: std::ops::RangeInclusive<usize> = super::GEARS..=CASE;

@@ -1,0 +1,90 @@
+//! Tests of the thermal network against closed forms and its own linear system.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::network::{Conductance, Network};
+use super::{CASE, CLUTCH, GEARS, NODES, OIL, Thermal, WASHERS};
+
+const START: f64 = 300.0;
+
+fn network(conductances: [f64; NODES], to_ambient: f64) -> Network<2> {
+    let mut shares = [[0.0; NODES]; 2];
+    shares[0][CLUTCH] = 1.0;
+    (shares[1][GEARS], shares[1][OIL]) = (0.7, 0.3);
+    Network {
+        capacity: [1800.0, 1500.0, 300.0, 60.0, 5000.0],
+        to_oil: conductances.map(|at_rest| Conductance { at_rest, per_speed: 0.0 }),
+        to_ambient: Conductance { at_rest: to_ambient, per_speed: 0.0 },
+        ambient: 280.0,
+        sump: None,
+        shares,
+        start: START,
+    }
+}
+
+/// Heat enters at `power` [W] for `time` [s] in steps of `h`.
+fn run(network: &Network<2>, power: [f64; 2], time: f64, h: f64) -> Thermal {
+    let mut thermal = Thermal::uniform(START);
+    for k in 1..=(time / h).round() as usize {
+        let heat = power.map(|power| power * k as f64 * h);
+        network.advance(&mut thermal, &heat, h, 0.0);
+    }
+    thermal
+}
+
+#[test]
+fn a_pack_without_a_path_for_heat_warms_by_heat_over_capacity() {
+    let network = network([0.0; NODES], 0.0);
+    for h in [1e-3, 0.1, 1.0] {
+        let thermal = run(&network, [2000.0, 0.0], 20.0, h);
+        let expected = START + 2000.0 * 20.0 / 300.0;
+        assert!((thermal.temperatures[CLUTCH] / expected - 1.0).abs() < 1e-10);
+        assert!([OIL, GEARS, WASHERS, CASE].iter().all(|&i| thermal.temperatures[i] == START));
+    }
+}
+
+#[test]
+fn a_long_run_ends_at_the_solution_of_the_linear_system() {
+    let (to_oil, to_ambient, power) = ([0.0, 20.0, 10.0, 5.0, 30.0], 12.0, [150.0, 400.0]);
+    let network = network(to_oil, to_ambient);
+    let mut matrix = SMatrix::<f64, NODES, NODES>::zeros();
+    let mut right = SVector::<f64, NODES>::zeros();
+    for i in GEARS..=CASE {
+        for (row, sign) in [(i, 1.0), (OIL, -1.0)] {
+            matrix[(row, i)] += sign * to_oil[i];
+            matrix[(row, OIL)] -= sign * to_oil[i];
+        }
+    }
+    matrix[(CASE, CASE)] += to_ambient;
+    (right[CASE], right[CLUTCH], right[GEARS], right[OIL]) =
+        (to_ambient * 280.0, power[0], 0.7 * power[1], 0.3 * power[1]);
+    let expected = matrix.lu().solve(&right).unwrap();
+    let thermal = run(&network, power, 2e5, 1.0);
+    for i in 0..NODES {
+        assert!((thermal.temperatures[i] / expected[i] - 1.0).abs() < 1e-9, "{i}: {:?}", thermal.temperatures);
+    }
+}
+
+#[test]
+fn no_heat_is_lost_whether_the_sump_is_free_or_given() {
+    for sump in [None, Some(350.0)] {
+        let network = Network { sump, ..network([0.0, 20.0, 10.0, 5.0, 30.0], 12.0) };
+        let thermal = run(&network, [150.0, 400.0], 500.0, 0.37);
+        let entered = thermal.entered.iter().sum::<f64>();
+        let off = entered - network.stored(&thermal) - thermal.given_off;
+        assert!((off / entered).abs() < 1e-10, "{off} J of {entered} J");
+    }
+}
+
+#[test]
+fn a_node_cools_exponentially_where_the_sump_is_given() {
+    let network = Network { sump: Some(START), ..network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0) };
+    let mut thermal = Thermal::uniform(START);
+    thermal.temperatures[CLUTCH] = 400.0;
+    for _ in 0..600 {
+        network.advance(&mut thermal, &[0.0; 2], 0.1, 0.0);
+    }
+    // 60 s at a time constant of 30 s
+    let expected = START + 100.0 * (-2.0_f64).exp();
+    assert!((thermal.temperatures[CLUTCH] - expected).abs() < 1e-3, "{}", thermal.temperatures[CLUTCH]);
+}

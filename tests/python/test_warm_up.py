@@ -1,0 +1,114 @@
+"""Temperatures: heat of the ledger warms oil, gears, clutch packs, washers and case, and none of it is lost."""
+
+from math import exp
+
+import pytest
+import theory
+from bevel_differential import DifferentialError
+
+SLIP = {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, "effects.limited_slip": True}
+NODES = ["oil", "gears", "clutch", "washers", "case"]
+CLOSED = {"warm_up.clutch_to_oil": 0.0, "warm_up.oil_share": 0.0}
+FRICTIONS = {"effects.limited_slip": True, "effects.thrust_friction": True, "effects.bearing_drag": True,
+             "effects.tooth_friction": True}
+TURN = {"scene.planet_spin": "imposed", "planet.spin_command": 3.5, "carrier.speed_command": 16.6}
+
+
+@pytest.mark.parametrize("contact", ["ideal", "lumped"])
+def test_a_pack_without_a_path_for_heat_warms_by_torque_times_slip_over_capacity(drive, contact):
+    preload, capacity = 80.0, 350.0
+    driven = drive(SLIP | CLOSED | {"scene.gear_contact": contact, "effects.warm_up": True, "limited_slip.preload": preload,
+                                    "limited_slip.torque_coefficient": 0.0, "warm_up.clutch_capacity": capacity})
+    driven.to(0.2, 1e-2)
+    begin, time = driven["temperature.clutch"], driven.time
+    driven.to(1.2, 1e-2)
+    heat = 2.0 * preload * 20.0 * theory.RATIO * (driven.time - time)
+    assert driven["temperature.clutch"] - begin == pytest.approx(heat / capacity, rel=1e-6)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("given", [False, True])
+def test_heat_that_enters_is_stored_or_given_off(drive, given, sign):
+    driven = drive({name: sign * value if name.endswith("command") else value for name, value in TURN.items()} | FRICTIONS | {
+        "left.load_torque": sign * 835.0, "right.load_torque": sign * 835.0, "effects.warm_up": True, "warm_up.sump_given": given,
+        "warm_up.oil_share": 0.3, "oil.temperature": 300.0, "warm_up.ambient_temperature": 260.0,
+        "solver.relative_tolerance": 1e-9})
+    driven.to(0.3, 1e-3)
+    entered = sum(driven[name] for name in ["heat.contact", "heat.tooth_friction", "heat.thrust", "heat.clutch", "heat.drag"])
+    kept = driven["warm_up.stored"] + driven["warm_up.given_off"]
+    assert entered > 50.0
+    assert kept == pytest.approx(entered, rel=1e-6)
+    assert driven["warm_up.given_off"] != 0.0
+    if given:
+        assert driven["temperature.oil"] == 300.0
+
+
+def test_temperatures_do_not_depend_on_communication_points(drive):
+    values = TURN | FRICTIONS | {"effects.warm_up": True, "limited_slip.hot_factor": 0.7, "limited_slip.cold_factor": 1.2,
+                                 "oil.temperature": 330.0, "warm_up.clutch_capacity": 5.0}
+    ends = []
+    for step in [1e-3, 5e-3, 0.05]:
+        driven = drive(values).to(0.3, step)
+        ends.append([driven[f"temperature.{node}"] for node in NODES])
+    assert ends[0][2] > 331.0
+    assert ends[1] == pytest.approx(ends[0], rel=1e-12) and ends[2] == pytest.approx(ends[0], rel=1e-12)
+
+
+def test_a_clutch_fades_as_it_warms_up(drive):
+    # linear fade in a pack without a path for heat: C T' = 2 M0 w (1 - a (T - T0)), so the torque falls exponentially
+    preload, capacity, hot = 80.0, 20.0, 0.5
+    driven = drive(SLIP | CLOSED | {"scene.gear_contact": "ideal", "effects.warm_up": True, "limited_slip.preload": preload,
+                                    "limited_slip.torque_coefficient": 0.0, "warm_up.clutch_capacity": capacity,
+                                    "limited_slip.hot_factor": hot})
+    driven.to(1.0, 1e-2)
+    slip, fall = 20.0 * theory.RATIO, (1.0 - hot) / 120.0
+    rise = (1.0 - exp(-2.0 * preload * slip * fall / capacity * 1.0)) / fall
+    # friction follows temperature in steps of 0.1 K
+    assert driven["temperature.clutch"] - 353.15 == pytest.approx(rise, abs=0.1)
+
+
+def test_without_the_effect_all_has_the_temperature_of_the_oil(drive):
+    driven = drive(TURN | FRICTIONS | {"oil.temperature": 321.0}).to(0.05, 1e-3)
+    assert [driven[f"temperature.{node}"] for node in NODES] == [321.0] * 5
+    driven.set({"oil.temperature": 330.0})
+    driven.to(0.06, 1e-3)
+    assert driven["temperature.clutch"] == 330.0
+
+
+def test_flanks_flash_and_scuff_by_the_temperatures_of_gears_and_oil(drive):
+    values = TURN | FRICTIONS | {"effects.strength": True, "effects.warm_up": True, "strength.scuffing_temperature": 600.0,
+                                 "warm_up.sump_given": True, "oil.temperature": 350.0}
+    driven, flashes = drive(values), []
+    for _ in range(40):
+        driven.step(1e-3)
+        flash, contact = driven["temperature.flash"], driven["temperature.contact"]
+        flashes.append(flash)
+        # forces are those of the present, with the temperatures of the last completed step
+        assert contact == pytest.approx(driven["temperature.gears"] + flash, abs=1e-3)
+        assert driven["safety.scuffing"] == pytest.approx(250.0 / (contact - 350.0), rel=1e-9)
+    # no pair slides at the pitch point; elsewhere flanks are warmed by some degrees at this speed
+    assert 0.0 <= min(flashes) < 0.5 * max(flashes) and 0.1 < max(flashes) < 200.0
+    # friction and heat twice as large
+    double = drive(values | {"tooth_friction.coefficient": 0.1})
+    double.to(0.02, 1e-3)
+    single = drive(values).to(0.02, 1e-3)
+    assert double["temperature.flash"] == pytest.approx(2.0 * single["temperature.flash"], rel=0.05)
+
+
+def test_a_cold_oil_drags_by_its_viscosity(drive):
+    rolling = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True,
+               "bearing_drag.carrier_torque": 0.0, "bearing_drag.side_torque": 0.0, "bearing_drag.carrier_churning": 0.0,
+               "bearing_drag.side_viscous": 0.0, "bearing_drag.carrier_viscous": 0.01, "carrier.speed_command": 30.0}
+    heats = []
+    for temperature in [353.15, 253.15]:
+        driven = drive(rolling | {"oil.temperature": temperature}).to(1.0, 1e-2)
+        heats.append(driven["heat.drag"])
+    assert heats[0] == pytest.approx(0.01 * 30.0**2, rel=1e-9)
+
+    assert heats[1] / heats[0] == pytest.approx(theory.viscosity(253.15) / theory.viscosity(353.15), rel=1e-9)
+
+
+def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
+    with pytest.raises(DifferentialError) as refused:
+        drive({"oil.viscosity_100": 2e-4})
+    assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])
