@@ -148,10 +148,10 @@ pub const HOSTS: Script = Script {
     ..DEFAULTS
 };
 
-/// The same scenes with the library for each platform, Windows under wine: the bits of all outputs, and the time.
+/// The same scenes with the library for each platform that something here runs: the bits of all outputs, and the time.
 pub const PLATFORMS: Script = Script {
     name: "platforms",
-    about: "Checks that the libraries of all platforms give the same bits, Windows under wine",
+    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
     options: || vec![flag("write", "Also renew docs/fmi.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",
