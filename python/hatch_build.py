@@ -1,7 +1,9 @@
 """Builds what the package holds beside Python: the FMU for this machine, the library of answers, scenes and licences.
 
-`pip install ./python` comes by here. A package that has its FMU already, as the command `wheel` stages it, is left as it is."""
+`pip install ./python` comes by here. A package that has its FMU already, as the command `wheel` stages it, is left as it is; the
+wheel's name tells the platforms that the command names."""
 
+import os
 import shutil
 import subprocess
 import sysconfig
@@ -13,12 +15,20 @@ NEEDED = ("bevel-differential is built from its source with Rust, and {what}. In
           "that the project's command `wheel` makes on another machine.")
 
 
+# the platforms of the FMU in a package that has one, joined by dots: as pip calls them, or "this-machine"
+PLATFORMS = "BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS"
+
+
 class FmuHook(BuildHookInterface):
     """Hatch calls `initialize` before it packs the wheel."""
 
     def initialize(self, version, build_data):
         root = Path(self.root)
-        if version == "editable" or (root / "src" / "bevel_differential" / "BevelDifferential.fmu").is_file():
+        if version == "editable":
+            return
+        if (root / "src" / "bevel_differential" / "BevelDifferential.fmu").is_file():
+            if platforms := os.environ.get(PLATFORMS):
+                name(build_data, platforms)
             return
         if not (root.parent / "Cargo.toml").is_file():
             raise SystemExit(NEEDED.format(what="the Rust sources are not beside this folder: install from a whole checkout"))
@@ -30,5 +40,11 @@ class FmuHook(BuildHookInterface):
         if subprocess.run(command, cwd=root.parent, check=False).returncode:
             raise SystemExit(NEEDED.format(what="the build above failed"))
         build_data["force_include"][str(parts)] = "bevel_differential"
-        build_data["pure_python"] = False
-        build_data["tag"] = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+        name(build_data, "this-machine")
+
+
+def name(build_data, platforms):
+    """Lets the wheel's name tell its platforms, so that pip refuses it elsewhere."""
+    own = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    build_data["pure_python"] = False
+    build_data["tag"] = f"py3-none-{platforms.replace('this-machine', own)}"

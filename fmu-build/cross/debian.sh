@@ -45,10 +45,11 @@ unpack() { # PACKAGE...
     }
     for package in "$folder"/packages/*.deb; do
         echo "unpacking $(basename "$package" .deb)"
-        # of Rust's source only the standard library is built, of all else no tests and manuals are read
+        # of Rust's source only the standard library is built, of emulators one is used, of all else no tests and manuals are read
         dpkg-deb --fsys-tarfile "$package" | tar -x -C "$root" --no-wildcards-match-slash --exclude='./usr/src/rustc-*/[!l]*' \
             --exclude='./usr/share/man' --exclude='./usr/lib/debug' \
             --exclude='./usr/lib/gcc/i686-w64-mingw32' --exclude='./usr/i686-w64-mingw32' \
+            --exclude='./usr/bin/qemu-[!a]*' --exclude='./usr/libexec/qemu-binfmt' \
             --exclude='./usr/lib/x86_64-linux-gnu/wine/i386-windows'
     done
     rm -r "$folder/packages"

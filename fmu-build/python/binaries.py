@@ -1,7 +1,30 @@
-"""What a library for Linux (ELF) or Windows (PE) exports and what it needs of a system."""
+"""What a library for Linux (ELF), Windows (PE) or macOS (Mach-O) exports and what it needs of a system."""
 
+import hashlib
+import struct
+from pathlib import Path
+from typing import NamedTuple
+
+import lief
 import pefile
 from elftools.elf.elffile import ELFFile
+
+# Apple's names of the processors
+PROCESSORS = {lief.MachO.Header.CPU_TYPE.X86_64: "x86_64", lief.MachO.Header.CPU_TYPE.ARM64: "arm64"}
+# of Apple's cs_blobs.h: a signature of several parts, the part with the hashes of pages, how they are hashed, and a flag
+SUPER_BLOB, CODE_DIRECTORY, SHA_256, AD_HOC = 0xFADE0CC0, 0, 2, 0x2
+
+
+class MachO(NamedTuple):
+    """The library for one kind of processor: exported functions, libraries that it needs, its own name, folders that are searched,
+    the oldest system, as "11.0", and the signature: None, "ad hoc", "by somebody" or "broken"."""
+
+    exported: list[str]
+    needed: list[str]
+    own_name: list[str]
+    searched: list[str]
+    oldest: str
+    signature: str | None
 
 
 def of_linux(file):
@@ -18,9 +41,55 @@ def of_linux(file):
     return exported, needed, max(glibc)
 
 
+def processor_of_linux(file):
+    """ELF's name of the processor."""
+    with open(file, "rb") as stream:
+        return ELFFile(stream)["e_machine"]
+
+
 def of_windows(file):
     """Exported symbols and libraries."""
     image = pefile.PE(str(file))
     exported = [symbol.name.decode() for symbol in image.DIRECTORY_ENTRY_EXPORT.symbols]
     needed = [entry.dll.decode() for entry in image.DIRECTORY_ENTRY_IMPORT]
     return exported, needed
+
+
+def of_macos(file):
+    """For each kind of processor ("x86_64", "arm64"): a `MachO`."""
+    parsed = lief.MachO.parse(str(file))
+    assert parsed is not None, f"{file} is no library for macOS"
+    content = Path(file).read_bytes()
+    return {PROCESSORS[binary.header.cpu_type]: _mach_o(binary, content) for binary in parsed}
+
+
+def _mach_o(binary, content):
+    own, named = lief.MachO.LoadCommand.TYPE.ID_DYLIB, list(binary.libraries)
+    oldest = binary.build_version.minos if binary.has_build_version else binary.version_min.version
+    return MachO([symbol.name.removeprefix("_") for symbol in binary.exported_symbols],
+                 [library.name for library in named if library.command != own],
+                 [library.name for library in named if library.command == own],
+                 [command.path for command in binary.rpaths], ".".join(map(str, oldest[:2])), _signature(binary, content))
+
+
+def _signature(binary, content):
+    """"ad hoc" or "by somebody" if the signature holds for every page of the code; None without a signature, "broken" otherwise."""
+    if not binary.has_code_signature:
+        return None
+    begin = binary.fat_offset
+    place = begin + binary.code_signature.data_offset
+    blob = content[place:place + binary.code_signature.data_size]
+    magic, _, count = struct.unpack_from(">3I", blob)
+    found = {kind: at for kind, at in struct.iter_unpack(">2I", blob[12:12 + 8 * count])}
+    at = found.get(CODE_DIRECTORY)
+    if magic != SUPER_BLOB or at is None:
+        return "broken"
+    _, _, _, flags, hashes, _, _, pages, end, size, kind, _, page = struct.unpack_from(">9I4B", blob, at)
+    if size != hashlib.sha256().digest_size or kind != SHA_256 or end != binary.code_signature.data_offset:
+        return "broken"
+    code, step = content[begin:begin + end], 1 << page
+    wanted = [hashlib.sha256(code[first:first + step]).digest() for first in range(0, end, step)]
+    kept = [blob[at + hashes + k * size:at + hashes + (k + 1) * size] for k in range(pages)]
+    if wanted != kept:
+        return "broken"
+    return "ad hoc" if flags & AD_HOC else "by somebody"

@@ -43,7 +43,7 @@ fn said(script: &str, rust: &str) -> Result<String> {
 
 #[test]
 fn an_old_rust_is_refused_before_anything_is_downloaded() -> Result<()> {
-    for script in ["wasm.sh", "windows.sh"] {
+    for script in ["rust.sh", "windows.sh"] {
         for old in ["1.85.0", "1.9.1"] {
             let said = said(script, old)?;
             assert!(said.starts_with(&format!("Debian's rustc-web is Rust {old} here, and 1.89")), "{script}: {said}");
@@ -55,7 +55,7 @@ fn an_old_rust_is_refused_before_anything_is_downloaded() -> Result<()> {
 
 #[test]
 fn a_package_that_is_gone_is_told_with_what_to_do() -> Result<()> {
-    for script in ["wasm.sh", "windows.sh"] {
+    for script in ["rust.sh", "windows.sh", "aarch64.sh"] {
         for new in ["1.89.0", "1.96.1", "2.0.0"] {
             let said = said(script, new)?;
             assert!(said.starts_with("downloading; E: 404") && said.contains("apt-get update"), "{script}: {said}");

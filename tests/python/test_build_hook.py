@@ -30,10 +30,28 @@ def test_a_folder_without_the_sources_is_refused(hook, tmp_path):
         hook(tmp_path / "python").initialize("standard", {})
 
 
-def test_a_package_with_its_fmu_is_left_alone(hook, tmp_path):
+@pytest.fixture
+def complete(tmp_path):
+    """A package that has its FMU."""
     package = tmp_path / "src" / "bevel_differential"
     package.mkdir(parents=True)
     (package / "BevelDifferential.fmu").touch()
+    return tmp_path
+
+
+def test_a_package_with_its_fmu_is_left_alone(hook, complete, monkeypatch):
+    monkeypatch.delenv("BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS", raising=False)
     found = {}
-    hook(tmp_path).initialize("standard", found)
+    hook(complete).initialize("standard", found)
     assert found == {}
+
+
+@pytest.mark.parametrize("platforms, tag", [
+    ("manylinux_2_17_x86_64.win_amd64", "py3-none-manylinux_2_17_x86_64.win_amd64"),
+    ("this-machine.win_amd64", "py3-none-some_system_1_2.win_amd64")])
+def test_the_wheel_is_named_by_the_platforms_of_its_fmu(hook, complete, monkeypatch, platforms, tag):
+    monkeypatch.setattr("sysconfig.get_platform", lambda: "some-system-1.2")
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS", platforms)
+    found = {}
+    hook(complete).initialize("standard", found)
+    assert found == {"pure_python": False, "tag": tag}

@@ -34,10 +34,14 @@ DECLARED |= {name for name in dir(_FMU3) if name.startswith("fmi3")}
 WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32.dll", "bcrypt.dll", "advapi32.dll",
                "bcryptprimitives.dll"}
 # libraries that belong to glibc, and the unwinder of a plain build
-LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2"}
-# bytes in the archive: of the library of each platform, about half as much again as they have now, and of all else together:
-# description, documentation, licences, icon
-MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6}, 1.0e6
+LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+# the processors that ELF names, by platform
+PROCESSORS = {"linux64": "EM_X86_64", "aarch64-linux": "EM_AARCH64"}
+# the one library that macOS lets programs rely on, and the oldest system by processor
+MACOS_OWN, MACOS_OLDEST = ["/usr/lib/libSystem.B.dylib"], {"x86_64": "10.12", "arm64": "11.0"}
+# bytes in the archive: of the library of each platform, about half as much again as they have now, that for macOS being two, and of
+# all else together: description, documentation, licences, icon
+MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6, "aarch64-linux": 2.0e6, "darwin64": 4.0e6}, 1.0e6
 # the page, which is packed along if it was made, and is not counted
 LIVE = "documentation/BevelDifferential.html"
 # what FMI-LS-REF recommends beside the documentation
@@ -93,16 +97,22 @@ def test_nothing_demanded_is_missing(libraries, page):
 
 def test_libraries_export_the_functions_of_fmi_and_nothing_else(libraries):
     for platform, file in libraries.items():
-        exported = binaries.of_windows(file)[0] if file.suffix == ".dll" else binaries.of_linux(file)[0]
-        assert len(exported) == len(set(exported))
-        assert set(exported) == DECLARED, platform
+        if file.suffix == ".dylib":
+            all_exported = [library.exported for library in binaries.of_macos(file).values()]
+        else:
+            all_exported = [binaries.of_windows(file)[0] if file.suffix == ".dll" else binaries.of_linux(file)[0]]
+        for exported in all_exported:
+            assert len(exported) == len(set(exported))
+            assert set(exported) == DECLARED, platform
 
 
-def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page):
-    if "linux64" not in libraries:
-        pytest.skip("the archive holds no library for Linux")
-    _, needed, glibc = binaries.of_linux(libraries["linux64"])
-    promised = re.search(r"glibc (\d+)\.(\d+) or newer", page.text)
+@pytest.mark.parametrize("platform, processor", [("linux64", "x86-64"), ("aarch64-linux", "64-bit ARM")])
+def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page, platform, processor):
+    if platform not in libraries:
+        pytest.skip("the archive holds no library for Linux on this processor")
+    assert binaries.processor_of_linux(libraries[platform]) == PROCESSORS[platform]
+    _, needed, glibc = binaries.of_linux(libraries[platform])
+    promised = re.search(rf"Linux on {processor} with glibc (\d+)\.(\d+) or newer", page.text)
     if promised:
         assert glibc <= tuple(int(part) for part in promised.groups())
         assert set(needed) <= LINUX_OWN
@@ -117,6 +127,43 @@ def test_the_library_for_windows_needs_windows_alone(libraries):
     _, needed = binaries.of_windows(libraries["win64"])
     others = {name.lower() for name in needed if not name.lower().startswith(("api-ms-win-", "ext-ms-win-"))}
     assert others <= WINDOWS_OWN
+
+
+def test_the_library_for_macos_has_both_processors_and_is_signed_for_each(libraries):
+    if "darwin64" not in libraries:
+        pytest.skip("the archive holds no library for macOS")
+    found = binaries.of_macos(libraries["darwin64"])
+    assert {processor: library.oldest for processor, library in found.items()} == MACOS_OLDEST
+    for processor, library in found.items():
+        assert library.needed == MACOS_OWN, processor
+        assert library.signature == "ad hoc", processor
+        # neither is where it was built
+        assert library.own_name == ["@rpath/libbevel_differential.dylib"] and not library.searched, processor
+
+
+def test_a_changed_byte_breaks_the_signature(libraries, tmp_path):
+    if "darwin64" not in libraries:
+        pytest.skip("the archive holds no library for macOS")
+    content = bytearray(libraries["darwin64"].read_bytes())
+    content[content.index(b"src/variables")] ^= 1
+    (tmp_path / "changed.dylib").write_bytes(content)
+    assert sorted(library.signature for library in binaries.of_macos(tmp_path / "changed.dylib").values()) == ["ad hoc", "broken"]
+
+
+def test_fmi_3_has_the_same_libraries_by_its_own_names(archive, fmu_file):
+    other = Path(fmu_file).with_name("BevelDifferential3.fmu")
+    if not other.is_file():
+        pytest.skip("there is no FMU of FMI 3.0 beside this one")
+    names = {"linux64": ["x86_64-linux"], "win64": ["x86_64-windows"], "aarch64-linux": ["aarch64-linux"],
+             "darwin64": ["x86_64-darwin", "aarch64-darwin"]}
+    with zipfile.ZipFile(other) as three:
+        libraries = {PurePosixPath(name).parts[1]: three.read(name) for name in three.namelist() if name.startswith("binaries/")}
+    for name in [name for name in archive.namelist() if name.startswith("binaries/")]:
+        whole = archive.read(name)
+        for platform in names[PurePosixPath(name).parts[1]]:
+            # of a universal library the part
+            assert libraries.pop(platform) in whole, platform
+    assert not libraries
 
 
 def test_libraries_contain_no_path_of_the_machine_that_built_them(libraries):
@@ -198,12 +245,14 @@ def test_each_library_is_small_and_so_is_the_rest_of_the_archive(archive, fmu_fi
 
 
 @pytest.mark.parametrize("grown, file", [("linux64", "binaries/linux64/BevelDifferential.so"),
-                                         ("win64", "binaries/win64/BevelDifferential.dll"), ("the rest", "documentation/large.png")])
+                                         ("win64", "binaries/win64/BevelDifferential.dll"),
+                                         ("aarch64-linux", "binaries/aarch64-linux/BevelDifferential.so"),
+                                         ("darwin64", "binaries/darwin64/BevelDifferential.dylib"), ("the rest", "documentation/large.png")])
 def test_a_part_that_grows_is_too_large_whatever_else_is_in_the_archive(tmp_path, grown, file):
     limits = {**MAX_LIBRARY, "the rest": MAX_REST}
     with zipfile.ZipFile(tmp_path / "grown.fmu", "w") as made:
         made.writestr(LIVE, bytes(int(2 * max(limits.values()))))
-        for platform, ending in (("linux64", "so"), ("win64", "dll")):
+        for platform, ending in (("linux64", "so"), ("win64", "dll"), ("aarch64-linux", "so"), ("darwin64", "dylib")):
             if platform != grown:
                 made.writestr(f"binaries/{platform}/BevelDifferential.{ending}", bytes(int(0.9 * limits[platform])))
         assert not too_large(made)

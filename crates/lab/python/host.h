@@ -19,6 +19,8 @@ static struct {
     int (*set_integer)(Component, const Reference *, size_t, const int *);
     int (*set_boolean)(Component, const Reference *, size_t, const int *);
     int (*get_real)(Component, const Reference *, size_t, double *);
+    int (*get_integer)(Component, const Reference *, size_t, int *);
+    int (*get_boolean)(Component, const Reference *, size_t, int *);
     int (*step)(Component, double, double, int);
     int (*get_state)(Component, void **), (*set_state)(Component, void *);
     int (*events)(Component, void *), (*continuous)(Component);
@@ -76,7 +78,7 @@ static Component made(const char *path, const char *guid, int kind) {
 #define LOAD(field, name) fmi.field = find(library, "fmi2" name)
     LOAD(instantiate, "Instantiate"); LOAD(reset, "Reset"); LOAD(setup, "SetupExperiment"); LOAD(enter, "EnterInitializationMode");
     LOAD(leave, "ExitInitializationMode"); LOAD(set_real, "SetReal"); LOAD(set_integer, "SetInteger"); LOAD(set_boolean, "SetBoolean");
-    LOAD(get_real, "GetReal"); LOAD(step, "DoStep"); LOAD(get_state, "GetFMUstate"); LOAD(set_state, "SetFMUstate");
+    LOAD(get_real, "GetReal"); LOAD(get_integer, "GetInteger"); LOAD(get_boolean, "GetBoolean"); LOAD(step, "DoStep"); LOAD(get_state, "GetFMUstate"); LOAD(set_state, "SetFMUstate");
     LOAD(events, "NewDiscreteStates"); LOAD(continuous, "EnterContinuousTimeMode"); LOAD(get_states, "GetContinuousStates");
     LOAD(get_rates, "GetDerivatives"); LOAD(set_states, "SetContinuousStates");
 #undef LOAD

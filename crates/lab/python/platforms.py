@@ -1,168 +1,45 @@
-"""Simulates the same scenes with the library for each platform through fmpy and compares the bits of all outputs.
+"""Simulates the same scenes with the library for each platform and compares the bits of all outputs; looks at those for macOS.
 
-usage: platforms.py SCENES WINE64 NAME=FMU...
+usage: platforms.py SCENES FOLDER TOOL=FILE... NAME=FMU...
 
-Each FMU holds the library for one platform; the first one is what the others are compared with. One for win64 runs in
-fmpy's server under WINE64. Prints the tables of docs/fmi.md; fails if any bits differ. A line
-"progress FRACTION WHAT" on standard error reports progress.
+Each FMU holds the library for one platform; the first one is what the others are compared with. Tools: wine runs one for win64,
+in fmpy's server; qemu one for aarch64-linux, in far.c, which zig builds in FOLDER. Prints the tables of docs/fmi.md; fails if any
+bits differ, or if a library for macOS is not as it must be. A line "progress FRACTION WHAT" on standard error reports progress.
 """
 
-import os
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract
-from fmpy.fmi1 import FMICallException
-from fmpy.util import add_remoting
 
-import binaries
+import emulated
+import platform_hosts
 import platform_scenes
-from bevel_differential import DifferentialError, Fmu
 from bevel_differential.text import markdown
 from effects_list import effects
 from tools import WORKSPACE, say
 
 # where the list of effects is
 FMU = WORKSPACE / "target" / "fmu" / "BevelDifferential.fmu"
-# keeps a library from wider vector instructions; a platform whose name ends so is kept from them
-VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
-# what is timed, each as one step of this length [s], and how often
+# what is timed, each as one step of this length [s]
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects, impact": 0.05}
-REPEATS = 3
-# communication steps of a scene
-STEPS = 100
-# port of fmpy's server, time limit of its start [s], and pause between checks [s]
-PORT, START_TIMEOUT, PAUSE = 8080, 60.0, 0.1
+# beginnings of the libraries that every program of its system has
+C_LIBRARIES = ("libc.so", "libm.so", "libdl.so", "libpthread.so", "ld-linux", "/usr/lib/libSystem.B.dylib")
+TOOLS = ("wine", "qemu", "zig")
+# for which far.c is built
+ARM = "aarch64-linux-gnu.2.17"
 
 
-class Platform:
-    """An FMU with one library, and a server if that is for Windows."""
-
-    def __init__(self, name, fmu, wine):
-        self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
-        self.binary = next((self.folder / "binaries").glob("*/*"))
-        self.windows, self.wine = self.binary.suffix == ".dll", wine
-        if self.windows:
-            add_remoting(str(self.folder), "linux64", "win64")
-        self.fmu = Fmu(self.folder)
-        self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]
-
-    def close(self):
-        if self.server:
-            self.server.terminate()
-            self.server.wait()
-            self.server = None
-
-    def opened(self):
-        """A new instance; under wine with a new server, as that ends with the instance."""
-        # a library reads this variable at its first step
-        os.environ[VECTORS] = NARROW if self.name.endswith(NARROW) else ""
-        if self.windows:
-            self.close()
-            self.serve()
-        return self.fmu.open()
-
-    def end(self, instance):
-        """Frees an instance; under wine with its server, as fmpy's client waits forever for one it did not start."""
-        if self.windows:
-            instance.forget()
-            self.close()
-        else:
-            instance.close()
-
-    def serve(self):
-        """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
-        deadline = time.monotonic() + START_TIMEOUT
-        while is_listening():
-            self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
-        library = "Z:" + str(self.binary).replace("/", "\\")
-        server = str(self.binary.parent / "server_tcp.exe")
-        self.server = subprocess.Popen([self.wine, server, library], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.DEVNULL)
-        while not is_listening():
-            if self.server.poll() is not None:
-                sys.exit(f"fmpy's server did not start under wine: it ended with {self.server.returncode}")
-            self.wait(deadline, "fmpy's server did not start under wine")
-
-    @staticmethod
-    def wait(deadline, problem):
-        if time.monotonic() > deadline:
-            sys.exit(f"{problem}: no success after {START_TIMEOUT:g} s")
-        time.sleep(PAUSE)
-
-    def start(self, values):
-        """An initialised instance."""
-        return self.opened().initialise(values)
-
-    def record(self, values, events, tables, duration):
-        """All outputs at all communication points."""
-        step = duration / STEPS
-        instance = self.start(values)
-        rows, events = [], sorted(events, key=lambda event: event["time"])
-        for k in range(STEPS + 1):
-            rows.append(instance.read(self.outputs))
-            now = k * step
-            while events and events[0]["time"] <= now + 1e-9 * step:
-                event = events.pop(0)
-                instance.set({name: value for name, value in event.items() if name != "time"})
-            for table in tables:
-                within = now % table["period"] if "period" in table else now
-                points = [self.fmu.variable(table["input"]).number(value) for value in table["value"]]
-                instance.set({table["input"]: np.interp(within, table["time"], points)})
-            if k < STEPS:
-                instance.do_step(now, step)
-        self.end(instance)
-        return np.array(rows, dtype=float)
-
-    def seconds(self, values, duration):
-        """The least time that one step of `duration` takes."""
-        least = np.inf
-        for _ in range(REPEATS):
-            instance = self.start(values)
-            begin = time.perf_counter()
-            instance.step(duration)
-            least = min(least, time.perf_counter() - begin)
-            self.end(instance)
-        return least
-
-    def refuses(self):
-        """Statuses that wrong calls return, while the library stays usable."""
-        instance, statuses = self.opened(), []
-        module = self.fmu.variable("geometry.module").reference
-        for call in [lambda: instance.raw.setReal([10**6], [1.0]),
-                     lambda: instance.step(1e-3),
-                     lambda: instance.raw.setReal([module], [float("nan")]) or instance.initialise()]:
-            try:
-                call()
-                statuses.append("ok")
-            except (DifferentialError, FMICallException) as problem:
-                statuses.append(str(problem.status))
-        instance.reset()
-        self.end(instance)
-        return statuses
-
-
-def is_listening():
-    """Whether a server waits on the port; checked without connecting, as the server accepts one client."""
-    with open("/proc/net/tcp", encoding="ascii") as sockets:
-        rows = [line.split() for line in sockets][1:]
-    return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)
-
-
-def described(platform):
-    """A row of the table of platforms, and how many symbols the library exports, with those that are not FMI's."""
-    if platform.windows:
-        exported, needed = binaries.of_windows(platform.binary)
-        version = "–"
-    else:
-        exported, needed, glibc = binaries.of_linux(platform.binary)
-        version = ".".join(str(part) for part in glibc)
-    others = [name for name in exported if not name.startswith(("fmi2", "fmi3"))]
-    size = platform.binary.stat().st_size / 1e6
-    return [platform.name, f"{size:.2f}", version, ", ".join(needed)], [len(exported), *others]
+def platform(name, fmu, tools, folder):
+    """What runs the FMU of this name."""
+    if name.startswith("win64"):
+        return platform_hosts.Windows(name, fmu, tools["wine"])
+    if name.startswith("aarch64-linux"):
+        host = emulated.compiled([tools["zig"], "-m", "ziglang", "cc", "-target", ARM], folder)
+        return platform_hosts.Arm(name, fmu, tools["qemu"], host)
+    if name.startswith("darwin64"):
+        return platform_hosts.MacOS(name, fmu)
+    return platform_hosts.Platform(name, fmu)
 
 
 def compared(one, other):
@@ -179,54 +56,77 @@ def compared(one, other):
 
 
 def main():
-    folder, wine, *named = sys.argv[1:]
+    folder, work, *pairs = sys.argv[1:]
+    named = dict(pair.split("=", 1) for pair in pairs)
+    tools = {name: named.pop(name) for name in TOOLS if name in named}
     platforms = []
     try:
-        for name, fmu in (pair.split("=", 1) for pair in named):
+        for name, fmu in named.items():
             say(0.0, f"starting {name}")
-            platforms.append(Platform(name, fmu, wine))
+            platforms.append(platform(name, fmu, tools, work))
         text, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder), effects(FMU))))
     finally:
-        for platform in platforms:
-            platform.close()
+        for each in platforms:
+            each.close()
     if not same:
         sys.exit(f"the libraries do not agree:\n{text}")
     print(text, end="")
 
 
 def tables(platforms, scenes):
-    first, *others = platforms
-    described_as, exported = zip(*map(described, platforms))
-    text = markdown([["library", "MB", "glibc", "libraries needed"], *described_as], left=(0, 3)) + "\n"
-    counts = " or ".join(sorted({str(count) for count, *_ in exported}))
-    foreign = ", ".join(sorted({name for _, *names in exported for name in names}))
-    text += f"Each exports {counts} symbols, {'not of FMI: ' + foreign if foreign else 'all of FMI'}.\n\n"
-    values, columns = 0, [platform.name for platform in others]
-    rows = [["scene", *columns]]
-    lines = [["one step", "simulated", first.name, *columns]]
+    """The tables, and whether all agrees."""
+    run = [each for each in platforms if each.run_by]
+    text, same, values = comparison(run, scenes)
+    described = [each.described() for each in platforms]
+    rows = [["library", "built by", "run by", "other bits", "MB", "oldest system"]]
+    needs = {}
+    for each, (_, needed, oldest) in zip(platforms, described):
+        bits = "–" if each is run[0] or not each.run_by else "none" if same else "see below"
+        size = f"{each.binary.stat().st_size / 1e6:.2f}"
+        rows.append([each.name, each.built_by, each.run_by or "inspected alone", bits, size, oldest])
+        # several of one platform may be alike
+        needs.setdefault(", ".join(name for name in needed if not name.startswith(C_LIBRARIES)), each.name)
+    counts = " or ".join(sorted({str(len(exported)) for exported, *_ in described}))
+    foreign = ", ".join(sorted({name for exported, *_ in described for name in exported if not name.startswith(("fmi2", "fmi3"))}))
+    head = markdown(rows, left=(0, 1, 2, 3, 5)) + "\n"
+    head += f"Each exports {counts} functions, {'not of FMI: ' + foreign if foreign else 'all of FMI'}. Beside the system's C library "
+    head += "; ".join(f"{name} needs {needed}" for needed, name in needs.items() if needed) + ".\n\n"
+    head += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
+    text = head + text + timed(run, scenes)
+    statuses = {tuple(each.refuses()) for each in run}
+    words = "; ".join(", ".join(one) for one in statuses)
+    text += (f"\nAn unknown variable, a step before initialisation and a module that is NaN return status {words} "
+             f"{'in all that run' if len(statuses) == 1 else '(NOT alike)'}.\n")
+    return text, same and len(statuses) == 1
+
+
+def comparison(run, scenes):
+    """What differs, in words, whether nothing does, and how many values there are."""
+    first, *others = run
+    values, rows = 0, [["scene", *(each.name for each in others)]]
     for index, (name, settings, *rest) in enumerate(scenes):
         say(0.9 * index / len(scenes), name)
         wanted = first.record(settings, *rest)
-        found = [compared(wanted, platform.record(settings, *rest)) for platform in others]
+        found = [compared(wanted, each.record(settings, *rest)) for each in others]
         values += wanted.size
         if not all(agrees for agrees, _ in found):
             rows.append([name, *(words for _, words in found)])
     same = len(rows) == 1
-    text += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
-    text += "the same bits in all libraries.\n\n" if same else f"different bits in these scenes:\n\n{markdown(rows, left=range(len(rows[0])))}\n"
+    text = "the same bits in all libraries that run.\n\n" if same else f"different bits in these scenes:\n\n{markdown(rows, left=range(len(rows[0])))}\n"
+    return text, same, values
+
+
+def timed(run, scenes):
+    """The table of times of one step; those of an emulator say nothing about a processor."""
+    first, *others = [each for each in run if each.is_timed]
+    lines = [["one step", "simulated", first.name, *(each.name for each in others)]]
     for index, (name, duration) in enumerate(TIMED.items()):
         say(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
         settings = next(scene[1] for scene in scenes if scene[0] == name)
-        seconds = [platform.seconds(settings, duration) for platform in platforms]
+        seconds = [each.seconds(settings, duration) for each in (first, *others)]
         lines.append([name, f"{duration:g} s", f"{1e3 * seconds[0]:.1f} ms",
                       *(f"×{one / seconds[0]:.2f}" for one in seconds[1:])])
-    text += markdown(lines) + "\n"
-    statuses = {tuple(platform.refuses()) for platform in platforms}
-    same &= len(statuses) == 1
-    words = "; ".join(", ".join(one) for one in statuses)
-    text += (f"An unknown variable, a step before initialisation and a module that is NaN return status {words} "
-             f"{'in all' if len(statuses) == 1 else '(NOT alike)'}.\n")
-    return text, same
+    return markdown(lines)
 
 
 if __name__ == "__main__":

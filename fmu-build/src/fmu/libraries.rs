@@ -6,9 +6,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
-use crate::fmu::own;
 use crate::fmu::toolchains::{self, GLIBC, UnpackedToolchain, WINDOWS, WINDOWS_TARGET};
-use crate::tools::python::Environment;
+use crate::fmu::{darwin, linux, own};
 use crate::tools::{paths, progress};
 
 /// The crate that is the FMU, and the one that answers questions for the Python package.
@@ -26,11 +25,25 @@ pub(super) const HOST: (&str, &str) = if cfg!(target_os = "windows") {
     ("linux64", "so")
 };
 
+/// FMI 3.0's name of this machine's platform, as far as the FMU has been built there.
+const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes()) {
+    (false, b"win64") => "x86_64-windows",
+    (false, b"darwin64") => "x86_64-darwin",
+    (false, _) => "x86_64-linux",
+    (true, b"win64") => "aarch64-windows",
+    (true, b"darwin64") => "aarch64-darwin",
+    (true, _) => "aarch64-linux",
+};
+
 /// The library for one platform.
 #[derive(Clone, Debug)]
 pub struct Library {
-    /// FMI's name of the platform.
+    /// FMI's name of the platform, in version 2.0.
     pub platform: &'static str,
+    /// The names in FMI 3.0, each with its file: where one platform of 2.0 is two of 3.0, parts of the whole.
+    pub in_fmi3: Vec<(&'static str, PathBuf)>,
+    /// What pip calls the platforms, joined by dots; "this-machine" where it finds out itself.
+    pub in_wheels: &'static str,
     /// Ending of the file, without the dot.
     pub ending: &'static str,
     /// What was built.
@@ -67,34 +80,28 @@ pub struct Libraries {
 
 /// Builds the FMU's library with every tool chain that is installed.
 pub fn build() -> Result<Libraries> {
-    let (mut built, mut left_out, mut ships) = (Vec::new(), Vec::new(), true);
-    match old_linux()? {
-        Some(library) => built.push(library),
-        None => {
-            built.push(for_this_machine()?);
-            ships = false;
-            if CROSS {
-                left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
-            }
-        }
+    let (mut built, mut left_out) = (Vec::new(), Vec::new());
+    let old_linux = linux::x86_64()?;
+    let mut ships = old_linux.is_some();
+    if CROSS && !ships {
+        left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
     }
-    match windows()? {
-        Some(library) => {
-            built.push(library);
-            ships = true;
-        }
-        None if CROSS => left_out.push("win64 is left out".to_owned()),
-        None => left_out.push(format!("the FMU holds {} alone", HOST.0)),
+    built.push(old_linux.map_or_else(for_this_machine, Ok)?);
+    if !CROSS {
+        left_out.push(format!("the FMU holds {} alone", HOST.0));
+        return Ok(Libraries { built, left_out, ships });
     }
-    if CROSS && let Some(last) = left_out.last_mut() {
+    let others = [("win64", windows()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)];
+    ships |= others.iter().any(|(_, library)| library.is_some());
+    let missing: Vec<&str> = others.iter().filter(|(_, library)| library.is_none()).map(|(name, _)| *name).collect();
+    built.extend(others.into_iter().filter_map(|(_, library)| library));
+    if !missing.is_empty() {
+        left_out.push(format!("left out: {}", missing.join(", ")));
+    }
+    if let Some(last) = left_out.last_mut() {
         last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
     }
     Ok(Libraries { built, left_out, ships })
-}
-
-/// The library for old Linux systems, if its tool chain is installed.
-pub(super) fn old_linux() -> Result<Option<Library>> {
-    toolchains::old_linux().found().filter(|_| CROSS).map(|tools| for_old_linux(&tools)).transpose()
 }
 
 /// The library for Windows, if a tool chain for it is installed.
@@ -119,7 +126,17 @@ pub fn for_this_machine() -> Result<Library> {
         command.arg("build");
         distributable(command, "this-machine", HOST.1, &[])
     })?;
-    Ok(Library { platform: HOST.0, ending: HOST.1, file, answers, needs: needs.into(), added: Vec::new() })
+    let in_fmi3 = vec![(HOST_IN_FMI3, file.clone())];
+    Ok(Library {
+        platform: HOST.0,
+        in_fmi3,
+        in_wheels: "this-machine",
+        ending: HOST.1,
+        file,
+        answers,
+        needs: needs.into(),
+        added: Vec::new(),
+    })
 }
 
 /// Builds the dynamic library of `package`, which is not the FMU's, for this machine with cargo and returns its path.
@@ -129,30 +146,6 @@ pub fn build_library(package: &str) -> Result<PathBuf> {
     command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
     let [library] = built_by(command, [package], HOST.1)?;
     Ok(library)
-}
-
-fn for_old_linux(tools: &Environment) -> Result<Library> {
-    let programs = tools.programs();
-    let mut command = Command::new(programs.join("cargo-zigbuild"));
-    command
-        .args(["zigbuild", "--target", &format!("x86_64-unknown-linux-gnu.{GLIBC}")])
-        .env("CARGO", cargo())
-        .env("PATH", toolchains::path_with(&programs)?)
-        .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
-    let [file, answers] = distributable(command, "linux64", "so", &[])?;
-    let unwinder = AddedPart {
-        name: "LLVM libunwind",
-        licence: "Apache-2.0 WITH LLVM-exception",
-        text: tools.packages()?.join("ziglang").join("lib").join("libunwind").join("LICENSE.TXT"),
-    };
-    Ok(Library {
-        platform: "linux64",
-        ending: "so",
-        file,
-        answers,
-        needs: format!("Linux on x86-64 with glibc {GLIBC} or newer"),
-        added: vec![unwinder],
-    })
 }
 
 fn for_windows(tools: &UnpackedToolchain) -> Result<Library> {
@@ -199,6 +192,8 @@ fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Li
     ];
     Ok(Library {
         platform: "win64",
+        in_fmi3: vec![("x86_64-windows", file.clone())],
+        in_wheels: "win_amd64",
         ending: "dll",
         file,
         answers,
@@ -209,7 +204,7 @@ fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Li
 
 /// Builds the libraries of [`CRATES`] by `options` of the compiler, without paths of this machine. It has a separate
 /// target folder, because the compiler may differ, and its options always do.
-fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<[PathBuf; 2]> {
+pub(super) fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<[PathBuf; 2]> {
     let options: Vec<String> =
         without_folders().into_iter().chain(options.iter().map(|&option| option.into())).collect();
     command

@@ -2,6 +2,7 @@
 //! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
 //! `evidence`, `toolchains`.
 
+pub mod darwin;
 pub mod dependencies;
 pub mod describe;
 pub mod describe3;
@@ -10,6 +11,7 @@ pub mod effect_list;
 pub mod evidence;
 pub mod libraries;
 pub mod licences;
+pub mod linux;
 pub mod own;
 pub mod package;
 pub mod page;

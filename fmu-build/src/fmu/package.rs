@@ -40,14 +40,12 @@ pub enum Version {
 }
 
 impl Version {
-    /// The folder of a platform's library, which is given by its name in FMI 2.0.
-    fn platform(self, name: &str) -> String {
-        if self == Self::Two {
-            return name.to_owned();
+    /// Folders and files of a platform's library.
+    fn binaries(self, library: &Library) -> Vec<(&'static str, &Path)> {
+        match self {
+            Self::Two => vec![(library.platform, &library.file)],
+            Self::Three => library.in_fmi3.iter().map(|(name, file)| (*name, file.as_path())).collect(),
         }
-        let machine = if name.ends_with("64") { "x86_64" } else { std::env::consts::ARCH };
-        let system = name.trim_end_matches(|c: char| c.is_ascii_digit());
-        format!("{machine}-{}", if system == "win" { "windows" } else { system })
     }
 
     fn description(self) -> Result<String> {
@@ -139,9 +137,10 @@ fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing
     for (path, file) in evidence::files()? {
         add(&path, &read(&file)?, PLAIN)?;
     }
-    for Library { platform, ending, file, .. } in libraries {
-        let platform = version.platform(platform);
-        add(&format!("binaries/{platform}/{MODEL_NAME}.{ending}"), &read(file)?, EXECUTABLE)?;
+    for library in libraries {
+        for (platform, file) in version.binaries(library) {
+            add(&format!("binaries/{platform}/{MODEL_NAME}.{}", library.ending), &read(file)?, EXECUTABLE)?;
+        }
     }
     let licences = licences::collected(CRATES[0], libraries)?;
     let tests = evidence::document()?;

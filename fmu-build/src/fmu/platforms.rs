@@ -5,6 +5,7 @@ use clap::ValueEnum;
 
 use crate::fmu::libraries::{self, CROSS, HOST, Library};
 use crate::fmu::toolchains::{self, WINDOWS};
+use crate::fmu::{darwin, linux};
 
 /// A platform to build the library for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -13,20 +14,37 @@ pub enum Platform {
     Linux64,
     /// Windows on x86-64
     Win64,
+    /// Linux on 64-bit ARM, old systems too
+    #[value(name = "aarch64-linux")]
+    ArmLinux,
+    /// macOS on x86-64 and on ARM
+    Darwin64,
     /// This machine, and systems as new as it
     ThisMachine,
 }
 
-/// Builds the library for each of `platforms`. A missing tool chain is an error before the first build.
+/// What is shipped as far as tool chains are installed.
+pub const SHIPPED: [Platform; 4] = [Platform::Linux64, Platform::Win64, Platform::ArmLinux, Platform::Darwin64];
+
+/// Builds the library for each of `platforms`, for all that are shipped if there are none. A missing tool chain of a platform
+/// that was chosen is an error before the first build; so is it that no platform can be shipped.
 pub fn build(platforms: &[Platform]) -> Result<Vec<Library>> {
+    let possible: Vec<Platform> = SHIPPED.into_iter().filter(|platform| platform.can_be_built()).collect();
+    let platforms = match platforms {
+        [] if possible.is_empty() => &SHIPPED[..1],
+        [] => &possible,
+        chosen => chosen,
+    };
     for (i, platform) in platforms.iter().enumerate() {
         let twice = platforms[..i].iter().any(|other| other.fmi_name() == platform.fmi_name());
         ensure!(!twice, "the platform {} is chosen twice; choose it once", platform.fmi_name());
         ensure!(platform.can_be_built(), "{}", platform.hint());
     }
     let built = platforms.iter().map(|platform| match platform {
-        Platform::Linux64 => libraries::old_linux(),
+        Platform::Linux64 => linux::x86_64(),
         Platform::Win64 => libraries::windows(),
+        Platform::ArmLinux => linux::arm(),
+        Platform::Darwin64 => darwin::universal(),
         Platform::ThisMachine => libraries::for_this_machine().map(Some),
     });
     built.filter_map(Result::transpose).collect()
@@ -38,14 +56,18 @@ impl Platform {
         match self {
             Self::Linux64 => "linux64",
             Self::Win64 => "win64",
+            Self::ArmLinux => "aarch64-linux",
+            Self::Darwin64 => "darwin64",
             Self::ThisMachine => HOST.0,
         }
     }
 
     fn can_be_built(self) -> bool {
         match self {
-            Self::Linux64 => CROSS && toolchains::old_linux().found().is_some(),
+            Self::Linux64 => linux::has_x86_64(),
             Self::Win64 => CROSS && (WINDOWS.found().is_some() || libraries::rustup_has_windows()),
+            Self::ArmLinux => linux::has_arm(),
+            Self::Darwin64 => darwin::has_universal(),
             Self::ThisMachine => true,
         }
     }
@@ -56,7 +78,7 @@ impl Platform {
         if CROSS {
             format!(
                 "the tool chain for {name} is not installed. Install it: {install} {name}; or choose other platforms: \
-                 --platforms linux64, win64 or this-machine"
+                 --platforms linux64, win64, aarch64-linux, darwin64 or this-machine"
             )
         } else {
             format!("the library for {name} is built on Linux on x86-64. Here choose --platforms this-machine")

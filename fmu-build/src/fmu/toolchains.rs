@@ -25,17 +25,21 @@ pub const GLIBC: &str = "2.17";
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 /// The second one.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
+/// That for Linux on ARM.
+pub const ARM_TARGET: &str = "aarch64-unknown-linux-gnu";
+/// Those for macOS: on x86-64 and on ARM.
+pub const DARWIN_TARGETS: [&str; 2] = ["x86_64-apple-darwin", "aarch64-apple-darwin"];
 
 /// Oldest Rust that compiles the library.
 const OLDEST_RUST: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Installs the tool chains for old Linux systems, for Windows, with wine, and for browsers in target/toolchains
+/// Installs the tool chains for old Linux systems, ARM, macOS, Windows and browsers, with qemu and wine, in target/toolchains
 ///
-/// They need Debian on x86-64, 500 MB to download and 3 GB on disk. Packaging uses them from then on.
+/// They need Debian on x86-64, 600 MB to download and 3 GB on disk. Packaging uses them from then on.
 #[derive(Args, Clone, Debug)]
 pub struct ToolchainsCommand {
     /// Install only this one
-    #[arg(value_parser = ["linux64", "win64", "wasm"])]
+    #[arg(value_parser = ["linux64", "aarch64-linux", "darwin64", "win64", "wasm"])]
     platform: Option<String>,
 }
 
@@ -50,18 +54,29 @@ impl ToolchainsCommand {
         let wanted = |name: &str| self.platform.as_deref().is_none_or(|only| only == name);
         let progress = Progress::start("looking for Python");
         let mut made = Vec::new();
-        if wanted("linux64") {
+        // zig links for ARM as well, and describes the library of macOS
+        if ["linux64", "aarch64-linux", "darwin64"].into_iter().any(wanted) {
             let linux = old_linux().made(|what| progress.stage(what))?;
             made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
+        }
+        if wanted("aarch64-linux") {
+            Compiler::made(&[ARM_TARGET], &progress)?;
+            let arm = ARM.made(&progress)?;
+            made.push(format!("aarch64-linux, qemu:   {}", paths::shown(&arm.programs())));
+        }
+        if wanted("darwin64") {
+            Compiler::made(&DARWIN_TARGETS, &progress)?;
+            let darwin = DARWIN.made(&progress)?;
+            made.push(format!("darwin64:              {}", paths::shown(&darwin.programs())));
         }
         if wanted("win64") {
             let windows = WINDOWS.made(&progress)?;
             made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
         }
         if wanted("wasm") {
-            let place = match Wasm::found() {
-                Some(Wasm::Rustup) => format!("rustup's target {WASM_TARGET}, nothing to install"),
-                _ => paths::shown(&WASM.made(&progress)?.programs()),
+            let place = match Compiler::made(&[WASM_TARGET], &progress)? {
+                Compiler::Installed => format!("rustup's target {WASM_TARGET}, nothing to install"),
+                Compiler::Unpacked(tools) => paths::shown(&tools.programs()),
             };
             made.push(format!("browsers:              {place}"));
         }
@@ -71,7 +86,7 @@ impl ToolchainsCommand {
     }
 }
 
-/// The linker for old Linux systems.
+/// The linker for old Linux systems, on x86-64 and on ARM.
 pub fn old_linux() -> Wanted {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
     Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
@@ -88,9 +103,14 @@ pub struct DebianToolchain {
 /// Rust for Windows, a linker, and wine.
 pub const WINDOWS: DebianToolchain =
     DebianToolchain { name: "windows", what: "Rust, MinGW and wine for Windows (280 MB to download)" };
-/// Rust for WebAssembly and a linker.
-const WASM: DebianToolchain =
-    DebianToolchain { name: "wasm", what: "Rust and a linker for WebAssembly (150 MB to download)" };
+/// Rust for browsers, ARM and macOS, and linkers.
+const RUST: DebianToolchain =
+    DebianToolchain { name: "rust", what: "Rust for browsers, ARM and macOS (150 MB to download)" };
+/// What runs the library for ARM: qemu and glibc.
+pub const ARM: DebianToolchain =
+    DebianToolchain { name: "aarch64", what: "qemu and glibc for ARM (64 MB to download)" };
+/// What links for macOS.
+pub const DARWIN: DebianToolchain = DebianToolchain { name: "darwin", what: "what links for macOS" };
 
 impl DebianToolchain {
     /// The tool chain, if the present scripts installed it.
@@ -136,19 +156,50 @@ impl DebianToolchain {
     }
 }
 
-/// What compiles for browsers.
-pub enum Wasm {
-    /// rustup's own target, with its linker.
-    Rustup,
+/// What compiles for targets whose standard library this machine may lack.
+pub enum Compiler {
+    /// The Rust of this machine, with rustup's own targets.
+    Installed,
     /// Debian's Rust.
     Unpacked(UnpackedToolchain),
 }
 
-impl Wasm {
-    /// rustup's target if it is installed, otherwise what was unpacked.
-    pub fn found() -> Option<Self> {
-        if has_target(WASM_TARGET) { Some(Self::Rustup) } else { WASM.found().map(Self::Unpacked) }
+impl Compiler {
+    /// rustup's targets if all of them are installed, otherwise what was unpacked.
+    pub fn found(targets: &[&str]) -> Option<Self> {
+        let installed = targets.iter().all(|target| has_target(target));
+        if installed { Some(Self::Installed) } else { RUST.found().map(Self::Unpacked) }
     }
+
+    fn made(targets: &[&str], progress: &Progress) -> Result<Self> {
+        Self::found(targets).map_or_else(|| RUST.made(progress).map(Self::Unpacked), Ok)
+    }
+
+    /// Lets `cargo` compile by it, and where it has only the source of the standard library, that too.
+    pub fn compile(&self, cargo: &mut Command) {
+        if let Self::Unpacked(tools) = self {
+            cargo
+                .arg("-Zbuild-std=std,panic_unwind")
+                .env("RUSTC", tools.programs().join("rustc"))
+                // Debian's Rust is a stable one, and building the standard library is not yet
+                .env("RUSTC_BOOTSTRAP", "1");
+        }
+    }
+}
+
+/// What compiles for Linux on ARM. What was unpacked for browsers does only after `toolchains aarch64-linux`: packaging is to
+/// hold what was asked for.
+pub fn for_arm() -> Option<Compiler> {
+    if has_target(ARM_TARGET) {
+        Some(Compiler::Installed)
+    } else {
+        ARM.found().and_then(|_| Compiler::found(&[ARM_TARGET]))
+    }
+}
+
+/// What compiles for macOS, and what links.
+pub fn for_darwin() -> Option<(Compiler, UnpackedToolchain)> {
+    Compiler::found(&DARWIN_TARGETS).zip(DARWIN.found())
 }
 
 /// Whether the Rust of this machine has the standard library of a target, as rustup installs it.
@@ -163,6 +214,11 @@ pub struct UnpackedToolchain(PathBuf);
 impl UnpackedToolchain {
     fn stamp(&self) -> PathBuf {
         self.0.join("stamp")
+    }
+
+    /// The folder itself.
+    pub fn folder(&self) -> &Path {
+        &self.0
     }
 
     /// The folder with the programs to call: rustc, a linker, wine64.

@@ -25,13 +25,14 @@ const EXAMPLES: [(&str, &[&str]); 2] = [("design", &["toml", "csv"]), ("vehicle"
 /// The licences of the project. Those of all that the FMU links lie in the FMU.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Builds target/wheel/bevel_differential-VERSION-py3-none-any.whl, the Python package with the FMU in it
+/// Builds target/wheel/bevel_differential-VERSION-py3-none-PLATFORMS.whl, the Python package with the FMU in it
 ///
-/// The FMU holds the libraries of the platforms chosen. Their tool chains come from the command `toolchains`.
+/// The FMU holds the libraries of the platforms chosen, of all whose tool chains are installed if none is. Tool chains come from
+/// the command `toolchains`.
 #[derive(Args, Clone, Debug)]
 pub struct WheelCommand {
     /// Platforms that the FMU in the wheel is for
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Platform::Linux64, Platform::Win64])]
+    #[arg(long, value_enum, value_delimiter = ',')]
     platforms: Vec<Platform>,
     /// Write what the wheel holds beside Python's files to this folder, and no wheel; `pip install ./python` asks for it
     #[arg(long, value_name = "FOLDER")]
@@ -60,7 +61,7 @@ impl WheelCommand {
         for Library { platform, needs, .. } in &libraries {
             println!("{platform}: {needs}");
         }
-        for platform in [Platform::Linux64, Platform::Win64].map(Platform::fmi_name) {
+        for platform in platforms::SHIPPED.map(Platform::fmi_name) {
             if libraries.iter().all(|library| library.platform != platform) {
                 println!("{platform} is left out");
             }
@@ -75,12 +76,14 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
     remove(&source)?;
     remove(&built)?;
     stage(libraries, &source)?;
+    let platforms: Vec<&str> = libraries.iter().map(|library| library.in_wheels).collect();
     let mut pip = environment.command();
     pip.args(["-m", "pip", "wheel", "--quiet", "--no-input", "--disable-pip-version-check"])
         // the backend is a package of the environment, which has its pinned version
         .args(["--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir"])
         .arg(&built)
         .arg(source.join("python"))
+        .env("BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS", platforms.join("."))
         .env("SOURCE_DATE_EPOCH", TIME);
     python::finish(&mut pip, "the wheel cannot be built")?;
     let wheel = fs::read_dir(&built)?.next().context("pip built no wheel")??.path();

@@ -6,7 +6,6 @@ import ctypes
 import json
 import os
 import signal
-import sys
 import threading
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
@@ -16,13 +15,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from . import machine
 from .values import DifferentialError
 
 # told the part of the work that is done, from 0 to 1, and what is being done
 Progress: TypeAlias = Callable[[float, str], None]
 
 _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
-_PLATFORMS = {"linux": ("linux64", "libanswers.so"), "win32": ("win64", "answers.dll"), "darwin": ("darwin64", "libanswers.dylib")}
 
 
 def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress: Progress | None = None) -> dict[str, Any]:
@@ -91,8 +90,7 @@ def _interrupts(raised):
 
 @cache
 def _library() -> ctypes.CDLL:
-    platform, name = _PLATFORMS.get(sys.platform, ("linux64", "libanswers.so"))
-    shipped = Path(__file__).with_name("answers") / platform / name
+    platform, shipped = machine.answers(Path(__file__).with_name("answers"))
     file = Path(os.environ.get("BEVEL_DIFFERENTIAL_ANSWERS") or shipped)
     if not file.is_file():
         raise DifferentialError(f"{file} is missing: this package was built without its library of answers for {platform}; install "

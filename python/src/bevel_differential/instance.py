@@ -8,6 +8,7 @@ from typing import Any, Self
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
+from . import machine
 from .batches import Batches
 from .values import DifferentialError, Number, Value, Variable
 
@@ -52,8 +53,9 @@ class Instance(Closing):
         self._failure: str | None = None
         description = fmu.description
         make, element = KINDS[kind]
-        self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name,
-                        modelIdentifier=getattr(description, element).modelIdentifier)
+        identifier = getattr(description, element).modelIdentifier
+        self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name, modelIdentifier=identifier,
+                        libraryPath=machine.fmu_library(fmu.folder, identifier))
         # kept: the library calls them as long as the instance lives
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.logger = fmi2CallbackLoggerTYPE(self._record)

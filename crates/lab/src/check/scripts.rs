@@ -1,9 +1,10 @@
 //! The commands that check by scripts of crates/lab/python.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use bevel_differential::model::EFFECTS;
 use clap::{Arg, ArgMatches, value_parser};
 use fmu_build::tools::paths;
@@ -30,14 +31,24 @@ fn wheel(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
     let wheel = match options.get_one::<PathBuf>("wheel") {
         Some(file) => file.clone(),
         None => {
-            let file =
-                paths::wheel().join(format!("bevel_differential-{}-py3-none-any.whl", env!("CARGO_PKG_VERSION")));
-            ensure!(file.is_file(), "{} is not there; build it: cargo run --release -- wheel", paths::shown(&file));
-            file
+            let begin = format!("bevel_differential-{}-py3-none-", env!("CARGO_PKG_VERSION"));
+            newest(&paths::wheel(), &begin).with_context(|| {
+                format!("no wheel is in {}; build it: cargo run --release -- wheel", paths::shown(&paths::wheel()))
+            })?
         }
     };
     let found = wheel.canonicalize().with_context(|| format!("{} cannot be read", paths::shown(&wheel)))?;
     Ok(vec![found.into()])
+}
+
+/// The wheel built last: names differ by platforms.
+fn newest(folder: &Path, begin: &str) -> Option<PathBuf> {
+    let files = fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+    let wheels = files.filter(|file| {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with(begin) && name.ends_with(".whl")
+    });
+    wheels.max_by_key(|file| fs::metadata(file).and_then(|metadata| metadata.modified()).ok())
 }
 
 /// Effects that are off, in bits and in instructions that valgrind counts.
@@ -137,10 +148,10 @@ pub const HOSTS: Script = Script {
     ..DEFAULTS
 };
 
-/// The same scenes with the library for each platform, Windows under wine: the bits of all outputs, and the time.
+/// The same scenes with the library for each platform that something here runs: the bits of all outputs, and the time.
 pub const PLATFORMS: Script = Script {
     name: "platforms",
-    about: "Checks that the libraries of all platforms give the same bits, Windows under wine",
+    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
     options: || vec![flag("write", "Also renew docs/fmi.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",

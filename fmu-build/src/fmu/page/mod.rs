@@ -12,7 +12,7 @@ use bevel_differential::variables::guid;
 use clap::Args;
 
 use crate::fmu::libraries;
-use crate::fmu::toolchains::{self, WASM_TARGET, Wasm};
+use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::tools::files::copy_folder;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -48,7 +48,7 @@ pub struct PageCommand {
 impl PageCommand {
     /// Builds the page and prints where it is.
     pub fn run(&self) -> Result<()> {
-        let Some(tools) = Wasm::found() else {
+        let Some(tools) = Compiler::found(&[WASM_TARGET]) else {
             bail!(
                 "the tool chain for browsers is not installed: rustup target add {WASM_TARGET}, or {} wasm",
                 toolchains::COMMAND
@@ -69,7 +69,7 @@ impl PageCommand {
 }
 
 /// The library for browsers, compiled in so many parts at this level of optimisation.
-fn library(tools: &Wasm, [parts, level]: [&str; 2]) -> Result<PathBuf> {
+fn library(tools: &Compiler, [parts, level]: [&str; 2]) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("wasm");
     let mut cargo = Command::new(libraries::cargo());
     cargo
@@ -80,7 +80,7 @@ fn library(tools: &Wasm, [parts, level]: [&str; 2]) -> Result<PathBuf> {
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
         .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
-    if let Wasm::Unpacked(tools) = tools {
+    if let Compiler::Unpacked(tools) = tools {
         cargo
             .arg("-Zbuild-std=std,panic_abort")
             .env("RUSTC", tools.programs().join("rustc"))

@@ -1,0 +1,197 @@
+"""What runs the library for each platform: this process, fmpy's server under wine, qemu; and what only looks at it."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract
+from fmpy.fmi1 import FMICallException
+from fmpy.util import add_remoting
+
+import binaries
+from bevel_differential import DifferentialError, Fmu
+from emulated import Emulated
+
+# keeps a library from wider vector instructions; a platform whose name ends so is kept from them
+VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
+# communication steps of a scene
+STEPS = 100
+# how often a step is timed
+REPEATS = 3
+# port of fmpy's server, time limit of its start [s], and pause between checks [s]
+PORT, START_TIMEOUT, PAUSE = 8080, 60.0, 0.1
+
+
+class Platform:
+    """An FMU with one library, which runs in this process."""
+
+    run_by = "this machine"
+    # what compiles and links
+    built_by = property(lambda self: "Rust, zig" if "glibc" in self.name else "Rust, gcc")
+    # whether its times are those of a processor
+    is_timed = True
+
+    def __init__(self, name, fmu):
+        self.name, self.folder = name, Path(extract(str(fmu)))
+        self.binary = next((self.folder / "binaries").glob("*/*"))
+        self.fmu = Fmu(self.folder)
+        self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]
+
+    def close(self):
+        """Ends what has been started."""
+
+    def opened(self):
+        """A new instance."""
+        # a library reads this variable at its first step
+        os.environ[VECTORS] = NARROW if self.name.endswith(NARROW) else ""
+        return self.fmu.open()
+
+    def end(self, instance):
+        """Frees an instance."""
+        instance.close()
+
+    def described(self):
+        """Exported functions, libraries that are needed, the oldest system."""
+        exported, needed, glibc = binaries.of_linux(self.binary)
+        return exported, needed, f"glibc {'.'.join(map(str, glibc))}"
+
+    def start(self, values):
+        """An initialised instance."""
+        return self.opened().initialise(values)
+
+    def record(self, values, events, tables, duration):
+        """All outputs at all communication points."""
+        step = duration / STEPS
+        instance = self.start(values)
+        rows, events = [], sorted(events, key=lambda event: event["time"])
+        for k in range(STEPS + 1):
+            rows.append(instance.read(self.outputs))
+            now = k * step
+            while events and events[0]["time"] <= now + 1e-9 * step:
+                event = events.pop(0)
+                instance.set({name: value for name, value in event.items() if name != "time"})
+            for table in tables:
+                within = now % table["period"] if "period" in table else now
+                points = [self.fmu.variable(table["input"]).number(value) for value in table["value"]]
+                instance.set({table["input"]: np.interp(within, table["time"], points)})
+            if k < STEPS:
+                instance.do_step(now, step)
+        self.end(instance)
+        return np.array(rows, dtype=float)
+
+    def seconds(self, values, duration):
+        """The least time that one step of `duration` takes."""
+        least = np.inf
+        for _ in range(REPEATS):
+            instance = self.start(values)
+            begin = time.perf_counter()
+            instance.step(duration)
+            least = min(least, time.perf_counter() - begin)
+            self.end(instance)
+        return least
+
+    def refuses(self):
+        """Statuses that wrong calls return, while the library stays usable."""
+        instance, statuses = self.opened(), []
+        module = self.fmu.variable("geometry.module").reference
+        for call in [lambda: instance.raw.setReal([10**6], [1.0]),
+                     lambda: instance.step(1e-3),
+                     lambda: instance.raw.setReal([module], [float("nan")]) or instance.initialise()]:
+            try:
+                call()
+                statuses.append("ok")
+            except (DifferentialError, FMICallException) as problem:
+                statuses.append(str(problem.status))
+        instance.reset()
+        self.end(instance)
+        return statuses
+
+
+class Windows(Platform):
+    """One that runs in fmpy's server under wine."""
+
+    run_by, built_by = "wine", "Debian's Rust, MinGW"
+
+    def __init__(self, name, fmu, wine):
+        super().__init__(name, fmu)
+        self.wine, self.server = wine, None
+        add_remoting(str(self.folder), "linux64", "win64")
+
+    def close(self):
+        if self.server:
+            self.server.terminate()
+            self.server.wait()
+            self.server = None
+
+    def opened(self):
+        # a new server, as it ends with its instance
+        self.close()
+        self.serve()
+        return super().opened()
+
+    def end(self, instance):
+        # with its server, as fmpy's client waits forever for one it did not start
+        instance.forget()
+        self.close()
+
+    def described(self):
+        return *binaries.of_windows(self.binary), "–"
+
+    def serve(self):
+        """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
+        deadline = time.monotonic() + START_TIMEOUT
+        while is_listening():
+            self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
+        library = "Z:" + str(self.binary).replace("/", "\\")
+        server = str(self.binary.parent / "server_tcp.exe")
+        self.server = subprocess.Popen([self.wine, server, library], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+        while not is_listening():
+            if self.server.poll() is not None:
+                sys.exit(f"fmpy's server did not start under wine: it ended with {self.server.returncode}")
+            self.wait(deadline, "fmpy's server did not start under wine")
+
+    @staticmethod
+    def wait(deadline, problem):
+        if time.monotonic() > deadline:
+            sys.exit(f"{problem}: no success after {START_TIMEOUT:g} s")
+        time.sleep(PAUSE)
+
+
+class Arm(Platform):
+    """One for ARM, which runs in a host in C under qemu."""
+
+    run_by, built_by, is_timed = "qemu", "Debian's Rust, zig", False
+
+    def __init__(self, name, fmu, emulator, host):
+        super().__init__(name, fmu)
+        self.command = [emulator, host]
+
+    def opened(self):
+        return Emulated(self.fmu, self.command, self.binary)
+
+
+class MacOS(Platform):
+    """One for macOS, which nothing here runs."""
+
+    run_by, built_by = None, "Debian's Rust, lld"
+
+    def described(self):
+        found = binaries.of_macos(self.binary)
+        assert set(found) == set(binaries.PROCESSORS.values()), f"{self.name} has code for {', '.join(found)} alone"
+        for processor, library in found.items():
+            assert library.signature == "ad hoc", f"{self.name}, {processor}: signature {library.signature}"
+            assert not library.searched and all(name.startswith("@rpath/") for name in library.own_name), f"{self.name}: a path"
+        one, other = found["x86_64"], found["arm64"]
+        assert set(one.exported) == set(other.exported), f"{self.name}: the processors' functions differ"
+        return one.exported, sorted({*one.needed, *other.needed}), f"macOS {one.oldest}, {other.oldest} on ARM"
+
+
+def is_listening():
+    """Whether a server waits on the port; checked without connecting, as the server accepts one client."""
+    with open("/proc/net/tcp", encoding="ascii") as sockets:
+        rows = [line.split() for line in sockets][1:]
+    return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)
