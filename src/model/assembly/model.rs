@@ -145,8 +145,7 @@ impl Model {
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
         if let Some(thermal) = &mut self.thermal {
-            let start = thermal.start;
-            **thermal = Network { start, ..network(parameters, &self.masses) };
+            **thermal = network(parameters, &self.masses);
         }
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {

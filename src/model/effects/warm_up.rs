@@ -147,8 +147,8 @@ impl WarmUpSpec {
         shares
     }
 
-    /// The network, with gears of `mass` [kg] that start at the temperature `start` [K], for the heats `outputs` of the ledger.
-    pub fn network<const H: usize>(&self, mass: f64, start: f64, outputs: [&str; H]) -> Network<H> {
+    /// The network, with gears of `mass` [kg] and a sump at `oil` [K] where that is given, for the heats `outputs` of the ledger.
+    pub fn network<const H: usize>(&self, mass: f64, oil: f64, outputs: [&str; H]) -> Network<H> {
         let constant = |at_rest| Conductance { at_rest, per_speed: 0.0 };
         let gears = Conductance { at_rest: self.gears_to_oil, per_speed: self.gears_to_oil_per_speed };
         let (clutch, washers, case) = (self.clutch_to_oil, self.washers_to_oil, self.oil_to_case);
@@ -163,9 +163,8 @@ impl WarmUpSpec {
             to_oil: [Conductance::default(), gears, constant(clutch), constant(washers), constant(case)],
             to_ambient: Conductance { at_rest: self.case_to_ambient, per_speed: self.case_to_ambient_per_speed },
             ambient: self.ambient,
-            sump: self.sump_given.then_some(start),
+            sump: self.sump_given.then_some(oil),
             shares: outputs.map(|output| self.shares(output)),
-            start,
         }
     }
 }

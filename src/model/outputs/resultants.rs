@@ -124,7 +124,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
         let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
         strength.read_stresses(meshes, readings);
-        strength.read_flash(flash, &state.thermal.temperatures, readings);
+        strength.read_flash(flash, &state.thermal.temperatures(), readings);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];

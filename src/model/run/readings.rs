@@ -167,7 +167,7 @@ impl Simulation {
                 .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
         }
         let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
-        thermal[..NODES].copy_from_slice(&state.thermal.temperatures);
+        thermal[..NODES].copy_from_slice(&state.thermal.temperatures());
         if let Some(network) = &self.model.thermal {
             thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }

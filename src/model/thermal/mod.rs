@@ -28,9 +28,11 @@ const UNFELT: f64 = 0.5;
 /// Temperatures of all nodes, and the heat that made them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Thermal {
-    /// Temperatures [K].
-    pub temperatures: [f64; NODES],
-    /// The same as friction feels them [K].
+    /// Temperature of all nodes at the start [K].
+    start: f64,
+    /// What each has warmed up by since [K].
+    pub rises: [f64; NODES],
+    /// Temperatures as friction feels them [K].
     pub felt: [f64; NODES],
     /// Heat of the ledger that has entered each node [J].
     pub entered: [f64; NODES],
@@ -45,8 +47,20 @@ pub struct Thermal {
 impl Thermal {
     /// All nodes at `temperature` [K].
     pub fn uniform(temperature: f64) -> Self {
-        let temperatures = [temperature; NODES];
-        Self { temperatures, felt: temperatures, entered: [0.0; NODES], given_off: 0.0, since: 0.0, longest: f64::MAX }
+        Self {
+            start: temperature,
+            rises: [0.0; NODES],
+            felt: [temperature; NODES],
+            entered: [0.0; NODES],
+            given_off: 0.0,
+            since: 0.0,
+            longest: f64::MAX,
+        }
+    }
+
+    /// Temperatures [K].
+    pub fn temperatures(&self) -> [f64; NODES] {
+        self.rises.map(|rise| self.start + rise)
     }
 
     /// Whether friction is to feel the present temperatures.
@@ -57,18 +71,18 @@ impl Thermal {
     /// Lets friction feel the present temperatures.
     pub fn feel(&mut self) {
         self.longest = self.since * UNFELT / self.change();
-        (self.felt, self.since) = (self.temperatures, 0.0);
+        (self.felt, self.since) = (self.temperatures(), 0.0);
     }
 
     /// Largest change that friction does not feel yet [K].
     fn change(&self) -> f64 {
-        self.temperatures.iter().zip(&self.felt).fold(0.0, |most, (now, felt)| most.max((now - felt).abs()))
+        self.temperatures().iter().zip(&self.felt).fold(0.0, |most, (now, felt)| most.max((now - felt).abs()))
     }
 
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         let sum = |x: &[f64]| x.iter().sum::<f64>();
-        let rest = self.given_off + self.since;
-        (sum(&self.temperatures) + sum(&self.felt) + sum(&self.entered) + rest).is_finite() && self.longest >= 0.0
+        let rest = self.start + self.given_off + self.since;
+        (sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite() && self.longest >= 0.0
     }
 }

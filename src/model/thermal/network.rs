@@ -44,8 +44,6 @@ pub struct Network<const H: usize> {
     pub sump: Option<f64>,
     /// Shares of each heat of the ledger that enter the nodes; what is left out stays outside.
     pub shares: [[f64; NODES]; H],
-    /// Temperature of all nodes at the start [K].
-    pub start: f64,
 }
 
 impl Conductance {
@@ -62,10 +60,11 @@ impl<const H: usize> Network<H> {
 
     /// Heat stored since the start [J].
     pub fn stored(&self, thermal: &Thermal) -> f64 {
-        (0..NODES).map(|i| self.capacity[i] * (thermal.temperatures[i] - self.start)).sum()
+        (0..NODES).map(|i| self.capacity[i] * thermal.rises[i]).sum()
     }
 
-    /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its sign [rad/s].
+    /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its
+    /// sign [rad/s].
     pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, speed: f64) {
         let entering = self.entering(heat);
         let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);
@@ -83,7 +82,8 @@ impl<const H: usize> Network<H> {
         }
     }
 
-    /// A step by the midpoint rule: temperatures halfway follow from that of the oil, which balances all.
+    /// A step by the midpoint rule: temperatures halfway follow from that of the oil, which balances all. All count from that at
+    /// the start, so that little heat is not lost beside much.
     fn midpoint(
         &self,
         thermal: &mut Thermal,
@@ -91,16 +91,17 @@ impl<const H: usize> Network<H> {
         h: f64,
         (to_oil, to_ambient): (&[f64; NODES], f64),
     ) {
-        let begin = thermal.temperatures;
+        let begin = thermal.rises;
+        let (ambient, sump) = (self.ambient - thermal.start, self.sump.map(|sump| sump - thermal.start));
         let inertia: [f64; NODES] = std::array::from_fn(|i| 2.0 * self.capacity[i] / h);
         // halfway a node has (known + conductance θ_oil)/sum
         let known: [f64; NODES] = std::array::from_fn(|i| {
-            let ambient = if i == CASE { to_ambient * self.ambient } else { 0.0 };
-            inertia[i] * begin[i] + power[i] + ambient
+            let from_ambient = if i == CASE { to_ambient * ambient } else { 0.0 };
+            inertia[i] * begin[i] + power[i] + from_ambient
         });
         let sum: [f64; NODES] =
             std::array::from_fn(|i| inertia[i] + to_oil[i] + if i == CASE { to_ambient } else { 0.0 });
-        let oil = self.sump.unwrap_or_else(|| {
+        let oil = sump.unwrap_or_else(|| {
             let (mut of, mut by) = (known[OIL], inertia[OIL]);
             for i in GEARS_TO_CASE {
                 of += to_oil[i] * known[i] / sum[i];
@@ -112,14 +113,14 @@ impl<const H: usize> Network<H> {
         for i in GEARS_TO_CASE {
             halfway[i] = (known[i] + to_oil[i] * oil) / sum[i];
             into_oil += to_oil[i] * (halfway[i] - oil);
-            thermal.temperatures[i] = 2.0 * halfway[i] - begin[i];
+            thermal.rises[i] = 2.0 * halfway[i] - begin[i];
         }
-        thermal.given_off += h * to_ambient * (halfway[CASE] - self.ambient);
-        match self.sump {
-            None => thermal.temperatures[OIL] = 2.0 * oil - begin[OIL],
+        thermal.given_off += h * to_ambient * (halfway[CASE] - ambient);
+        match sump {
+            None => thermal.rises[OIL] = 2.0 * oil - begin[OIL],
             Some(given) => {
                 thermal.given_off += h * into_oil - self.capacity[OIL] * (given - begin[OIL]);
-                thermal.temperatures[OIL] = given;
+                thermal.rises[OIL] = given;
             }
         }
     }
