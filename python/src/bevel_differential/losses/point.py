@@ -2,9 +2,9 @@
 until its means stand still.
 
 The carrier is driven by torque, both wheels by speed. Means are those over whole mesh cycles, of torques sampled within a cycle and
-of the heat that a cycle adds. A slow cycle costs no more than a fast one, since steps grow with it: at small differences the means
-are quasi-static. Without a difference the differential is stuck: it winds up in both directions, slowly, over a mesh cycle, and
-its torques range up to where it breaks loose."""
+of the heat that a cycle adds. A slow cycle costs no more than a fast one, since steps grow with it, and well damped half-shafts keep
+falling friction from juddering: at small differences the means are quasi-static. Without a difference the differential is stuck: it
+winds up in both directions, slowly, over a mesh cycle, and its torques range up to where it breaks loose."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -26,6 +26,9 @@ FIGURES = ["left.shaft_torque:mean", "right.shaft_torque:mean", "power.loss:mean
 # a bench drives so; without warming up all surfaces have the temperature of the oil
 BENCH = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.planet_spin": "free",
          "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False}
+SHAFTS = ["half_shaft.left", "half_shaft.right"]
+# damping over stiffness of the half-shafts, s: the means of the torques do not depend on it
+DAMPING_TIME = 0.01
 # samples of a mesh cycle; shortest time over which means are compared, and most of these times, s
 SAMPLES, SHORTEST, MOST = 48, 0.02, 12
 # means stand still where they change by less than this part, or by this torque [N·m]
@@ -36,8 +39,10 @@ CREEP, FINER, LEVELS = 0.02, 20, 3
 
 def benched(scene: Scene) -> Scene:
     """The scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
-    return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set={**scene.values, **BENCH},
-                 fmu=scene.fmu)
+    values = {**scene.values, **BENCH}
+    stiffness = {shaft: values.get(f"{shaft}_stiffness", scene.fmu.variable(f"{shaft}_stiffness").start) for shaft in SHAFTS}
+    values |= {f"{shaft}_damping": DAMPING_TIME * value for shaft, value in stiffness.items()}
+    return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
 
 
 class PointTask:
