@@ -14,7 +14,7 @@ from ..designs import Dimension, Farm, Row, Space
 from ..designs.store import Columns, Store
 from ..designs.sweep import going_on_later, hashed
 from ..scene import Scene
-from ..values import DifferentialError, FileName
+from ..values import DifferentialError, FileName, Number
 from .grid import Bound, estimates, interpolated, places, refined, share_beyond, starting
 from .point import AXES, FIGURES, PointTask, benched
 
@@ -135,7 +135,7 @@ class _Runs:
             if run in self.kept:
                 row = self.kept[run]
                 self._take(key, Row(run, {}, {name: row[name] for name in FIGURES}, row["feasible"], row["message"]))
-        missing = [(run, _inputs(key)) for run, key in asked if run not in self.kept]
+        missing = [(run, inputs(key)) for run, key in asked if run not in self.kept]
         if missing:
             with closing(self.farm.rows(self.task, missing)) as rows:
                 for row in rows:
@@ -154,7 +154,8 @@ class _Runs:
         self.found[key] = [row.figures[name] for name in FIGURES]
 
 
-def _inputs(point):
+def inputs(point: Sequence[float]) -> dict[str, Number]:
+    """Values of the FMU for a point: torque, speed, difference of speeds, temperature."""
     torque, speed, difference, temperature = point
     return dict(zip(AXES, (torque, speed, speed + 0.5 * difference, speed - 0.5 * difference, temperature)))
 
@@ -170,7 +171,7 @@ def _drawn(lines, count, seed):
 
 def _chosen(scene, lines, within):
     """Values of the cheapest model that is accurate in the middle of the map."""
-    middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **_inputs([np.median(line) for line in lines])},
+    middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **inputs([np.median(line) for line in lines])},
                    fmu=scene.fmu)
     found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
     if found.use is None:
