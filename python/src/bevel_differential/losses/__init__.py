@@ -15,7 +15,7 @@ from ..designs.store import Columns, Store
 from ..designs.sweep import going_on_later, hashed
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
-from .grid import Bound, estimates, interpolated, places, refined, share_beyond, starting
+from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
 from .point import AXES, FIGURES, PointTask, benched
 
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
@@ -52,10 +52,10 @@ class LossMap:
     def at(self, points: np.ndarray) -> np.ndarray:
         """Torques left and right and loss at points of slip, shape (points, 3)."""
         points = np.array(points, float)
-        sheet = (points[:, 2] < 0.0).astype(int)
-        points[:, 2] = np.abs(points[:, 2])
-        both = [interpolated(self.lines, values[..., :MAPPED], points) for values in self.slipping]
-        return np.where(sheet[:, None] == 0, *both)
+        at, sizes = places(self.lines), points * np.where(points < 0.0, [1.0, 1.0, -1.0, 1.0], 1.0)
+        both = [interpolated(self.lines, torques_of(values[..., :MAPPED], at * [1.0, 1.0, sign, 1.0]), sizes)
+                for sign, values in zip(SIGNS, self.slipping)]
+        return figures_of(np.where(points[:, 2:3] > 0.0, *both), points)
 
     @property
     def beyond(self) -> int:
@@ -97,9 +97,10 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             opened.enter_context(going_on_later(store))
         runs = _Runs(task, store, opened.enter_context(Farm(**farm)))
         while True:
-            at = places(lines)
-            slipping = np.stack([runs.at(at * [1.0, 1.0, sign, 1.0]) for sign in SIGNS])
-            errors = estimates(lines, slipping[..., :MAPPED], bound.of(slipping[..., :MAPPED], at))
+            at = np.stack([places(lines) * [1.0, 1.0, sign, 1.0] for sign in SIGNS])
+            slipping = runs.at(at)
+            torques = torques_of(slipping[..., :MAPPED], at)
+            errors = estimates(lines, torques, bound.of(torques))
             estimate = sum(worst.max(initial=0.0) for worst in errors)
             tell(f"{' x '.join(str(len(line)) for line in lines)} lines: estimated error {estimate:.2g} of the bound")
             finer = refined(lines, errors, most)
@@ -113,7 +114,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             store.finish()
     made = LossMap(scene, tuple(lines), slipping, stuck, drawn, found, np.empty((0, MAPPED)), bound, estimate, runs.restless,
                    time.perf_counter() - begin, runs.new)
-    errors = np.abs(made.at(drawn) - found) / bound.of(found, drawn)
+    errors = np.abs(made.at(drawn) - found) / bound.of_figures(found, drawn)
     return LossMap(**{**made.__dict__, "errors": errors})
 
 

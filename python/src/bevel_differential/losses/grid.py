@@ -3,7 +3,14 @@
 The map is linear between lines in each of its axes, as the tables of system models are. By leaving a line out, its neighbours predict
 the values on it; the error of that, 1/2 |f''| h1 h2 with distances h1 and h2 to the neighbours, gives the curvature, and curvature the
 error 1/8 |f''| h² in the middle of an interval. The errors of all axes add up. Intervals with the largest are halved. Whether
-the map is as good as that says is measured by points that it has never seen."""
+the map is as good as that says is measured by points that it has never seen.
+
+Linear are torques, not powers: a drag that grows with speed is a straight line, its power a parabola. Points are torque T of the
+carrier, speed ω, difference of speeds Δ and temperature; of the wheels' torques T_L and T_R and the loss P the map has
+
+    M = T_L − T_R,  Q = T − T_L − T_R,  D = (P + M Δ/2) / (|ω| + |Δ|/2)
+
+what locks, what drags on shafts, and what is lost beside the slip, P = −M Δ/2 + D (|ω| + |Δ|/2)."""
 
 import math
 from collections.abc import Sequence
@@ -31,15 +38,34 @@ class Bound:
     part: float = 0.02
     torque: float = 0.1
 
-    def of(self, values: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Bounds of the torques left and right [N·m] and the loss [W], the last axis of `values`, at `points`, whose last axis is
-        torque, speed, difference of speeds and temperature."""
-        speed = np.abs(points[..., 1]) + 0.5 * np.abs(points[..., 2])
-        torque = np.stack([np.ones_like(speed), np.ones_like(speed), speed], axis=-1) * self.torque
-        return self.part * np.abs(values) + torque
+    def of(self, torques: np.ndarray) -> np.ndarray:
+        """Bounds of torques [N·m]."""
+        return self.part * np.abs(torques) + self.torque
+
+    def of_figures(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Bounds of T_L, T_R [N·m] and P [W] at points, both along the last axis."""
+        return self.part * np.abs(figures) + self.torque * np.stack([np.ones(points.shape[:-1])] * 2 + [_speed(points)], axis=-1)
 
     def __str__(self) -> str:
         return f"{100.0 * self.part:g} % + {self.torque:g} N.m"
+
+
+def torques_of(figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """M, Q and D of T_L, T_R and P at points, all along the last axis."""
+    left, right, loss = np.moveaxis(figures, -1, 0)
+    locking = left - right
+    return np.stack([locking, points[..., 0] - left - right, (loss + 0.5 * locking * points[..., 2]) / _speed(points)], axis=-1)
+
+
+def figures_of(torques: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """T_L, T_R and P of M, Q and D."""
+    locking, dragging, lost = np.moveaxis(torques, -1, 0)
+    total = points[..., 0] - dragging
+    return np.stack([0.5 * (total + locking), 0.5 * (total - locking), lost * _speed(points) - 0.5 * locking * points[..., 2]], axis=-1)
+
+
+def _speed(points):
+    return np.abs(points[..., 1]) + 0.5 * np.abs(points[..., 2])
 
 
 def starting(levels: Sequence[float]) -> np.ndarray:
@@ -75,17 +101,12 @@ def estimates(lines: Sequence[np.ndarray], values: np.ndarray, bounds: np.ndarra
 
 
 def refined(lines: Sequence[np.ndarray], found: Sequence[np.ndarray], most: int) -> list[np.ndarray] | None:
-    """The lines with the worst intervals halved, in all axes or, where that would make more than `most` crossings, in the worst axis;
-    None where the map is good enough, or as large as it may be."""
-    if sum(errors.max(initial=0.0) for errors in found) <= GOAL:
+    """The lines with the worst intervals halved; None where the map is good enough, or would have more than `most` crossings."""
+    worst = [errors.max(initial=0.0) for errors in found]
+    if sum(worst) <= GOAL:
         return None
-    axes = sum(len(errors) > 0 for errors in found)
-    worst = max(range(len(found)), key=lambda axis: found[axis].max(initial=0.0))
-    for chosen in (range(len(lines)), [worst]):
-        new = [_halved(at, found[axis] > GOAL / axes) if axis in chosen else at for axis, at in enumerate(lines)]
-        if size(lines) < size(new) <= most:
-            return new
-    return None
+    new = [_halved(at, errors > 0.5 * max(worst)) for at, errors in zip(lines, found)]
+    return new if size(lines) < size(new) <= most else None
 
 
 def size(lines: Sequence[np.ndarray]) -> int:
