@@ -7,7 +7,7 @@ from ..command.arguments import add_farm, add_files, add_fmu, add_scene, farm, o
 # what an axis begins with where nothing is said: parts of the scene's own value, or values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
 USUAL = {DIFFERENCE: "0.5 rad/s..20 rad/s", TEMPERATURE: "-20 degC, 20 degC, 80 degC, 120 degC"}
-OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: 0 to the scene's)",
+OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: a tenth to all of the scene's)",
            DIFFERENCE: f"difference of the wheel speeds, above 0; both directions run (default: {USUAL[DIFFERENCE]})",
            TEMPERATURE: f"oil temperature (default: {USUAL[TEMPERATURE]})"}
 
@@ -66,7 +66,8 @@ def _axes(scene, arguments):
         return abs(float(scene.values.get(name, scene.fmu.variable(name).start)))
 
     torque = own("carrier.torque_command") or own("left.load_torque") + own("right.load_torque")
-    usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"0..{own('carrier.speed_command')!r}"}
+    speed = own("carrier.speed_command") or own("left.speed_command")
+    usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
     for name, variable in zip(OPTIONS, VARIABLES):
         text = getattr(arguments, name) or usual[name]
         # a range without a count begins with its ends

@@ -51,10 +51,11 @@ class Bound:
 
 
 def torques_of(figures: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """M, Q and D of T_L, T_R and P at points, all along the last axis."""
+    """M, Q and D of T_L, T_R and P at points, all along the last axis; D is 0 where nothing turns."""
     left, right, loss = np.moveaxis(figures, -1, 0)
-    locking = left - right
-    return np.stack([locking, points[..., 0] - left - right, (loss + 0.5 * locking * points[..., 2]) / _speed(points)], axis=-1)
+    locking, speed = left - right, _speed(points)
+    lost = np.divide(loss + 0.5 * locking * points[..., 2], speed, out=np.zeros_like(speed), where=speed > 0.0)
+    return np.stack([locking, points[..., 0] - left - right, lost], axis=-1)
 
 
 def figures_of(torques: np.ndarray, points: np.ndarray) -> np.ndarray:

@@ -122,7 +122,8 @@ class PointTask:
 
 
 def peak(instance: Instance, read: Callable[[Instance], Number], size: float, steps: int, level: int = 0) -> float:
-    """The greatest value of `read` over so many steps of `size`, s; steps are finer about the first peak."""
+    """The greatest value of `read` over so many steps of `size`, s; steps are finer where its growth first falls to less than half, as
+    it does where friction breaks loose."""
     kept = [instance.save()] * 2
     seen = [float(read(instance))]
     greatest, is_first = -np.inf, True
@@ -130,7 +131,7 @@ def peak(instance: Instance, read: Callable[[Instance], Number], size: float, st
         kept = [kept[1], instance.save()] if is_first else kept
         instance.step(size)
         seen.append(float(read(instance)))
-        if is_first and seen[-1] < seen[-2] and level < LEVELS:
+        if is_first and level < LEVELS and len(seen) > 2 and seen[-1] - seen[-2] < 0.5 * (seen[-2] - seen[-3]):
             here = instance.save()
             greatest = peak(instance.restore(kept[0]), read, size / FINER, 2 * FINER, level + 1)
             instance.restore(here)

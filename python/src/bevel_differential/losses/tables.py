@@ -9,7 +9,7 @@ from ..output_file import write_whole
 from ..records import write
 from ..values import FileName
 from . import MAPPED, SIGNS, LossMap
-from .grid import places
+from .grid import places, torques_of
 
 HEAD = ["kind", "carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]",
         "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
@@ -29,7 +29,9 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
 def save(made: LossMap, file: FileName) -> Path:
     """Writes points of the map, stuck points and unseen points. Where it is stuck, ratio and effect are those at which it breaks
     loose."""
-    return write(file, HEAD, _rows(made), made.says(), f"linear between points of the map in all axes; {made.scene.name}")
+    return write(file, HEAD, _rows(made), made.says(), made.scene.name,
+                 "between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
+                 "and speed, s speed_difference, TL, TR, P torques and loss")
 
 
 def _rows(made: LossMap) -> Iterator[list[object]]:
@@ -55,11 +57,12 @@ def save_for_simulink(made: LossMap, file: FileName) -> Path:
     power = np.abs(torque[:, None, None] * speed[None, :, None])
     loss = made.stuck[:, :, 0, :, 2]
     efficiency = np.clip(1.0 - np.divide(loss, power, out=np.zeros_like(loss), where=power > 0.0), LEAST, 1.0)
-    faster, slower = made.slipping[..., :MAPPED]
     # over a signed difference, through the stuck means at 0
-    whole = np.concatenate([slower[:, :, ::-1], made.stuck[..., :MAPPED], faster], axis=2)
+    slips = np.concatenate([-slip[::-1], [0.0], slip])
+    whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
+    torques = torques_of(whole, places([torque, speed, slips, temperature]))
     middle = [len(line) // 2 for line in made.lines]
-    coupling = 0.5 * (faster[..., 1] - faster[..., 0])
+    coupling = 0.5 * np.abs(torques[:, :, len(slip) + 1:, :, 0])
     text = [
         f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.says()}.",
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
@@ -70,9 +73,10 @@ def save_for_simulink(made: LossMap, file: FileName) -> Path:
         "% torque data (input, torque): half the difference of the wheels' torques in the middle of the other axes:",
         _vector("slip", np.append(0.0, slip)), _vector("coupling_torque_of_slip", np.append(0.0, coupling[middle[0], middle[1], :, middle[3]])),
         _vector("input_torque", torque), _vector("coupling_torque_of_input", coupling[:, middle[1], middle[2], middle[3]]),
-        "% n-D Lookup Tables over Trq_bpts, omega_bpts, slip_bpts (left minus right wheel), Temp_bpts, linear:",
-        _vector("slip_bpts", np.concatenate([-slip[::-1], [0.0], slip])),
-        _array("left_torque_tbl", whole[..., 0]), _array("right_torque_tbl", whole[..., 1]), _array("loss_tbl", whole[..., 2]),
+        "% n-D Lookup Tables, linear, over torque T, speed w, slip s = left - right, temperature; of the torques left and right TL, TR",
+        "% and the loss P: locking = TL - TR, dragging = T - TL - TR, P = -locking s/2 + lost (|w| + |s|/2):",
+        _vector("slip_bpts", slips),
+        *(_array(f"{name}_tbl", torques[..., place]) for place, name in enumerate(("locking", "dragging", "lost"))),
     ]
     write_whole(file, "\n".join(text) + "\n")
     return Path(file)
