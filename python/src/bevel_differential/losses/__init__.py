@@ -99,8 +99,8 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         while True:
             at = np.stack([places(lines) * [1.0, 1.0, sign, 1.0] for sign in SIGNS])
             slipping = runs.at(at)
-            torques = torques_of(slipping[..., :MAPPED], at)
-            errors = estimates(lines, torques, bound.of(torques))
+            figures = slipping[..., :MAPPED]
+            errors = estimates(lines, torques_of(figures, at), bound.of_torques(figures, at))
             estimate = sum(worst.max(initial=0.0) for worst in errors)
             tell(f"{' x '.join(str(len(line)) for line in lines)} lines: estimated error {estimate:.2g} of the bound")
             finer = refined(lines, errors, most)
@@ -123,7 +123,8 @@ class _Runs:
 
     def __init__(self, task, store, farm):
         self.task, self.store, self.farm = task, store, farm
-        self.kept = {row["run"]: row for row in store.kept.to_pylist()} if store is not None else {}
+        # what failed is tried again
+        self.kept = {row["run"]: row for row in store.kept.to_pylist() if not row["message"]} if store is not None else {}
         self.found, self.restless, self.new = {}, 0, 0
 
     def at(self, points):
@@ -132,11 +133,13 @@ class _Runs:
         asked = [(len(self.found) + number, key) for number, key in enumerate(key for key in dict.fromkeys(keys) if key not in self.found)]
         key_of = dict(asked)
         self.found.update({key: None for _, key in asked})
+        missing = []
         for run, key in asked:
-            if run in self.kept:
-                row = self.kept[run]
-                self._take(key, Row(run, {}, {name: row[name] for name in FIGURES}, row["feasible"], row["message"]))
-        missing = [(run, inputs(key)) for run, key in asked if run not in self.kept]
+            values, row = inputs(key), self.kept.get(run, {})
+            if all(row.get(name) == value for name, value in values.items()):
+                self._take(key, Row(run, values, {name: row[name] for name in FIGURES}, row["feasible"]))
+            else:
+                missing.append((run, values))
         if missing:
             with closing(self.farm.rows(self.task, missing)) as rows:
                 for row in rows:

@@ -22,8 +22,8 @@ from scipy.stats import beta
 
 # least lines of an axis that tell whether the map bends
 LEAST = 3
-# part of the bound that the estimates may take: the measured error has the rest
-GOAL = 0.5
+# sum of the errors of all axes over their bounds, each in its worst interval, from which on the map is good enough
+GOAL = 1.0
 # an interval shorter than this part of its axis is not halved: the map jumps there
 SHORTEST = 1e-3
 # confidence of the measured bound
@@ -38,9 +38,11 @@ class Bound:
     part: float = 0.02
     torque: float = 0.1
 
-    def of(self, torques: np.ndarray) -> np.ndarray:
-        """Bounds of torques [N·m]."""
-        return self.part * np.abs(torques) + self.torque
+    def of_torques(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Bounds of M, Q and D [N·m] that keep those of T_L, T_R and P: half of Q is in each of the wheels' torques."""
+        bounds = self.part * np.abs(torques_of(figures, points)) + self.torque
+        bounds[..., 1] = 2.0 * (self.part * np.abs(figures[..., :2]).min(axis=-1) + self.torque)
+        return bounds
 
     def of_figures(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
         """Bounds of T_L, T_R [N·m] and P [W] at points, both along the last axis."""
