@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from math import exp, tanh
+from types import SimpleNamespace
 
 import numpy as np
 import psutil
@@ -254,16 +255,18 @@ def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
 
 
 def test_accuracy_chooses_the_model(scene, monkeypatch):
-    asked = []
+    asked, said = [], []
 
     def chosen(of, wants, within, from_):
         asked.append((of.values, wants, within))
-        return type("Found", (), {"use": type("Use", (), {"set": {"scene.gear_contact": "ideal"}})})
+        run = SimpleNamespace(setting="ideal")
+        return SimpleNamespace(use=SimpleNamespace(set={"scene.gear_contact": "ideal"}, run=run))
 
     monkeypatch.setattr(package, "accuracy", chosen)
     made = losses(scene.set({"scene.gear_contact": "lumped"}), {name: values[:1] for name, values in LEVELS.items()}, within="1%",
-                  unseen=0, workers=0)
+                  unseen=0, workers=0, tell=said.append)
     (values, wants, within), = asked
+    assert said[0] == "model: ideal"
     assert within == "1%" and wants == ["left.shaft_torque:mean", "right.shaft_torque:mean"]
     assert values["left.speed_command"] - values["right.speed_command"] == 0.5
     assert made.scene.values["scene.gear_contact"] == scene.fmu.variable("scene.gear_contact").literals["ideal"]

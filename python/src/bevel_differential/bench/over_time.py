@@ -25,7 +25,8 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     wheels = [next(table for table in scene.tables if table[0] == f"{side}.speed_command") for side in ("left", "right")]
     left, right = (np.interp(time, table[1], table[2]) for table in wheels)
     count = round(WINDOW / scene.step)
-    swings = [np.ptp(np.lib.stride_tricks.sliding_window_view(record["left.speed"] - left, count), axis=1) for record in (falling, rising)]
+    swings = [np.ptp(np.lib.stride_tricks.sliding_window_view(record["left.speed"] - left, count), axis=1)
+              for record in (falling, rising)]
     loud = np.flatnonzero(swings[0] > QUIET)
     slip = (left - right)[loud[-1] + count - 1] if len(loud) else 0.0
     last = "the end of the run-up, " if len(loud) and loud[-1] + count >= len(time) else ""
@@ -46,8 +47,8 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     # of what differentiates alone
     effect = np.where(record["held.sides"] > 0, np.nan, 100.0 * np.abs(left - right) / np.abs(left + right))
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
-    says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm up to "
-            f"{record['temperature.clutch'].max() - ZERO_CELSIUS:.0f} °C: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
+    says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
+            f"up to {record['temperature.clutch'].max() - ZERO_CELSIUS:.0f} °C: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
     _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("clutch", "oil", "case"))),
                                 ("locking effect, %", {"LE": (time, effect)})])
     return says
@@ -59,8 +60,8 @@ def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     time, loss = record["time"], record["power.loss"]
     # without the first steps, in which all starts to move
     half = time[np.argmax(loss[1:] < 0.5 * (loss[1] + loss[-1])) + 1]
-    says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes {half:.0f} s, in "
-            f"which the oil warms up from {record['temperature.oil'][0] - ZERO_CELSIUS:.0f} to "
+    says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
+            f"{half:.0f} s, in which the oil warms up from {record['temperature.oil'][0] - ZERO_CELSIUS:.0f} to "
             f"{float(np.interp(half, time, record['temperature.oil'])) - ZERO_CELSIUS:.0f} °C")
     _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("oil", "gears", "case"))),
                                 ("power loss, W", {"loss": (time[1:], loss[1:])})])

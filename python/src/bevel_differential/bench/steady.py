@@ -49,8 +49,8 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
         slipping = found[torque, speed, DIFFERENCE, temperature]
         over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
     held = [row[6] for row in rows if row[0] == torques[-1]]
-    says = (f"it holds up to an LE of {min(held):.0f} to {max(held):.0f} % at {torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to {max(over):.2f} times "
-            f"the difference of torques that it has at {DIFFERENCE:g} rad/s, and is no TBR, as nothing differentiates")
+    says = (f"it holds up to an LE of {min(held):.0f} to {max(held):.0f} % at {torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to "
+            f"{max(over):.2f} times the difference of torques that it has at {DIFFERENCE:g} rad/s, and is no TBR, as nothing differentiates")
     return _written(scene, out, rows, says, "breaking loose", 6)
 
 

@@ -32,7 +32,8 @@ class LossMap:
     `lines`: of torque, speed, magnitude of the difference of speeds and temperature. `slipping`: FIGURES with the left wheel faster
     and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, its third axis
     of length 1; its last two figures are the left torques at which it breaks loose. `unseen`: points that the map has not seen,
-    their difference with its sign, shape (points, 4); `errors`: those of the map there over the bound, shape (points, 3).
+    their difference with its sign, shape (points, 4); `found`: T_left, T_right and loss there; `errors`: those of the map there over the
+    bound; shapes (points, 3).
     `estimate`: the error over the bound that leaving lines out tells. `restless`: points whose means do not stand still.
     `seconds`, `new`: what the runs of this call took, without the start of workers, and how many there were."""
 
@@ -85,7 +86,9 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     if lines[2][0] <= 0.0:
         raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
     if within is not None:
-        scene.set(_chosen(scene, lines, within))
+        chosen = _chosen(scene, lines, within)
+        tell(f"model: {chosen.run.setting}")
+        scene.set(chosen.set)
     task, begin = PointTask(scene), time.perf_counter()
     with ExitStack() as opened:
         store = None
@@ -174,10 +177,10 @@ def _drawn(lines, count, seed):
 
 
 def _chosen(scene, lines, within):
-    """Values of the cheapest model that is accurate in the middle of the map."""
+    """The cheapest model that is accurate in the middle of the map."""
     middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **inputs([np.median(line) for line in lines])},
                    fmu=scene.fmu)
     found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
     if found.use is None:
         raise DifferentialError(f"within = {within}: no model is accurate enough; leave it out, or allow more")
-    return found.use.set
+    return found.use

@@ -36,6 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..output_file import checked, checked_picture
     from ..scene import Scene
     from . import losses
+    from .grid import GOAL
     from .picture import draw
     from .tables import save, save_for_simulink
 
@@ -49,6 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
                       most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
                       **farm(arguments))
     print(made.says())
+    if made.estimate > GOAL:
+        print(f"the map stops at --most {arguments.most} points in one direction: lines that are left out tell of more bends")
     if made.restless:
         print(f"{made.restless} points do not stand still: they have the means of their last times")
     print(f"{made.new} runs in {made.seconds:.1f} s")
