@@ -32,7 +32,7 @@ def draw(made: LossMap, file: FileName) -> Path:
             for sign in SIGNS:
                 at, values = _along(made, 2, middle, temperature, sign)
                 loss.plot(sign * at, values[:, 2] / 1e3, color=line.get_color(), label=label if sign > 0.0 else None)
-        ratio.set(xlabel="carrier torque, N·m", ylabel="torque bias ratio T_high/T_low",
+        ratio.set(yscale="log", xlabel="carrier torque, N·m", ylabel="torque bias ratio T_high/T_low",
                   title=f"Bias at {middle[1]:.3g} rad/s, difference {middle[2]:.3g} rad/s")
         loss.set(xlabel="difference of wheel speeds (left − right), rad/s", ylabel="power loss, kW",
                  title=f"Loss at {middle[0]:.4g} N·m, {middle[1]:.3g} rad/s")
