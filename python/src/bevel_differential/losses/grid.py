@@ -104,12 +104,16 @@ def estimates(lines: Sequence[np.ndarray], values: np.ndarray, bounds: np.ndarra
 
 
 def refined(lines: Sequence[np.ndarray], found: Sequence[np.ndarray], most: int) -> list[np.ndarray] | None:
-    """The lines with the worst intervals halved; None where the map is good enough, or would have more than `most` crossings."""
+    """The lines with the worst intervals halved, or with the worst one where that would make more than `most` crossings; None where
+    the map is good enough, or as large as it may be."""
     worst = [errors.max(initial=0.0) for errors in found]
     if sum(worst) <= GOAL:
         return None
-    new = [_halved(at, errors > 0.5 * max(worst)) for at, errors in zip(lines, found)]
-    return new if size(lines) < size(new) <= most else None
+    for part in (0.5, 1.0):
+        new = [_halved(at, errors >= part * max(worst)) for at, errors in zip(lines, found)]
+        if size(lines) < size(new) <= most:
+            return new
+    return None
 
 
 def size(lines: Sequence[np.ndarray]) -> int:
