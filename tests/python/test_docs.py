@@ -11,7 +11,7 @@ from bevel_differential import command
 from documents import PAGES, ROOT, anchors, commands, links, saved
 
 # what takes minutes, opens a browser, or waits for a file that another command makes
-LONG = ("optimise", "tolerance", "sweep", "page", "accuracy", "report", "study")
+LONG = ("optimise", "tolerance", "sweep", "losses", "bench", "page", "accuracy", "report", "study")
 WORDS, LINES, WIDEST = 45_000, 130, 160
 
 

@@ -4,8 +4,8 @@ import hashlib
 import json
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from contextlib import closing
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -99,47 +99,54 @@ def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan
             begun = time.perf_counter()
             table = with_metadata(columns.table(list(workers.rows(task, plan.designs()))), metadata)
             return SweepResult(table, metadata, None, time.perf_counter() - begun, plan.runs)
-    with Store(out, columns, metadata, resume, force) as store:
+    with Store(out, columns, metadata, resume, force) as store, going_on_later(store):
         done = store.runs()
         missing = [design for design in plan.designs() if design[0] not in done]
         taken = 0.0
-        try:
-            if missing:
-                with Farm(**farm) as workers, closing(workers.rows(task, missing)) as rows:
-                    begun = time.perf_counter()
-                    for row in rows:
-                        store.add(row)
-                    taken = time.perf_counter() - begun
-        except KeyboardInterrupt:
-            store.flush()
-            raise Stopped(f"stopped; {store.progress()}") from None
-        except StoreError:
-            raise
-        except DifferentialError as error:
-            store.flush()
-            raise DifferentialError(f"{error}; {store.progress()}") from None
+        if missing:
+            with Farm(**farm) as workers, closing(workers.rows(task, missing)) as rows:
+                begun = time.perf_counter()
+                for row in rows:
+                    store.add(row)
+                taken = time.perf_counter() - begun
         table = store.finish() if store.finished is None else store.finished
     return SweepResult(table, metadata, Path(out), taken, len(missing))
 
 
+@contextmanager
+def going_on_later(store: Store) -> Iterator[None]:
+    """What ends the work says what `store` has kept, and how to go on: an interrupt as `Stopped`."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        store.flush()
+        raise Stopped(f"stopped; {store.progress()}") from None
+    except StoreError:
+        raise
+    except DifferentialError as error:
+        store.flush()
+        raise DifferentialError(f"{error}; {store.progress()}") from None
+
+
 def describe(task: Task, plan: Plan) -> dict[str, Any]:
     """What results follow from, for their metadata; "hash" is the hash of it all."""
-    scene = {key: value for key, value in task.scene.__getstate__().items() if key != "fmu"}
-    from_all = {
-        "version": version() or "not installed",
-        "fmu": task.scene.fmu.sha256,
-        "scene": scene,
+    return hashed(task.scene, {
         "vary": {one.variable: str(one) for one in plan.space.dimensions},
         "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,
         "wants": [str(want) for want in task.wants],
         "figures": [str(want) for want in task.figures],
         "conditions": [f"{one.want} {one.relation} {one.limit!r}" for one in task.conditions],
         "from": task.start,
-    }
+    })
+
+
+def hashed(scene: Scene, what: Mapping[str, Any]) -> dict[str, Any]:
+    """The same of a scene and `what` was done with it."""
+    state = {key: value for key, value in scene.__getstate__().items() if key != "fmu"}
+    from_all = {"version": version() or "not installed", "fmu": scene.fmu.sha256, "scene": state, **what}
     # numbers of numpy as plain ones
     plain = json.loads(json.dumps(from_all, default=lambda value: value.tolist()))
     return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
-
 
 
 def text(result: SweepResult, asked: int | None = None) -> str:

@@ -1,0 +1,31 @@
+"""A virtual bench: tests of a differential in the terms of SAE J2817. While it differentiates under load, the torque bias ratio is
+TBR = T_high/T_low, the locking effect LE = 100 (TBR − 1)/(TBR + 1) %."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..fmu import Fmu
+from ..scene import Scene
+from ..values import FileName, Value
+from .over_time import hot_lap, judder, winter_start
+from .steady import breakaway, bias
+
+# tests by name, each with the scene that it runs
+TESTS = {"bias": (bias, "bias"), "breakaway": (breakaway, "bias"), "judder": (judder, "judder"), "hot_lap": (hot_lap, "hot_lap"),
+         "winter_start": (winter_start, "winter_start")}
+
+
+def scene_file(name: str) -> Path:
+    """The scene of a test."""
+    return Path(__file__).with_name(f"{TESTS[name][1]}.toml")
+
+
+def bench(name: str, folder: FileName, scene: FileName | None = None, values: Mapping[str, Value] | None = None,
+          fmu: FileName | Fmu | None = None, **farm: Any) -> str:
+    """Runs a test; writes its figure NAME.png and its numbers NAME.csv into a folder. Returns what to read from them.
+
+    `scene`: instead of the test's own; `values`: changes of it; `farm`: what `designs.Farm` takes."""
+    test, _ = TESTS[name]
+    with Scene.load(scene or scene_file(name), fmu=fmu) as loaded:
+        return test(loaded.set(values), Path(folder) / name, farm)

@@ -1,0 +1,39 @@
+"""The command `bench`."""
+
+import argparse
+import shutil
+from pathlib import Path
+
+from ..command.arguments import add_farm, add_fmu, add_set, farm, once
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds what the command takes."""
+    from . import TESTS
+    parser.add_argument("test", nargs="*", metavar="TEST", help=f"{', '.join(TESTS)} (default: all)")
+    parser.add_argument("--scene", metavar="FILE", help="another scene for one test")
+    add_set(parser)
+    parser.add_argument("--out", metavar="FOLDER", default="bench", help="folder of figures, numbers and scenes (default: bench)")
+    add_farm(parser)
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Runs the tests, prints what to read from them and writes files. Returns 0. Raises `DifferentialError`."""
+    from ..extras import require
+    from ..values import DifferentialError, suggestion
+    from . import TESTS, bench, scene_file
+
+    require("matplotlib", "plot")
+    for name in arguments.test:
+        if name not in TESTS:
+            raise DifferentialError(f"there is no test {name!r}{suggestion(name, TESTS)}; known: {', '.join(TESTS)}", kind="use")
+    if arguments.scene and len(arguments.test) != 1:
+        raise DifferentialError("--scene: name the one test that it is for", kind="use")
+    folder = Path(arguments.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in arguments.test or TESTS:
+        says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, **farm(arguments))
+        shutil.copy(arguments.scene or scene_file(name), folder)
+        print(f"{name}: {says} ({folder / name}.png, .csv)")
+    return 0

@@ -1,0 +1,94 @@
+"""Tests over time: judder in a run-up of the slip, fade on a hot lap, a start in winter."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..scene import Scene
+
+ZERO_CELSIUS = 273.15
+# friction that rises with speed, as of a fresh oil with a friction modifier
+RISING = {"limited_slip.static_ratio": 1.0, "limited_slip.stribeck_speed": 0.0, "limited_slip.slip_slope": 0.02}
+# judder ends where the vibration of the speed is less than this, rad/s; time over which it is judged, s
+QUIET, WINDOW = 0.1, 0.1
+# a lap, and the time in it in the middle of a hairpin, s
+LAP, HAIRPIN = 60.0, 20.0
+
+
+def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
+    """Vibration of a side gear about its wheel's speed, for the scene's friction and one that rises with speed."""
+    names = ["left.speed", "right.speed"]
+    falling, rising = (scene.run(names, values) for values in ({}, RISING))
+    time = falling["time"]
+    wheels = [next(table for table in scene.tables if table[0] == f"{side}.speed_command") for side in ("left", "right")]
+    left, right = (np.interp(time, table[1], table[2]) for table in wheels)
+    count = round(WINDOW / scene.step)
+    swings = [np.ptp(np.lib.stride_tricks.sliding_window_view(record["left.speed"] - left, count), axis=1)
+              for record in (falling, rising)]
+    loud = np.flatnonzero(swings[0] > QUIET)
+    slip = (left - right)[loud[-1] + count - 1] if len(loud) else 0.0
+    last = "the end of the run-up, " if len(loud) and loud[-1] + count >= len(time) else ""
+    says = (f"friction that falls with speed lets the side gear swing by up to {swings[0].max():.1f} rad/s, and it judders up to "
+            f"{last}a slip of {slip:.1f} rad/s between the wheels; friction that rises keeps it below {swings[1][count:].max():.2g} rad/s "
+            "after the start")
+    _written(scene, falling, out, says, [
+        ("side gear − wheel, rad/s", {"falling friction": (time, falling["left.speed"] - left),
+                                      "rising friction": (time, rising["left.speed"] - left)}),
+        ("difference of wheels, rad/s", {"run-up": (time, left - right)})])
+    return says
+
+
+def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
+    """Temperatures and locking effect over laps."""
+    record = scene.run()
+    time, left, right = record["time"], record["left.shaft_torque"], record["right.shaft_torque"]
+    # of what differentiates alone
+    effect = np.where(record["held.sides"] > 0, np.nan, 100.0 * np.abs(left - right) / np.abs(left + right))
+    first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
+    says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
+            f"up to {record['temperature.clutch'].max() - ZERO_CELSIUS:.0f} °C: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
+    _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("clutch", "oil", "case"))),
+                                ("locking effect, %", {"LE": (time, effect)})])
+    return says
+
+
+def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
+    """Temperatures and loss after a cold start."""
+    record = scene.run()
+    time, loss = record["time"], record["power.loss"]
+    # without the first steps, in which all starts to move
+    half = time[np.argmax(loss[1:] < 0.5 * (loss[1] + loss[-1])) + 1]
+    says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
+            f"{half:.0f} s, in which the oil warms up from {record['temperature.oil'][0] - ZERO_CELSIUS:.0f} to "
+            f"{float(np.interp(half, time, record['temperature.oil'])) - ZERO_CELSIUS:.0f} °C")
+    _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("oil", "gears", "case"))),
+                                ("power loss, W", {"loss": (time[1:], loss[1:])})])
+    return says
+
+
+def _ratio(effect):
+    return (100.0 + effect) / (100.0 - effect)
+
+
+def _temperatures(record, nodes):
+    return {node: (record["time"], record[f"temperature.{node}"] - ZERO_CELSIUS) for node in nodes}
+
+
+def _written(scene: Scene, record: np.ndarray, out: Path, says: str,
+             panels: Sequence[tuple[str, Mapping[str, tuple[np.ndarray, np.ndarray]]]]) -> None:
+    from .. import style
+
+    scene.to_csv(record, out.with_suffix(".csv"))
+    with style.styled():
+        figure, axes = style.panels(len(panels), 1, 6.4, sharex=True)
+        for panel, (label, curves) in zip(axes, panels):
+            for name, (time, values) in curves.items():
+                panel.plot(time, values, label=name, linewidth=1.2)
+            panel.set_ylabel(label)
+            panel.legend()
+        axes[0].set_title(scene.name)
+        axes[-1].set_xlabel("time, s")
+        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.save(figure, out.with_suffix(".png"))

@@ -1,0 +1,98 @@
+"""Steady tests: torque bias over torque, and breakaway apart from it, at three temperatures, in both directions."""
+
+from collections.abc import Mapping
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..designs import Farm
+from ..losses import inputs
+from ..losses.point import FIGURES, PointTask, benched
+from ..losses.tables import bias as ratio_of
+from ..records import write
+from ..scene import Scene
+from ..values import DifferentialError
+
+# shares of the scene's torque; temperatures, K; carrier speed and difference of wheel speeds, rad/s
+SHARES = np.array([0.15, 0.25, 0.4, 0.6, 0.8, 1.0])
+TEMPERATURES = (253.15, 313.15, 393.15)
+SPEED, DIFFERENCE = 50.0, 5.0
+HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]",
+        "torque_bias_ratio [1]", "locking_effect [%]"]
+
+
+def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
+    """TBR over torque while it differentiates."""
+    torques = _torques(scene)
+    found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
+    rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
+    says = (f"TBR falls from {_range(rows, torques[0])} at {torques[0]:.0f} N·m to {_range(rows, torques[-1])} at {torques[-1]:.0f} N·m: "
+            "at small torque preload makes it, at large torque the friction that grows with it. Left and right agree where solid and "
+            "dashed lines meet")
+    return _written(scene, out, rows, says, "differentiating", 5)
+
+
+def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
+    """LE at which it breaks loose, over torque."""
+    torques = _torques(scene)
+    found = _measured(scene, torques, (0.0, DIFFERENCE), farm)
+    rows, over = [], []
+    for (torque, speed, difference, temperature), figures in found.items():
+        if difference:
+            continue
+        total = figures[0] + figures[1]
+        # the left wheel about to be the faster one, and the slower one
+        for left, sign in ((figures[3], 1.0), (figures[4], -1.0)):
+            rows.append((torque, sign, temperature, left, total - left, *ratio_of(left, total - left)))
+        slipping = found[torque, speed, DIFFERENCE, temperature]
+        over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
+    held = [row[6] for row in rows if row[0] == torques[-1]]
+    says = (f"it holds up to an LE of {min(held):.0f} to {max(held):.0f} % at {torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to "
+            f"{max(over):.2f} times the difference of torques that it has at {DIFFERENCE:g} rad/s, and is no TBR, as nothing differentiates")
+    return _written(scene, out, rows, says, "breaking loose", 6)
+
+
+def _torques(scene):
+    command = scene.values.get("carrier.torque_command", 0.0)
+    if command <= 0.0:
+        raise DifferentialError(f"carrier.torque_command = {command:g} N.m: a bench needs the greatest torque here, above 0")
+    return SHARES * command
+
+
+def _measured(scene, torques, differences, farm):
+    """Figures of points {(torque, speed, difference, temperature): figures}."""
+    points = list(product(torques.tolist(), (SPEED,), differences, TEMPERATURES))
+    with Farm(**farm) as workers:
+        rows = workers.evaluate(PointTask(benched(scene)), [(run, inputs(point)) for run, point in enumerate(points)])
+    for row in rows:
+        if row.message:
+            raise DifferentialError(row.message)
+    return {point: [float(row.figures[name]) for name in FIGURES] for point, row in zip(points, rows)}
+
+
+def _range(rows, torque):
+    ratios = [row[5] for row in rows if row[0] == torque]
+    known = [ratio for ratio in ratios if ratio is not None]
+    text = f"{min(known):.2f} to {max(known):.2f}" if known else "none"
+    return f"{text} or none" if known and len(known) < len(ratios) else text
+
+
+def _written(scene, out, rows, says, doing, column):
+    from .. import style
+
+    write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], says)
+    with style.styled():
+        figure, axes = style.panels(1, 1, 5.6)
+        for temperature, colour in zip(TEMPERATURES, style.CYCLE):
+            for sign, dashes in ((1.0, "-"), (-1.0, "--")):
+                curve = [row for row in rows if row[2] == temperature and row[1] * sign > 0.0]
+                axes.plot([row[0] for row in curve], [np.nan if row[column] is None else row[column] for row in curve], dashes, marker="o",
+                          color=colour, label=f"{temperature - 273.15:.0f} °C, {'left' if sign > 0.0 else 'right'} wheel faster")
+        axes.set(xlabel="carrier torque, N·m", ylabel=("torque bias ratio T_high/T_low", "locking effect, %")[column - 5],
+                 title=f"{scene.name}, {doing}")
+        axes.legend()
+        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.save(figure, out.with_suffix(".png"))
+    return says

@@ -1,0 +1,186 @@
+"""A map of power loss and torque bias over carrier torque, carrier speed, difference of wheel speeds and oil temperature, with an
+error that is measured."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack, closing
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..accuracy import accuracy
+from ..designs import Dimension, Farm, Row, Space
+from ..designs.store import Columns, Store
+from ..designs.sweep import going_on_later, hashed
+from ..scene import Scene
+from ..values import DifferentialError, FileName, Number
+from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
+from .point import AXES, FIGURES, PointTask, benched
+
+# variables that give the axes their units: torque, speed, difference of speeds, temperature
+VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
+SIGNS = (1.0, -1.0)
+# figures that the map holds where the differential slips: torques left and right, loss
+MAPPED = 3
+
+
+@dataclass(frozen=True)
+class LossMap:
+    """The map, in SI.
+
+    `lines`: of torque, speed, magnitude of the difference of speeds and temperature. `slipping`: FIGURES with the left wheel faster
+    and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, its third axis
+    of length 1; its last two figures are the left torques at which it breaks loose. `unseen`: points that the map has not seen,
+    their difference with its sign, shape (points, 4); `found`: T_left, T_right and loss there; `errors`: those of the map there over the
+    bound; shapes (points, 3).
+    `estimate`: the error over the bound that leaving lines out tells. `restless`: points whose means do not stand still.
+    `seconds`, `new`: what the runs of this call took, without the start of workers, and how many there were."""
+
+    scene: Scene
+    lines: tuple[np.ndarray, ...]
+    slipping: np.ndarray
+    stuck: np.ndarray
+    unseen: np.ndarray
+    found: np.ndarray
+    errors: np.ndarray
+    bound: Bound
+    estimate: float
+    restless: int
+    seconds: float
+    new: int
+
+    def at(self, points: np.ndarray) -> np.ndarray:
+        """Torques left and right and loss at points of slip, shape (points, 3)."""
+        points = np.array(points, float)
+        at, sizes = places(self.lines), points * np.where(points < 0.0, [1.0, 1.0, -1.0, 1.0], 1.0)
+        both = [interpolated(self.lines, torques_of(values[..., :MAPPED], at * [1.0, 1.0, sign, 1.0]), sizes)
+                for sign, values in zip(SIGNS, self.slipping)]
+        return figures_of(np.where(points[:, 2:3] > 0.0, *both), points)
+
+    @property
+    def beyond(self) -> int:
+        """How many unseen points are beyond the bound."""
+        return int(np.sum(np.any(self.errors > 1.0, axis=1)))
+
+    def says(self) -> str:
+        """What the unseen points measure."""
+        count = len(self.unseen)
+        if not count:
+            return "no unseen points: the error of the map is not measured"
+        return (f"{count} unseen points, {self.beyond or 'none'} beyond {self.bound}: at most "
+                f"{100.0 * share_beyond(count, self.beyond):.2g} % are, at 95 %; the largest error is {self.errors.max():.2g} of it")
+
+
+def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, within: str | None = None, bound: Bound = Bound(),
+           unseen: int = 300, seed: int = 1, most: int = 4000, out: FileName | None = None, resume: bool = False, force: bool = False,
+           tell: Callable[[str], object] = lambda text: None, **farm: Any) -> LossMap:
+    """The map of a scene, whose changes over time are left out.
+
+    `levels`: values that the axes begin with, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`:
+    lets `accuracy` choose the cheapest model, such as "1%"; else it is the scene's. `unseen`: how many points measure the error, drawn
+    by `seed`. `most`: most points of the map that slip, in one direction. `out`: a Parquet file of all runs; see `designs.store.Store`.
+    `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
+    scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
+    lines = [starting(levels[name]) for name in VARIABLES]
+    if lines[2][0] <= 0.0:
+        raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
+    if within is not None:
+        chosen = _chosen(scene, lines, within)
+        tell(f"model: {chosen.run.setting}")
+        scene.set(chosen.set)
+    task, begin = PointTask(scene), time.perf_counter()
+    with ExitStack() as opened:
+        store = None
+        if out is not None:
+            space = Space(tuple(Dimension(name, "list", ()) for name in AXES))
+            about = hashed(scene, {"losses": {name: levels[name] for name in VARIABLES}, "bound": str(bound), "unseen": unseen,
+                                   "seed": seed, "most": most, "runs": 2 * most + unseen, "figures": FIGURES, "conditions": []})
+            store = opened.enter_context(Store(out, Columns(task, space), about, resume, force))
+            opened.enter_context(going_on_later(store))
+        runs = _Runs(task, store, opened.enter_context(Farm(**farm)))
+        while True:
+            at = np.stack([places(lines) * [1.0, 1.0, sign, 1.0] for sign in SIGNS])
+            slipping = runs.at(at)
+            figures = slipping[..., :MAPPED]
+            errors = estimates(lines, torques_of(figures, at), bound.of_torques(figures, at))
+            estimate = sum(worst.max(initial=0.0) for worst in errors)
+            tell(f"{' x '.join(str(len(line)) for line in lines)} lines: estimated error {estimate:.2g} of the bound")
+            finer = refined(lines, errors, most)
+            if finer is None:
+                break
+            lines = finer
+        stuck = runs.at(places([*lines[:2], np.zeros(1), lines[3]]))
+        drawn = _drawn(lines, unseen, seed)
+        found = runs.at(drawn)[..., :MAPPED]
+        if store is not None and store.finished is None:
+            store.finish()
+    made = LossMap(scene, tuple(lines), slipping, stuck, drawn, found, np.empty((0, MAPPED)), bound, estimate, runs.restless,
+                   time.perf_counter() - begin, runs.new)
+    errors = np.abs(made.at(drawn) - found) / bound.of_figures(found, drawn)
+    return LossMap(**{**made.__dict__, "errors": errors})
+
+
+class _Runs:
+    """Runs of points, each once. They are numbered in the order in which they are asked for, which is the same each time."""
+
+    def __init__(self, task, store, farm):
+        self.task, self.store, self.farm = task, store, farm
+        # what failed is tried again
+        self.kept = {row["run"]: row for row in store.kept.to_pylist() if not row["message"]} if store is not None else {}
+        self.found, self.restless, self.new = {}, 0, 0
+
+    def at(self, points):
+        """Figures at points (…, 4), shape (…, figures)."""
+        keys = [tuple(point) for point in points.reshape(-1, 4).tolist()]
+        asked = [(len(self.found) + number, key) for number, key in enumerate(key for key in dict.fromkeys(keys) if key not in self.found)]
+        key_of = dict(asked)
+        self.found.update({key: None for _, key in asked})
+        missing = []
+        for run, key in asked:
+            values, row = inputs(key), self.kept.get(run, {})
+            if all(row.get(name) == value for name, value in values.items()):
+                self._take(key, Row(run, values, {name: row[name] for name in FIGURES}, row["feasible"]))
+            else:
+                missing.append((run, values))
+        if missing:
+            with closing(self.farm.rows(self.task, missing)) as rows:
+                for row in rows:
+                    if self.store is not None:
+                        self.store.add(row)
+                    self._take(key_of[row.run], row)
+                    self.new += 1
+        return np.array([self.found[key] for key in keys]).reshape(*points.shape[:-1], len(FIGURES))
+
+    def _take(self, key, row):
+        if row.message:
+            torque, speed, difference, temperature = key
+            raise DifferentialError(f"at {torque:g} N.m, {speed:g} rad/s, a difference of {difference:g} rad/s and {temperature:g} K: "
+                                    f"{row.message}")
+        self.restless += not row.feasible
+        self.found[key] = [row.figures[name] for name in FIGURES]
+
+
+def inputs(point: Sequence[float]) -> dict[str, Number]:
+    """Values of the FMU for a point: torque, speed, difference of speeds, temperature."""
+    torque, speed, difference, temperature = point
+    return dict(zip(AXES, (torque, speed, speed + 0.5 * difference, speed - 0.5 * difference, temperature)))
+
+
+def _drawn(lines, count, seed):
+    """Random points between the lines, in both directions of the difference."""
+    draws = np.random.default_rng(seed).random((count, len(lines) + 1))
+    low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
+    points = low + draws[:, :-1] * (high - low)
+    points[:, 2] *= np.where(draws[:, -1] < 0.5, *SIGNS)
+    return points
+
+
+def _chosen(scene, lines, within):
+    """The cheapest model that is accurate in the middle of the map."""
+    middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **inputs([np.median(line) for line in lines])},
+                   fmu=scene.fmu)
+    found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
+    if found.use is None:
+        raise DifferentialError(f"within = {within}: no model is accurate enough; leave it out, or allow more")
+    return found.use

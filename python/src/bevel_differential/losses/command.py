@@ -1,0 +1,90 @@
+"""The command `losses`."""
+
+import argparse
+
+from ..command.arguments import add_farm, add_files, add_fmu, add_scene, farm, once
+
+# what an axis begins with where nothing is said: parts of the scene's own value, or values
+TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
+USUAL = {DIFFERENCE: "0.5 rad/s..20 rad/s", TEMPERATURE: "-20 degC, 20 degC, 80 degC, 120 degC"}
+OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: a tenth to all of the scene's)",
+           DIFFERENCE: f"difference of the wheel speeds, above 0; both directions run (default: {USUAL[DIFFERENCE]})",
+           TEMPERATURE: f"oil temperature (default: {USUAL[TEMPERATURE]})"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds what the command takes."""
+    add_scene(parser)
+    for name, what in OPTIONS.items():
+        parser.add_argument(f"--{name}", metavar="VALUES", help=f"{what}; FROM..TO, FROM..TO:COUNT or a list A, B, C")
+    parser.add_argument("--within", metavar="PERCENT", help="let `accuracy` choose the cheapest model, such as 1%% (default: the scene's)")
+    parser.add_argument("--bound", metavar="PERCENT,TORQUE", default="2,0.1", help="what an error may be, in %% and N.m (default: 2,0.1)")
+    parser.add_argument("--unseen", metavar="N", type=int, default=300, help="points that measure the error (default: 300)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of these points (default: 1)")
+    parser.add_argument("--most", metavar="N", type=int, default=20000, help="most points in one direction (default: 20000)")
+    parser.add_argument("--out", metavar="FILE", help="all runs as Parquet; --resume goes on from this file")
+    parser.add_argument("--resume", action="store_true", help="go on with what is missing in the runs")
+    parser.add_argument("--force", action="store_true", help="overwrite existing runs")
+    add_files(parser, "the map", "bias, loss and measured error")
+    parser.add_argument("--simulink", metavar="FILE", help="write the map for blocks of Simulink (a MATLAB script)")
+    add_farm(parser)
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Makes the map, says how good it is and writes files. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    from ..output_file import checked, checked_picture
+    from ..scene import Scene
+    from . import losses
+    from .grid import GOAL
+    from .picture import draw
+    from .tables import save, save_for_simulink
+
+    for file in (arguments.csv, arguments.simulink):
+        checked(file)
+    checked_picture(arguments.plot)
+    with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
+        scene.set(once("--set", arguments.set))
+        levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
+        made = losses(scene, levels, within=arguments.within, bound=_bound(arguments.bound), unseen=arguments.unseen, seed=arguments.seed,
+                      most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
+                      **farm(arguments))
+    print(made.says())
+    if made.estimate > GOAL:
+        print(f"the map stops at --most {arguments.most} points in one direction: lines that are left out tell of more bends")
+    if made.restless:
+        print(f"{made.restless} points do not stand still: they have the means of their last times")
+    print(f"{made.new} runs in {made.seconds:.1f} s")
+    for file, write in ((arguments.csv, save), (arguments.simulink, save_for_simulink), (arguments.plot, draw)):
+        if file:
+            print(f"written: {write(made, file)}")
+    return 0
+
+
+def _axes(scene, arguments):
+    from ..designs import Dimension
+    from . import VARIABLES
+
+    def own(name):
+        return abs(float(scene.values.get(name, scene.fmu.variable(name).start)))
+
+    torque = own("carrier.torque_command") or own("left.load_torque") + own("right.load_torque")
+    speed = own("carrier.speed_command") or own("left.speed_command")
+    usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
+    for name, variable in zip(OPTIONS, VARIABLES):
+        text = getattr(arguments, name) or usual[name]
+        # a range without a count begins with its ends
+        yield Dimension.parse(scene.fmu, variable, f"{text}:2" if ".." in text and ":" not in text else text)
+
+
+def _bound(text):
+    from ..values import DifferentialError
+    from .grid import Bound
+
+    try:
+        part, torque = map(float, text.split(","))
+    except ValueError:
+        part = torque = -1.0
+    if part < 0.0 or torque <= 0.0:
+        raise DifferentialError(f"--bound {text}: write a percentage and a torque in N.m above 0, such as 2,0.1", kind="use")
+    return Bound(part / 100.0, torque)

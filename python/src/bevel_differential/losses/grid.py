@@ -1,0 +1,142 @@
+"""Lines of a map, and new lines where it bends.
+
+The map is linear between lines in each of its axes, as the tables of system models are. By leaving a line out, its neighbours predict
+the values on it; the error of that, 1/2 |f''| h1 h2 with distances h1 and h2 to the neighbours, gives the curvature, and curvature the
+error 1/8 |f''| h² in the middle of an interval. The errors of all axes add up. Intervals with the largest are halved. Whether
+the map is as good as that says is measured by points that it has never seen.
+
+Linear are torques, not powers: a drag that grows with speed is a straight line, its power a parabola. Points are torque T of the
+carrier, speed ω, difference of speeds Δ and temperature; of the wheels' torques T_L and T_R and the loss P the map has
+
+    M = T_L − T_R,  Q = T − T_L − T_R,  D = (P + M Δ/2) / (|ω| + |Δ|/2)
+
+what locks, what drags on shafts, and what is lost beside the slip, P = −M Δ/2 + D (|ω| + |Δ|/2)."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+from scipy.stats import beta
+
+# least lines of an axis that tell whether the map bends
+LEAST = 3
+# sum of the errors of all axes over their bounds, each in its worst interval, from which on the map is good enough
+GOAL = 1.0
+# an interval shorter than this part of its axis is not halved: the map jumps there
+SHORTEST = 1e-3
+# confidence of the measured bound
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Bound:
+    """What an error may be: a part of the value, and a torque [N·m] on top of it. In power the torque acts at the speeds of
+    carrier and planets."""
+
+    part: float = 0.02
+    torque: float = 0.1
+
+    def of_torques(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Bounds of M, Q and D [N·m] that keep those of T_L, T_R and P: half of Q is in each of the wheels' torques."""
+        bounds = self.part * np.abs(torques_of(figures, points)) + self.torque
+        bounds[..., 1] = 2.0 * (self.part * np.abs(figures[..., :2]).min(axis=-1) + self.torque)
+        return bounds
+
+    def of_figures(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Bounds of T_L, T_R [N·m] and P [W] at points, both along the last axis."""
+        return self.part * np.abs(figures) + self.torque * np.stack([np.ones(points.shape[:-1])] * 2 + [_speed(points)], axis=-1)
+
+    def __str__(self) -> str:
+        return f"{100.0 * self.part:g} % + {self.torque:g} N.m"
+
+
+def torques_of(figures: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """M, Q and D of T_L, T_R and P at points, all along the last axis; D is 0 where nothing turns."""
+    left, right, loss = np.moveaxis(figures, -1, 0)
+    locking, speed = left - right, _speed(points)
+    lost = np.divide(loss + 0.5 * locking * points[..., 2], speed, out=np.zeros_like(speed), where=speed > 0.0)
+    return np.stack([locking, points[..., 0] - left - right, lost], axis=-1)
+
+
+def figures_of(torques: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """T_L, T_R and P of M, Q and D."""
+    locking, dragging, lost = np.moveaxis(torques, -1, 0)
+    total = points[..., 0] - dragging
+    return np.stack([0.5 * (total + locking), 0.5 * (total - locking), lost * _speed(points) - 0.5 * locking * points[..., 2]], axis=-1)
+
+
+def _speed(points):
+    return np.abs(points[..., 1]) + 0.5 * np.abs(points[..., 2])
+
+
+def starting(levels: Sequence[float]) -> np.ndarray:
+    """Lines that an axis begins with: the given ones, 0 where they straddle it, and enough to see a bend."""
+    lines = np.unique(np.asarray(levels, float))
+    if lines[0] < 0.0 < lines[-1]:
+        lines = np.union1d(lines, [0.0])
+    while 1 < len(lines) < LEAST:
+        lines = np.union1d(lines, 0.5 * (lines[1:] + lines[:-1]))
+    return lines
+
+
+def places(lines: Sequence[np.ndarray]) -> np.ndarray:
+    """All crossings of the lines, shape (lines of each axis, axes)."""
+    return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
+
+
+def estimates(lines: Sequence[np.ndarray], values: np.ndarray, bounds: np.ndarray) -> list[np.ndarray]:
+    """The largest error over its bound in each interval of each axis. `values` and `bounds`: shape (sheets, lines of each axis,
+    figures)."""
+    found = []
+    for axis, at in enumerate(lines):
+        worst = np.zeros(max(len(at) - 1, 0))
+        moved, limits = np.moveaxis(values, axis + 1, 0), np.moveaxis(bounds, axis + 1, 0)
+        for k in range(1, len(at) - 1):
+            before, after = at[k] - at[k - 1], at[k + 1] - at[k]
+            left_out = np.abs((moved[k - 1] * after + moved[k + 1] * before) / (before + after) - moved[k])
+            curvature = np.max(left_out / limits[k]) * 2.0 / (before * after)
+            for interval, width in ((k - 1, before), (k, after)):
+                worst[interval] = max(worst[interval], curvature * width**2 / 8.0)
+        found.append(worst)
+    return found
+
+
+def refined(lines: Sequence[np.ndarray], found: Sequence[np.ndarray], most: int) -> list[np.ndarray] | None:
+    """The lines with the worst intervals halved, or with the worst one where that would make more than `most` crossings; None where
+    the map is good enough, or as large as it may be."""
+    worst = [errors.max(initial=0.0) for errors in found]
+    if sum(worst) <= GOAL:
+        return None
+    for part in (0.5, 1.0):
+        new = [_halved(at, errors >= part * max(worst)) for at, errors in zip(lines, found)]
+        if size(lines) < size(new) <= most:
+            return new
+    return None
+
+
+def size(lines: Sequence[np.ndarray]) -> int:
+    """How many crossings there are."""
+    return math.prod(map(len, lines))
+
+
+def _halved(at, where):
+    where = where & (np.diff(at) > SHORTEST * (at[-1] - at[0]))
+    return np.union1d(at, 0.5 * (at[1:] + at[:-1])[where])
+
+
+def interpolated(lines: Sequence[np.ndarray], values: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Values at points, shape (points, figures), linear between lines; `values`: shape (lines of each axis, figures). An axis of one
+    line is the same everywhere."""
+    several = [axis for axis, at in enumerate(lines) if len(at) > 1]
+    kept = values.reshape([len(lines[axis]) for axis in several] + [values.shape[-1]])
+    if not several:
+        return np.broadcast_to(kept, (len(points), values.shape[-1]))
+    return RegularGridInterpolator([lines[axis] for axis in several], kept)(np.asarray(points)[:, several])
+
+
+def share_beyond(count: int, beyond: int) -> float:
+    """The share of points beyond a bound that is not exceeded at CONFIDENCE, after so many of `count` random points were beyond it
+    (Clopper and Pearson); 1 − 0.05^(1/n) where none was."""
+    return 1.0 if beyond == count else float(beta.ppf(CONFIDENCE, beyond + 1, count - beyond))

@@ -1,0 +1,57 @@
+"""The picture of a map: bias and loss over its axes, and its measured error."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..extras import require
+from ..values import FileName
+from . import SIGNS, LossMap
+from .tables import bias
+
+# curves for at most so many temperatures; points of a curve
+MOST_CURVES, POINTS = 4, 60
+ZERO_CELSIUS = 273.15
+NAMES = ["left torque", "right torque", "loss"]
+
+
+def draw(made: LossMap, file: FileName) -> Path:
+    """Draws a map into `file`; returns its path."""
+    require("matplotlib", "plot")
+    from .. import style
+
+    with style.styled():
+        figure, (ratio, loss, error) = style.panels(1, 3, 5.6)
+        middle = [0.5 * (line[0] + line[-1]) for line in made.lines]
+        temperatures = made.lines[3][np.unique(np.linspace(0, len(made.lines[3]) - 1, MOST_CURVES).round().astype(int))]
+        for temperature in temperatures:
+            label = f"{temperature - ZERO_CELSIUS:.3g} °C"
+            curve = [_along(made, 0, middle, temperature, sign) for sign in SIGNS]
+            line, = ratio.plot(curve[0][0], [bias(*values[:2])[0] or np.nan for values in curve[0][1]], label=label)
+            ratio.plot(curve[1][0], [bias(*values[:2])[0] or np.nan for values in curve[1][1]], "--", color=line.get_color())
+            for sign in SIGNS:
+                at, values = _along(made, 2, middle, temperature, sign)
+                loss.plot(sign * at, values[:, 2] / 1e3, color=line.get_color(), label=label if sign > 0.0 else None)
+        ratio.set(yscale="log", xlabel="carrier torque, N·m", ylabel="torque bias ratio T_high/T_low",
+                  title=f"Bias at {middle[1]:.3g} rad/s, difference {middle[2]:.3g} rad/s")
+        loss.set(xlabel="difference of wheel speeds (left − right), rad/s", ylabel="power loss, kW",
+                 title=f"Loss at {middle[0]:.4g} N·m, {middle[1]:.3g} rad/s")
+        for column, name in zip(made.errors.T, NAMES):
+            error.plot(np.sort(column), np.arange(1, len(column) + 1) / max(len(column), 1), label=name)
+        error.axvline(1.0, color=style.RED, ls="--")
+        error.set(xscale="log", xlabel=f"error over {made.bound}", ylabel="share of the unseen points", title="Measured error")
+        for axes in (ratio, loss, error):
+            axes.legend()
+        style.caption(figure, "Left: solid with the left wheel faster, dashed with the right wheel faster; where both meet, the differential "
+                      f"is symmetric. Middle: the loss is lowest where nothing slips. Right: {made.says()}.")
+        style.save(figure, file)
+    return Path(file)
+
+
+def _along(made, axis, middle, temperature, sign):
+    """Values of an axis, and torques and loss there, in the middle of the others."""
+    at = np.linspace(made.lines[axis][0], made.lines[axis][-1], POINTS)
+    points = np.tile([*middle[:3], temperature], (POINTS, 1))
+    points[:, axis] = at
+    points[:, 2] *= sign
+    return at, made.at(points)

@@ -1,0 +1,150 @@
+"""A point of the map: the scene with a given carrier torque, carrier speed, difference of wheel speeds and oil temperature, run
+until its means stand still.
+
+The carrier is driven by torque, both wheels by speed. Means are those over whole mesh cycles, of torques sampled within a cycle and
+of the heat that a cycle adds. A slow cycle costs no more than a fast one, since steps grow with it, and well damped half-shafts keep
+falling friction from juddering: at small differences the means are quasi-static. Without a difference the differential is stuck: it
+winds up in both directions, slowly, over a mesh cycle, and its torques range up to where it breaks loose."""
+
+import time
+from collections.abc import Callable, Mapping
+from math import ceil, lcm, pi
+from typing import Any
+
+import numpy as np
+
+from ..instance import Instance
+from ..scene import Scene
+from ..values import DifferentialError, Number
+from ..want import Want
+from ..designs.task import Row
+
+# what makes a point
+AXES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "right.speed_command", "oil.temperature"]
+TORQUES = ["left.shaft_torque", "right.shaft_torque"]
+FIGURES = ["left.shaft_torque:mean", "right.shaft_torque:mean", "power.loss:mean", "left.shaft_torque:min", "left.shaft_torque:max"]
+# a bench drives so; without warming up all surfaces have the temperature of the oil
+BENCH = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.planet_spin": "free",
+         "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False}
+SHAFTS = ["half_shaft.left", "half_shaft.right"]
+# damping over stiffness of the half-shafts, s: the means of the torques do not depend on it
+DAMPING_TIME = 0.01
+# samples of a mesh cycle; shortest time over which means are compared, and most of these times, s
+SAMPLES, SHORTEST, MOST = 48, 0.02, 12
+# means stand still where they change by less than this part, or by this torque [N·m]
+STILL, STILL_TORQUE = 1e-3, 0.01
+# difference of speeds at which a stuck differential is wound up [rad/s]; samples and levels of the search for its peak
+CREEP, FINER, LEVELS = 0.02, 20, 3
+
+
+def benched(scene: Scene) -> Scene:
+    """The scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
+    values = {**scene.values, **BENCH}
+    stiffness = {shaft: values.get(f"{shaft}_stiffness", scene.fmu.variable(f"{shaft}_stiffness").start) for shaft in SHAFTS}
+    values |= {f"{shaft}_damping": DAMPING_TIME * value for shaft, value in stiffness.items()}
+    return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
+
+
+class PointTask:
+    """What a worker does with a point: a task of `designs.Farm`.
+
+    A row's figures are those of FIGURES in SI. Where the differential slips, least and greatest torque are those of a mesh cycle;
+    where it is stuck, those at which it breaks loose. `feasible`: its means stand still; else they are those of the last cycles."""
+
+    def __init__(self, scene: Scene):
+        self.scene = scene
+        self.figures = [Want.parse(scene.fmu, figure) for figure in FIGURES]
+        # heat of brakes is part of what the wheels get
+        self.heats = [name for name in scene.fmu.variables if name.startswith("heat.") and name != "heat.brake"]
+        self._instance: Instance | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_instance": None}
+
+    def close(self) -> None:
+        """Frees the instance."""
+        if self._instance is not None:
+            self._instance.close()
+            self._instance = None
+
+    def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
+        """The row of a point. A failed run is a row, too."""
+        begun, row = time.perf_counter(), Row(run, dict(values))
+        try:
+            figures, row.feasible = self._stuck(values) if _difference(values) == 0.0 else self._slipping(values)
+            row.figures = dict(zip(FIGURES, figures))
+        except DifferentialError as error:
+            row.message = str(error)
+        row.seconds = time.perf_counter() - begun
+        return row
+
+    def _begun(self, values):
+        if self._instance is None:
+            self._instance = self.scene.fmu.open()
+        return self._instance.initialise({**self.scene.values, **values})
+
+    def _slipping(self, values):
+        instance = self._begun(values)
+        cycle, period = _cycles(instance, _difference(values))
+        return self._settled(instance, cycle, period)
+
+    def _settled(self, instance, cycle, period):
+        """Figures over the first times that differ from the times before by next to nothing, and whether there were any."""
+        window = ceil(SHORTEST / (cycle * period)) * period
+        means = []
+        while len(means) < MOST:
+            samples, heat = self._window(instance, cycle / SAMPLES, window * SAMPLES)
+            means.append(np.array([*samples.mean(axis=0), heat / (window * cycle)]))
+            if len(means) > 1 and np.all(np.abs(means[-1] - means[-2]) < STILL * np.abs(means[-1]) + STILL_TORQUE):
+                return [*means[-1], samples[:, 0].min(), samples[:, 0].max()], True
+        return [*np.mean(means[MOST // 2:], axis=0), samples[:, 0].min(), samples[:, 0].max()], False
+
+    def _window(self, instance, size, steps):
+        """Torques after each of the steps, shape (steps, 2), and the heat of all of them."""
+        before = sum(instance.read(self.heats))
+        samples = []
+        for _ in range(steps):
+            instance.step(size)
+            samples.append(instance.read(TORQUES))
+        return np.array(samples), sum(instance.read(self.heats)) - before
+
+    def _stuck(self, values):
+        instance = self._begun(values)
+        (*means, _, _), still = self._settled(instance, SHORTEST, 1)
+        ends = []
+        for sign in (1.0, -1.0):
+            instance = self._begun({**values, "left.speed_command": values["left.speed_command"] + sign * CREEP / 2.0,
+                                    "right.speed_command": values["right.speed_command"] - sign * CREEP / 2.0})
+            cycle, _ = _cycles(instance, CREEP)
+            # the faster wheel has less torque
+            ends.append(-sign * peak(instance, lambda of: -sign * of.get(TORQUES[0]), cycle / SAMPLES, SAMPLES))
+        return [*means, *sorted(ends)], still
+
+
+def peak(instance: Instance, read: Callable[[Instance], Number], size: float, steps: int, level: int = 0) -> float:
+    """The greatest value of `read` over so many steps of `size`, s; steps are finer where its growth first falls to less than half, as
+    it does where friction breaks loose."""
+    kept = [instance.save()] * 2
+    seen = [float(read(instance))]
+    greatest, is_first = -np.inf, True
+    for _ in range(steps):
+        kept = [kept[1], instance.save()] if is_first else kept
+        instance.step(size)
+        seen.append(float(read(instance)))
+        if is_first and level < LEVELS and len(seen) > 2 and seen[-1] - seen[-2] < 0.5 * (seen[-2] - seen[-3]):
+            here = instance.save()
+            greatest = peak(instance.restore(kept[0]), read, size / FINER, 2 * FINER, level + 1)
+            instance.restore(here)
+            is_first = False
+    return max(greatest, *seen)
+
+
+def _difference(values):
+    return values["left.speed_command"] - values["right.speed_command"]
+
+
+def _cycles(instance, difference):
+    """Duration of a mesh cycle, s, and mesh cycles until all teeth meet again as at the start; 1 where teeth are alike."""
+    planet, side = instance.read(["geometry.planet_teeth", "geometry.side_teeth"])
+    differ = any(instance.read(["effects.tooth_errors", "effects.tooth_fault"]))
+    return 4.0 * pi / (side * abs(difference)), lcm(int(planet), int(side)) if differ else 1

@@ -1,0 +1,92 @@
+"""The map as tables: CSV or Parquet, and MATLAB arrays in the layout of Simulink's blocks."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from ..output_file import write_whole
+from ..records import write
+from ..values import FileName
+from . import MAPPED, SIGNS, LossMap
+from .grid import places, torques_of
+
+HEAD = ["kind", "carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]",
+        "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
+        "left.shaft_torque_max [N.m]", "torque_bias_ratio [1]", "locking_effect [%]"]
+# least efficiency that a block is given
+LEAST = 0.01
+
+
+def bias(left: float, right: float) -> tuple[float | None, float | None]:
+    """Torque bias ratio T_high/T_low and locking effect 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817); None without a torque,
+    and no ratio where the torques oppose each other."""
+    low, high = sorted(map(abs, (left, right)))
+    total = abs(left + right)
+    return (high / low if low > 0.0 and left * right > 0.0 else None), (100.0 * abs(left - right) / total if total > 0.0 else None)
+
+
+def save(made: LossMap, file: FileName) -> Path:
+    """Writes points of the map, stuck points and unseen points. Where it is stuck, ratio and effect are those at which it breaks
+    loose."""
+    return write(file, HEAD, _rows(made), made.says(), made.scene.name,
+                 "between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
+                 "and speed, s speed_difference, TL, TR, P torques and loss")
+
+
+def _rows(made: LossMap) -> Iterator[list[object]]:
+    at = places(made.lines)
+    for sign, values in zip(SIGNS, made.slipping):
+        for point, figures in zip((at * [1.0, 1.0, sign, 1.0]).reshape(-1, 4), values.reshape(-1, values.shape[-1])):
+            yield _row("map", point, figures.tolist(), figures[:2])
+    still = places([*made.lines[:2], np.zeros(1), made.lines[3]])
+    for point, figures in zip(still.reshape(-1, 4), made.stuck.reshape(-1, made.stuck.shape[-1])):
+        left = figures[4]
+        yield _row("stuck", point, figures.tolist(), (left, figures[0] + figures[1] - left))
+    for point, figures in zip(made.unseen, made.found):
+        yield _row("unseen", point, [*figures.tolist(), "", ""], figures[:2])
+
+
+def _row(kind, point, figures, torques):
+    return [kind, *point.tolist(), *figures, *("" if one is None else float(one) for one in bias(*torques))]
+
+
+def save_for_simulink(made: LossMap, file: FileName) -> Path:
+    """Writes a MATLAB script with the arrays that the blocks' masks and n-D Lookup Tables take."""
+    torque, speed, slip, temperature = made.lines
+    power = np.abs(torque[:, None, None] * speed[None, :, None])
+    loss = made.stuck[:, :, 0, :, 2]
+    efficiency = np.clip(1.0 - np.divide(loss, power, out=np.zeros_like(loss), where=power > 0.0), LEAST, 1.0)
+    # over a signed difference, through the stuck means at 0
+    slips = np.concatenate([-slip[::-1], [0.0], slip])
+    whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
+    torques = torques_of(whole, places([torque, speed, slips, temperature]))
+    middle = [len(line) // 2 for line in made.lines]
+    coupling = 0.5 * np.abs(torques[:, :, len(slip) + 1:, :, 0])
+    text = [
+        f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.says()}.",
+        "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
+        "% Blocks Open Differential and Limited Slip Differential, Efficiency factors = Driveshaft torque, temperature and speed:",
+        _vector("Trq_bpts", torque), _vector("omega_bpts", speed), _vector("Temp_bpts", temperature),
+        _array("eta_tbl", efficiency),
+        "% Limited Slip Differential, coupling by slip speed-dependent torque data (slip, torque), and by input torque dependent",
+        "% torque data (input, torque): half the difference of the wheels' torques in the middle of the other axes:",
+        _vector("slip", np.append(0.0, slip)),
+        _vector("coupling_torque_of_slip", np.append(0.0, coupling[middle[0], middle[1], :, middle[3]])),
+        _vector("input_torque", torque), _vector("coupling_torque_of_input", coupling[:, middle[1], middle[2], middle[3]]),
+        "% n-D Lookup Tables, linear, over torque T, speed w, slip s = left - right, temperature; of the torques left and right TL, TR",
+        "% and the loss P: locking = TL - TR, dragging = T - TL - TR, P = -locking s/2 + lost (|w| + |s|/2):",
+        _vector("slip_bpts", slips),
+        *(_array(f"{name}_tbl", torques[..., place]) for place, name in enumerate(("locking", "dragging", "lost"))),
+    ]
+    write_whole(file, "\n".join(text) + "\n")
+    return Path(file)
+
+
+def _vector(name, values):
+    return f"{name} = [{' '.join(f'{value:.9g}' for value in values)}];"
+
+
+def _array(name, values):
+    # in MATLAB the first axis changes fastest
+    return f"{name} = reshape([{' '.join(f'{value:.9g}' for value in values.ravel(order='F'))}], [{' '.join(map(str, values.shape))}]);"

@@ -1,0 +1,273 @@
+"""Loss maps: points against closed forms, lines where a map bends, an error that is measured, and runs that nothing loses."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from math import exp, tanh
+from types import SimpleNamespace
+
+import numpy as np
+import psutil
+import pyarrow.parquet as pq
+import pytest
+from bevel_differential import DifferentialError, Scene, losses as package
+from bevel_differential.command import main
+from bevel_differential.csv_table import CsvTable, Quantity, Text
+from bevel_differential.designs.sweep import Stopped
+from bevel_differential.losses import VARIABLES, inputs, losses
+from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting,
+                                            torques_of)
+from bevel_differential.losses.point import FIGURES, PointTask, benched
+from bevel_differential.losses.tables import HEAD, bias
+from interrupts import with_interrupts
+
+PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
+CLUTCH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": PRELOAD,
+          "limited_slip.torque_coefficient": 0.0, "limited_slip.mean_radius": RADIUS, "limited_slip.static_ratio": RATIO}
+STRIBECK_CLUTCH = CLUTCH | {"limited_slip.stribeck_speed": STRIBECK}
+LEVELS = dict(zip(VARIABLES, ([300.0, 900.0], [5.0, 40.0], [0.5, 20.0], [300.0, 350.0])))
+TORQUE, SPEED, TEMPERATURE = 800.0, 30.0, 330.0
+DRAG = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.carrier_torque": 2.0, "bearing_drag.side_torque": 0.7,
+        "bearing_drag.carrier_viscous": 0.02, "bearing_drag.side_viscous": 0.005, "bearing_drag.carrier_churning": 1e-3}
+
+
+@pytest.fixture
+def scene(fmu_file):
+    with Scene("plain", set=CLUTCH, fmu=fmu_file) as made:
+        yield made
+
+
+@pytest.fixture
+def point(scene):
+    """point(values, torque, speed, difference): the figures of FIGURES."""
+    def run(values, *at):
+        task = PointTask(benched(scene.set(values)))
+        row = task.evaluate(0, inputs((*at, TEMPERATURE)))
+        task.close()
+        assert row.feasible and not row.message, row.message
+        return [row.figures[name] for name in FIGURES]
+
+    return run
+
+
+# points
+
+@pytest.mark.parametrize("difference", [20.0, -20.0, 1.0, -0.05, 2.0 * SPEED])
+def test_preload_moves_its_torque_from_the_fast_wheel_to_the_slow_one(point, difference):
+    # at 2 w one wheel stands; means stand still to a thousandth, their remainder falls like exp(-t/10 ms)
+    left, right, loss, low, high = point({}, TORQUE, SPEED, difference)
+    shift = np.sign(difference) * PRELOAD
+    assert [left, right, loss] == pytest.approx([TORQUE / 2.0 - shift, TORQUE / 2.0 + shift, PRELOAD * abs(difference)], rel=1e-4)
+    assert low == pytest.approx(left, rel=1e-4) and high == pytest.approx(left, rel=1e-4)
+    ratio, effect = bias(left, right)
+    assert ratio == pytest.approx((TORQUE / 2.0 + PRELOAD) / (TORQUE / 2.0 - PRELOAD), rel=1e-4)
+    assert effect == pytest.approx(100.0 * (ratio - 1.0) / (ratio + 1.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("stribeck", [0.0, STRIBECK])
+def test_a_stuck_differential_holds_up_to_its_breakaway_torque_in_both_directions(point, stribeck):
+    left, right, loss, low, high = point({"limited_slip.stribeck_speed": stribeck}, TORQUE, SPEED, 0.0)
+    assert [left, right] == pytest.approx([TORQUE / 2.0] * 2, rel=1e-6) and abs(loss) < 1e-6
+    assert [low, high] == pytest.approx([TORQUE / 2.0 - RATIO * PRELOAD, TORQUE / 2.0 + RATIO * PRELOAD], abs=0.05)
+
+
+@pytest.mark.parametrize("difference", [0.0, 8.0])
+def test_drag_is_lost_by_its_formula(point, difference):
+    *_, loss, _, _ = point(DRAG | {"effects.limited_slip": False}, TORQUE, SPEED, difference)
+
+    def drag(coulomb, viscous, speed):
+        return (coulomb * tanh(speed / 0.1) + viscous * speed) * speed
+
+    sides = sum(drag(0.7, 0.005, SPEED + sign * difference / 2.0) for sign in (1.0, -1.0))
+    assert loss == pytest.approx(drag(2.0, 0.02, SPEED) + 1e-3 * SPEED**3 + sides, rel=1e-4)
+
+
+def test_a_small_difference_costs_no_more_than_a_large_one_and_agrees_with_it(point):
+    # teeth whose friction does not depend on speed
+    teeth = {"scene.gear_contact": "tooth", "effects.limited_slip": False, "effects.thrust_friction": True}
+    slow, fast = (point(teeth, TORQUE, SPEED, difference) for difference in (0.01, 10.0))
+    assert slow[:2] == pytest.approx(fast[:2], rel=2e-3)
+    assert slow[2] / 0.01 == pytest.approx(fast[2] / 10.0, rel=0.02)
+
+
+def test_tooth_errors_are_averaged_until_all_teeth_have_met(scene):
+    task = PointTask(benched(Scene("errors", set={"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 8}, fmu=scene.fmu)))
+    row = task.evaluate(0, inputs((TORQUE, SPEED, 40.0, TEMPERATURE)))
+    # 80 pairs of 10 and 16 teeth, at least twice
+    assert row.feasible and task._instance.time >= 2.0 * 80.0 * 4.0 * np.pi / (16.0 * 40.0) * (1.0 - 1e-9)
+    task.close()
+
+
+def test_what_the_fmu_refuses_is_said_with_its_point(scene):
+    with pytest.raises(DifferentialError, match=r"(?s)at 300 N.m, 5 rad/s.*oil.viscosity_100"):
+        losses(scene.set({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True}), LEVELS,
+               workers=0)
+
+
+# lines
+
+def test_leaving_lines_out_tells_the_error_of_a_parabola():
+    lines = [np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.5, 1.0])]
+    at = places(lines)
+    values = (at[..., 0] ** 2 + 5.0 * at[..., 1] + at[..., 0] * at[..., 1])[None, ..., None]
+    along_x, along_y = estimates(lines, values, np.full(values.shape, 0.1))
+    # h²/4 in the middle of an interval of x²; what is straight, or twisted, has none
+    assert along_x == pytest.approx([2.5, 10.0]) and along_y == pytest.approx([0.0, 0.0], abs=1e-9)
+    finer = refined(lines, [along_x, along_y], 100)
+    assert finer[0].tolist() == [0.0, 1.0, 2.0, 3.0] and finer[1] is not None and len(finer[1]) == 3
+    assert refined(lines, [along_x, along_y], 11) is None and refined(lines, [along_y, along_y], 100) is None
+
+
+def test_axes_begin_with_a_middle_and_with_zero_between_signs():
+    assert starting([2.0, 6.0]).tolist() == [2.0, 4.0, 6.0] and starting([-4.0, 6.0]).tolist() == [-4.0, 0.0, 6.0]
+    assert starting([5.0]).tolist() == [5.0]
+
+
+def test_torques_and_figures_are_the_same_said_twice():
+    points = np.random.default_rng(1).normal(size=(20, 4))
+    figures = np.random.default_rng(2).normal(size=(20, 3))
+    assert figures_of(torques_of(figures, points), points) == pytest.approx(figures)
+    lines = [np.array([0.0, 2.0]), np.array([7.0])]
+    assert interpolated(lines, np.array([[[1.0]], [[3.0]]]), np.array([[0.5, 7.0]])).tolist() == [[1.5]]
+
+
+def test_the_measured_share_is_that_of_the_rule():
+    assert share_beyond(300, 0) == pytest.approx(1.0 - 0.05 ** (1.0 / 300.0), rel=1e-12) and share_beyond(300, 0) < 0.01
+    assert 0.01 < share_beyond(300, 1) < share_beyond(300, 2) < share_beyond(300, 300) == 1.0
+
+
+# whole maps
+
+def over_kinetic(difference):
+    return 1.0 + (RATIO - 1.0) * exp(-RADIUS * abs(difference) / 2.0 / STRIBECK)
+
+
+@pytest.fixture(scope="module")
+def mapped(fmu_file):
+    with Scene("stribeck", set=STRIBECK_CLUTCH, fmu=fmu_file) as made:
+        yield losses(made, LEVELS, bound=Bound(0.002, 0.1), unseen=60, workers=0)
+
+
+def test_a_map_keeps_its_bound_against_the_closed_form(mapped):
+    torque, speed, difference, temperature = mapped.lines
+    # only the slip speed bends it
+    assert [len(torque), len(speed), len(temperature)] == [3, 3, 3] and len(difference) > 3
+    assert np.diff(difference)[0] <= np.diff(difference)[-1]
+    assert mapped.beyond == 0 and "60 unseen points, none beyond 0.2 % + 0.1 N.m: at most 4.9 % are, at 95 %" in mapped.says()
+    points = np.array([[512.0, 11.0, sign * at, 311.0] for at in np.linspace(0.5, 20.0, 57) for sign in (1.0, -1.0)])
+    clutch = np.array([PRELOAD * over_kinetic(at) for at in points[:, 2]])
+    shift = np.sign(points[:, 2]) * clutch
+    expected = np.stack([256.0 - shift, 256.0 + shift, clutch * np.abs(points[:, 2])], axis=-1)
+    assert np.all(np.abs(mapped.at(points) - expected) <= mapped.bound.of_figures(expected, points))
+
+
+def test_tables_have_units_and_the_same_numbers(mapped, tmp_path):
+    from bevel_differential.losses.tables import save, save_for_simulink
+    units = {"N.m": 1.0, "rad/s": 1.0, "K": 1.0, "W": 1.0, "1": 1.0, "%": 1.0}
+    table = CsvTable(save(mapped, tmp_path / "map.csv"), lambda name: Text(name) if name == "kind" else Quantity(name, units))
+    rows = [values for _, values in table.rows]
+    assert [column.head for column in table.columns.values()] == HEAD
+    counts = {kind: sum(row["kind"] == kind for row in rows) for kind in ("map", "stuck", "unseen")}
+    assert counts == {"map": mapped.slipping[..., 0].size, "stuck": 27, "unseen": 60}
+    row = rows[0]
+    ratio, effect = bias(row["left.shaft_torque"], row["right.shaft_torque"])
+    assert row["torque_bias_ratio"] == ratio > 1.0 and row["locking_effect"] == effect
+    parquet = pq.read_table(save(mapped, tmp_path / "map.parquet"))
+    assert parquet.column_names == HEAD and parquet["power.loss [W]"].to_pylist() == [row["power.loss"] for row in rows]
+    script = save_for_simulink(mapped, tmp_path / "map.m").read_text(encoding="utf-8")
+
+    def array(name):
+        found = re.search(rf"^{name} = (?:reshape\()?\[([^]]*)\](?:, \[([^]]*)\]\))?;$", script, re.MULTILINE)
+        shape = [int(size) for size in found[2].split()] if found[2] else -1
+        return np.array([float(value) for value in found[1].split()]).reshape(shape, order="F")
+
+    slip, locking = array("slip_bpts"), array("locking_tbl")
+    assert array("Trq_bpts") == pytest.approx(mapped.lines[0]) and array("eta_tbl") == pytest.approx(np.ones((3, 3, 3)))
+    assert locking.shape == (3, 3, len(slip), 3) and np.all(np.diff(slip) > 0.0)
+    for place, at in enumerate(slip):
+        assert locking[1, 1, place, 1] == pytest.approx(-2.0 * np.sign(at) * PRELOAD * over_kinetic(at), rel=1e-5, abs=1e-6)
+
+
+def test_torques_that_oppose_each_other_have_no_ratio():
+    assert bias(-10.0, 50.0) == (None, 150.0) and bias(0.0, 50.0) == (None, 100.0) and bias(20.0, 60.0) == (3.0, 50.0)
+
+
+@pytest.mark.parametrize("option, value, words", [("--difference", "-1 rad/s..1 rad/s", "above 0"), ("--bound", "2", "2,0.1"),
+                                                  ("--temperature", "-200 degC", "oil.temperature"), ("--torque", "3 rad", "N.m")])
+def test_wrong_axes_are_one_line(option, value, words, capsys, fmu_file):
+    assert main(["losses", "torque_bias", f"{option}={value}", "--workers", "0", "--fmu", fmu_file]) != 0
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and words in said, said
+
+
+# nothing is lost
+
+def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, mapped, tmp_path, monkeypatch):
+    given, out = {"bound": Bound(0.002, 0.1), "unseen": 60, "out": tmp_path / "runs.parquet"}, []
+
+    def kill(text):
+        out.append(text)
+        workers = [child for child in psutil.Process().children(recursive=True) if "multiprocessing.spawn" in " ".join(child.cmdline())]
+        workers[0].send_signal(signal.SIGKILL)
+
+    with Scene("stribeck", set=STRIBECK_CLUTCH, fmu=fmu_file) as made:
+        killed = losses(made, LEVELS, **given, tell=kill, workers=2)
+        evaluate = PointTask.evaluate
+
+        def stopping(task, run, values):
+            if run == 100:
+                raise KeyboardInterrupt
+            return evaluate(task, run, values)
+
+        monkeypatch.setattr(PointTask, "evaluate", stopping)
+        given["out"] = tmp_path / "stopped.parquet"
+        with pytest.raises(Stopped, match="^stopped; 100 of .* runs are kept .*--resume"):
+            losses(made, LEVELS, **given, workers=0)
+        monkeypatch.undo()
+        resumed = losses(made, LEVELS, **given, resume=True, workers=0)
+        again = losses(made, LEVELS, **given, resume=True, workers=0)
+    assert len(out) > 1 and resumed.new == mapped.new - 100 and again.new == 0
+    for one in (killed, resumed, again):
+        assert np.array_equal(one.slipping, mapped.slipping) and np.array_equal(one.found, mapped.found)
+
+
+def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
+    out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
+    command = [sys.executable, "-m", "bevel_differential", "losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40",
+               "--difference", "1, 5", "--temperature", "350", "--unseen", "5", "--most", "300", "--bound", "0.01,0.001", "--workers", "2",
+               "--out", str(out)]
+    running = subprocess.Popen(command, env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
+    while running.poll() is None and not list(parts.glob("part-*")):
+        time.sleep(0.02)
+    os.killpg(running.pid, signal.SIGINT)
+    said = running.communicate(timeout=120)
+    assert running.returncode == 130 and said[1].count("\n") == 1 and "--resume" in said[1], said
+    kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
+    done = subprocess.run([*command, "--resume"], env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, capture_output=True, text=True,
+                          timeout=600, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    new = int(re.search(r"^(\d+) runs in", done.stdout, re.MULTILINE)[1])
+    assert kept > 0 and new + kept == len(pq.read_table(out)) and not parts.exists()
+
+
+def test_accuracy_chooses_the_model(scene, monkeypatch):
+    asked, said = [], []
+
+    def chosen(of, wants, within, from_):
+        asked.append((of.values, wants, within))
+        run = SimpleNamespace(setting="ideal")
+        return SimpleNamespace(use=SimpleNamespace(set={"scene.gear_contact": "ideal"}, run=run))
+
+    monkeypatch.setattr(package, "accuracy", chosen)
+    made = losses(scene.set({"scene.gear_contact": "lumped"}), {name: values[:1] for name, values in LEVELS.items()}, within="1%",
+                  unseen=0, workers=0, tell=said.append)
+    (values, wants, within), = asked
+    assert said[0] == "model: ideal"
+    assert within == "1%" and wants == ["left.shaft_torque:mean", "right.shaft_torque:mean"]
+    assert values["left.speed_command"] - values["right.speed_command"] == 0.5
+    assert made.scene.values["scene.gear_contact"] == scene.fmu.variable("scene.gear_contact").literals["ideal"]
+    assert "not measured" in made.says()
