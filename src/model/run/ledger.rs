@@ -77,7 +77,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
 #[inline]
 fn warm_up<const N: usize>(model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
     if let Some(network) = &model.thermal {
-        network.advance(sums.thermal, sums.heat, step.h, step.end.v[CARRIER].abs());
+        let turned = (step.end.q[CARRIER] - step.start.q[CARRIER]).abs();
+        network.advance(sums.thermal, sums.heat, step.h, turned / step.h);
     }
 }
 

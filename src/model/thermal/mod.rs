@@ -22,8 +22,14 @@ pub const WASHERS: usize = 3;
 /// Case and housing.
 pub const CASE: usize = 4;
 
-/// Change of a temperature that friction does not feel yet [K]: limit torques follow in steps of this size.
-const UNFELT: f64 = 0.5;
+/// Changes of temperatures that friction does not feel yet [K]: it follows in steps of this size. The viscosity of a cold oil
+/// changes by a tenth in a kelvin.
+const UNFELT: [f64; NODES] = [0.1, 0.5, 0.5, 0.5, 0.5];
+
+/// Longest step, far above any time in which temperatures change [s].
+const LONGEST: f64 = 1e3;
+/// Part of the longest step below which one of unfelt change makes it shorter at once.
+const SHORTER: f64 = 0.5;
 
 /// Temperatures of all nodes, and the heat that made them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,10 +44,10 @@ pub struct Thermal {
     pub entered: [f64; NODES],
     /// Heat given off to ambient and a sump of given temperature [J].
     pub given_off: f64,
-    /// Time since friction last felt a change [s].
-    pub since: f64,
-    /// Longest step: temperatures, at their last rate, change by what friction does not feel [s].
+    /// Longest step [s].
     pub longest: f64,
+    /// Step in which temperatures, at the rate of the last one, change by what friction does not feel [s].
+    unfelt_step: f64,
 }
 
 impl Thermal {
@@ -53,8 +59,8 @@ impl Thermal {
             felt: [temperature; NODES],
             entered: [0.0; NODES],
             given_off: 0.0,
-            since: 0.0,
-            longest: f64::MAX,
+            longest: LONGEST,
+            unfelt_step: LONGEST,
         }
     }
 
@@ -63,26 +69,30 @@ impl Thermal {
         self.rises.map(|rise| self.start + rise)
     }
 
-    /// Whether friction is to feel the present temperatures.
+    /// Whether friction is to feel the present temperatures: they have changed, or would within a longest step.
     pub fn is_to_be_felt(&self) -> bool {
-        self.change() > UNFELT
+        let changes = self.temperatures().into_iter().zip(self.felt).map(|(now, felt)| (now - felt).abs());
+        changes.zip(UNFELT).any(|(change, unfelt)| change > unfelt) || self.unfelt_step < SHORTER * self.longest
+    }
+
+    /// Notes how fast nodes warm up that have risen from `begin` within `h` [s].
+    fn note_rates(&mut self, begin: &[f64; NODES], h: f64) {
+        let rates = self.rises.iter().zip(begin).map(|(end, begin)| (end - begin).abs() / h);
+        let fastest = rates.zip(UNFELT).fold(0.0, |most: f64, (rate, unfelt)| most.max(rate / unfelt));
+        self.unfelt_step = LONGEST.min(1.0 / fastest.max(f64::MIN_POSITIVE));
     }
 
     /// Lets friction feel the present temperatures.
     pub fn feel(&mut self) {
-        self.longest = self.since * UNFELT / self.change();
-        (self.felt, self.since) = (self.temperatures(), 0.0);
-    }
-
-    /// Largest change that friction does not feel yet [K].
-    fn change(&self) -> f64 {
-        self.temperatures().iter().zip(&self.felt).fold(0.0, |most, (now, felt)| most.max((now - felt).abs()))
+        (self.felt, self.longest) = (self.temperatures(), self.unfelt_step);
     }
 
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         let sum = |x: &[f64]| x.iter().sum::<f64>();
-        let rest = self.start + self.given_off + self.since;
-        (sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite() && self.longest >= 0.0
+        let rest = self.start + self.given_off;
+        (sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite()
+            && self.longest > 0.0
+            && self.unfelt_step > 0.0
     }
 }

@@ -69,7 +69,7 @@ impl<const H: usize> Network<H> {
         let entering = self.entering(heat);
         let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);
         thermal.entered = entering;
-        thermal.since += h;
+        let begin = thermal.rises;
         let to_oil = self.to_oil.map(|g| g.at(speed));
         let to_ambient = self.to_ambient.at(speed);
         let leaving = |i: usize| to_oil[i] + if i == CASE { to_ambient } else { 0.0 };
@@ -80,6 +80,7 @@ impl<const H: usize> Network<H> {
         for _ in 0..parts as usize {
             self.midpoint(thermal, &power, h / parts, (&to_oil, to_ambient));
         }
+        thermal.note_rates(&begin, h);
     }
 
     /// A step by the midpoint rule: temperatures halfway follow from that of the oil, which balances all. All count from that at

@@ -110,7 +110,13 @@ fn satisfy(run: &mut Run, test: &Test, d: &mut Draw) {
     let value = match test.sign {
         '=' => test.values[d.whole(0, test.values.len() as i32 - 1) as usize],
         '!' => {
-            let Access::Enumeration(kind, ..) = row.access else { panic!("{}", row.name) };
+            let Access::Enumeration(kind, ..) = row.access else {
+                if run.get(row) == Some(test.values[0]) {
+                    let most = row.range.map_or(1.0, |range| range.max.min(10.0));
+                    run.set(row, test.values[0] + 0.02 * (most - test.values[0]), start);
+                }
+                return;
+            };
             let all: Vec<f64> = kind.choices.iter().map(|c| f64::from(c.value)).collect();
             let left: Vec<f64> = all.into_iter().filter(|v| !test.values.contains(v)).collect();
             if run.get(row).is_some_and(|now| left.contains(&now)) {
