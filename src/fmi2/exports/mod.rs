@@ -13,6 +13,7 @@ use crate::instance::c_types::{c_char, c_int};
 use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, getters, host_solver, plain};
 
 mod derivatives;
+#[cfg(feature = "full")]
 mod exchange;
 mod lifecycle;
 mod states;
@@ -20,6 +21,7 @@ mod stepping;
 mod variables;
 
 pub use derivatives::*;
+#[cfg(feature = "full")]
 pub use exchange::*;
 pub use lifecycle::*;
 pub use states::*;

@@ -8,8 +8,10 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use serde::Serialize;
 
-/// Places of a cache.
-pub const PLACES: usize = 16;
+use crate::FULL;
+
+/// Places of a cache; of little memory it takes little.
+pub const PLACES: usize = if FULL { 16 } else { 2 };
 /// Bytes that most keys fit in.
 const USUAL: usize = 1024;
 
