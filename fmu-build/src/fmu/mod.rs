@@ -14,9 +14,11 @@ pub mod own;
 pub mod package;
 pub mod page;
 pub mod plain_types;
+pub mod sources;
 pub mod platforms;
 pub mod terminals;
 pub mod toolchains;
+pub mod wasm;
 pub mod wheel;
 
 use anyhow::Result;

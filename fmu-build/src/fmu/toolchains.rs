@@ -29,13 +29,13 @@ pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 /// Oldest Rust that compiles the library.
 const OLDEST_RUST: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Installs the tool chains for old Linux systems, for Windows, with wine, and for browsers in target/toolchains
+/// Installs the tool chains for old Linux systems, for Windows, with wine, for browsers and for sources in C in target/toolchains
 ///
 /// They need Debian on x86-64, 500 MB to download and 3 GB on disk. Packaging uses them from then on.
 #[derive(Args, Clone, Debug)]
 pub struct ToolchainsCommand {
     /// Install only this one
-    #[arg(value_parser = ["linux64", "win64", "wasm"])]
+    #[arg(value_parser = ["linux64", "win64", "wasm", "sources"])]
     platform: Option<String>,
 }
 
@@ -58,7 +58,11 @@ impl ToolchainsCommand {
             let windows = WINDOWS.made(&progress)?;
             made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
         }
-        if wanted("wasm") {
+        if wanted("sources") {
+            let sources = sources().made(|what| progress.stage(what))?;
+            made.push(format!("C from WebAssembly:    {}", paths::shown(&sources.programs())));
+        }
+        if wanted("wasm") || wanted("sources") {
             let place = match Wasm::found() {
                 Some(Wasm::Rustup) => format!("rustup's target {WASM_TARGET}, nothing to install"),
                 _ => paths::shown(&WASM.made(&progress)?.programs()),
@@ -75,6 +79,12 @@ impl ToolchainsCommand {
 pub fn old_linux() -> Wanted {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
     Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
+}
+
+/// What turns WebAssembly into C; the tool chain for WebAssembly goes with it.
+pub fn sources() -> Wanted {
+    let requirements = paths::workspace().join("fmu-build").join("cross").join("sources.txt");
+    Wanted { folder: paths::toolchains().join("sources"), requirements, holds: "wasm2c" }
 }
 
 /// A tool chain that a script in fmu-build/cross unpacks from Debian's packages.

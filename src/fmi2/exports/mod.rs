@@ -10,7 +10,9 @@
 use super::types::*;
 use super::{Call, FACE};
 use crate::instance::c_types::{c_char, c_int};
-use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, getters, host_solver, plain};
+use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, plain};
+#[cfg(feature = "full")]
+use crate::instance::{getters, host_solver};
 
 mod derivatives;
 #[cfg(feature = "full")]

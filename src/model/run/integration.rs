@@ -100,7 +100,11 @@ pub fn integrate_teeth(
 ) -> Result<(), StepFailure> {
     let method = model.parameters.solver.method;
     if !FULL {
-        return by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget);
+        return match (teeth.layout.groups, teeth.layout.plain()) {
+            (1, Some(false)) => whole::<LEAST, 1, true>(teeth, model, state, integration, budget),
+            (1, Some(true)) => whole::<EXACT, 1, true>(teeth, model, state, integration, budget),
+            _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget),
+        };
     }
     if method == Method::Adaptive && !teeth.effect_terms.body_effects.act_in(state) {
         return match teeth.layout.groups {
@@ -189,7 +193,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
-            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT) => {
+            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT || !FULL) => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
                 let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
