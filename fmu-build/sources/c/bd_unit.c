@@ -63,6 +63,15 @@ u32 bd_put_text(bd_unit *u, u32 place, const char *text, size_t most) {
     return place;
 }
 
+u32 bd_put_texts(bd_unit *u, const char *const texts[], size_t count) {
+    enum { MOST = 64 };
+    const u32 list = bd_room(u, count * (sizeof(u32) + MOST)), first = list + (u32)(count * sizeof(u32));
+    size_t k;
+    for (k = 0; texts && k < count; ++k)
+        i32_store(&u->machine, list, (u32)(k * sizeof(u32)), bd_put_text(u, first + (u32)(k * MOST), texts[k], MOST));
+    return texts ? list : 0;
+}
+
 void *bd_to_host(bd_unit *u, u32 place) { return place ? u->machine.memory.bytes + place : 0; }
 
 u32 bd_from_host(bd_unit *u, const void *pointer) {

@@ -40,6 +40,8 @@ void bd_put(bd_unit *u, u32 place, const void *from, size_t bytes);
 void bd_get(bd_unit *u, u32 place, void *to, size_t bytes);
 /* A text that ends with 0, cut to what fits in `most` bytes; 0 for NULL. */
 u32 bd_put_text(bd_unit *u, u32 place, const char *text, size_t most);
+/* A list of short texts, as pointers to them; 0 for NULL. */
+u32 bd_put_texts(bd_unit *u, const char *const texts[], size_t count);
 /* The host's pointer to something in the library's memory, and back; 0 and NULL go together. A pointer into the memory of another
    instance becomes 1, which is no place that the library takes. */
 void *bd_to_host(bd_unit *u, u32 place);

@@ -60,14 +60,10 @@ void fmi2FreeInstance(fmi2Component c) {
 }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, const fmi2String categories[]) {
-    enum { MOST = 64 };
     BEGIN;
     {
-        u32 room = bd_room(u, count * (sizeof(u32) + MOST)), texts = room + (u32)(count * sizeof(u32));
-        size_t k;
-        for (k = 0; categories && k < count; ++k)
-            i32_store(M, room, (u32)(k * sizeof(u32)), bd_put_text(u, texts + (u32)(k * MOST), categories[k], MOST));
-        END(fmi2SetDebugLogging, , (u32)on, (u32)count, categories ? room : 0);
+        const u32 list = bd_put_texts(u, categories, count);
+        END(fmi2SetDebugLogging, , (u32)on, (u32)count, list);
     }
 }
 

@@ -6,6 +6,8 @@
 
 #[cfg(feature = "fmi2")]
 mod begin2;
+#[cfg(feature = "fmi3")]
+mod begin3;
 mod messages;
 mod reason;
 mod room;
