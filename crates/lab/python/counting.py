@@ -55,6 +55,21 @@ def callgrind(program, vectors, arguments, options=(), out="/dev/null"):
     return said(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
 
 
+def counts(folder):
+    """Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
+    the program as well, and `count` its end."""
+    found = []
+    for file in folder.iterdir():
+        if file.suffix[1:].isdigit() and int(file.suffix[1:]) > 1:
+            summary = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("summary:")]
+            if not summary:
+                raise SystemExit(f"{file} has no count")
+            found.append(int(summary[0].split()[1]))
+    if len(found) < 2:
+        raise SystemExit("callgrind found no separate steps: does the stepping program have its symbols?")
+    return found
+
+
 def per_step(count, arguments):
     """What `count(arguments)` returns, of a communication step of a scene with options."""
     scene, *options = arguments

@@ -42,7 +42,8 @@ class Platform:
     """An FMU with one library, and a server if that is for Windows."""
 
     def __init__(self, name, fmu, wine):
-        self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
+        self.name, self.server = name, None
+        self.folder = Path(fmu) if Path(fmu).is_dir() else Path(extract(str(fmu)))
         self.binary = next((self.folder / "binaries").glob("*/*"))
         self.windows, self.wine = self.binary.suffix == ".dll", wine
         if self.windows:

@@ -26,6 +26,15 @@
 #include <stdint.h>
 #include <string.h>
 
+/* What no host shall see: a library exports the functions of FMI alone. */
+#if defined(__ELF__) || defined(__APPLE__)
+#define BD_HIDDEN _Pragma("GCC visibility push(hidden)")
+#define BD_SEEN _Pragma("GCC visibility pop")
+#else
+#define BD_HIDDEN
+#define BD_SEEN
+#endif
+
 typedef uint8_t u8;
 typedef uint16_t u16;
 typedef uint32_t u32;
@@ -36,6 +45,8 @@ typedef int32_t s32;
 typedef int64_t s64;
 typedef float f32;
 typedef double f64;
+
+BD_HIDDEN
 
 #define BD_PAGE 65536u
 /* Memory of an instance in pages of 64 KiB: what the library may grow to. */
@@ -211,5 +222,7 @@ static inline u32 I32_TRUNC_SAT_U_F64(f64 x) { return !(x > -1.0) ? 0 : x >= 429
 static inline u64 I64_TRUNC_SAT_U_F64(f64 x) {
     return !(x > -1.0) ? 0 : x >= 18446744073709551616.0 ? 0xffffffffffffffffu : (u64)x;
 }
+
+BD_SEEN
 
 #endif

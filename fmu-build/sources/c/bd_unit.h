@@ -5,6 +5,8 @@
 
 #include "bd_library.h"
 
+BD_HIDDEN
+
 /* Instances that a program may have at once. */
 #ifndef BD_INSTANCES
 #define BD_INSTANCES 4
@@ -60,5 +62,7 @@ int bd_died(bd_unit *u, int reason);
     if (u->is_dead) return (status)BD_FATAL; \
     bd_reason = setjmp(u->machine.home); \
     if (bd_reason) return (status)bd_died(u, bd_reason)
+
+BD_SEEN
 
 #endif

@@ -83,7 +83,9 @@ impl PackageCommand {
             progress.stage("building the library for sources in C");
             match sources::Tools::found() {
                 Ok(tools) => {
-                    variants.push(sources::package(&tools, Version::Two, &fmu)?);
+                    for (version, fmu) in [(Version::Two, fmu.clone()), (Version::Three, of_fmi3(&fmu))] {
+                        variants.push(sources::package(&tools, version, &fmu)?);
+                    }
                 }
                 Err(remark) => left_out.push(remark),
             }

@@ -43,9 +43,9 @@ impl Tools {
 
     /// All files of `sources` for a version of FMI.
     pub fn files(&self, version: Version) -> Result<Vec<File>> {
-        let (feature, folder, face) = match version {
-            Version::Two => ("fmi2", "sources-fmi2", "fmi2Functions.c"),
-            Version::Three => ("fmi3", "sources-fmi3", "fmi3Functions.c"),
+        let (feature, face) = match version {
+            Version::Two => ("fmi2", "fmi2Functions.c"),
+            Version::Three => ("fmi3", "fmi3Functions.c"),
         };
         let library = WasmCrate {
             package: CRATE,
@@ -53,7 +53,7 @@ impl Tools {
             parts: "1",
             level: "2",
             options: &[STACK],
-            folder,
+            folder: "sources",
         };
         let library = library.compiled(&self.wasm, "the library for sources in C cannot be built")?;
         let mut files = translate::files(&self.in_c(&library)?)?;

@@ -121,12 +121,15 @@ impl<'a> Parts<'a> {
         let mut out = format!("{HEAD}#ifndef BD_LIBRARY_H\n#define BD_LIBRARY_H\n");
         let pages = arguments(self.memory).nth(1).context("memory of unknown size")?;
         writeln!(out, "#define BD_FIRST_PAGES {pages}u")?;
+        // the first global is the place of the stack, which begins at its end and grows towards 0
+        let stack = self.globals.first().and_then(|line| line.split("= ").nth(1)).context("a library without a stack")?;
+        writeln!(out, "#define BD_STACK {}", stack.trim_end_matches(';'))?;
         writeln!(out, "#define BD_GLOBALS {}", self.globals.iter().map(|line| format!("u32 g{};", global(line))).collect::<String>())?;
-        out.push_str("#include \"bd_runtime.h\"\n");
+        out.push_str("#include \"bd_runtime.h\"\nBD_HIDDEN\n");
         for declared in &self.declared {
             writeln!(out, "{}", renamed(declared.trim_start_matches("static ")).replace("w2c_bd*", "bd *"))?;
         }
-        out.push_str("#endif\n");
+        out.push_str("BD_SEEN\n#endif\n");
         Ok(out)
     }
 
