@@ -7,13 +7,24 @@
    x                       initialises
    d TIME SIZE             a step
    g                       reads all outputs, 8 bytes each
-   A call that fails ends the program. */
+   A call that fails ends the program. With MEMORY, in the sources, says at the end what memory instances took, in bytes. */
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fmi2Functions.h"
+
+#ifdef MEMORY
+#include "bd_unit.h"
+static unsigned long most;
+static void look(const void *unit) {
+    const unsigned long taken = (unsigned long)((const bd_unit *)unit)->machine.pages * BD_PAGE;
+    if (taken > most) most = taken;
+}
+#else
+#define look(unit) (void)0
+#endif
 
 enum { MOST = 1024 };
 
@@ -42,7 +53,10 @@ static void call(const char *line, const char *first, const char *second) {
     const fmi2Integer whole = (fmi2Integer)atoi(second);
     switch (line[0]) {
     case 'n':
-        if (unit) fmi2FreeInstance(unit);
+        if (unit) {
+            look(unit);
+            fmi2FreeInstance(unit);
+        }
         n_outputs = 0;
         unit = fmi2Instantiate("commands", fmi2CoSimulation, first, "", &callbacks, fmi2False, fmi2False);
         if (!unit) exit(1);
@@ -73,5 +87,9 @@ int main(int count, char **given) {
         call(line, first, second);
     }
     fclose(file);
+    look(unit);
+#ifdef MEMORY
+    fprintf(stderr, "memory %lu\n", most);
+#endif
     return 0;
 }

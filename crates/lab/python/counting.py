@@ -28,7 +28,7 @@ def stepping(folder, effects, name):
     settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
     printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
-                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features"]), "--message-format", "json", "--target-dir", folder],
+                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json", "--target-dir", folder],
                    "cargo did not start", settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
              if message.get("executable") and message["target"]["name"] == "steps"]

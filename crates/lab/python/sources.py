@@ -82,7 +82,7 @@ def compile_all(build, sources, headers, folder):
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     program = folder / "commands"
     commands = Path(__file__).with_name("commands.c")
-    run([*build.compiler, f"-I{headers}", commands, *objects, "-o", program, "-lm"])
+    run([*build.compiler, "-DMEMORY", f"-I{headers}", f"-I{sources}", commands, *objects, "-o", program, "-lm"])
     return program, warnings, seconds, called(objects)
 
 
@@ -179,7 +179,7 @@ def main():
     scenes = [scene for scene in platform_scenes.all_scenes(Path(scene_files), effects(FMU)) if is_within(scene)]
     if quick:
         scenes = [scene for scene in scenes if scene[0] in QUICK]
-    wanted, lines, values = [], [], 0
+    wanted, lines, values, taken = [], [], 0, 0
     for name, *scene in scenes:
         say(0.0, f"recording {name}")
         wanted.append(native.record(*scene))
@@ -204,6 +204,7 @@ def main():
             file = folder / "calls"
             file.write_text("\n".join(calls) + "\n", encoding="ascii")
             done = subprocess.run([*build.runner, program, file], capture_output=True, check=False)
+            taken = max(taken, *(int(line.split()[1]) for line in done.stderr.decode().splitlines() if line.startswith("memory ")), 0)
             found = np.frombuffer(done.stdout, dtype="<f8").reshape(-1, len(native.outputs))
             agrees, words = compared(expected, found)
             if done.returncode or not agrees:
@@ -226,7 +227,8 @@ def main():
     problems += checked_by_hand(sources, headers, size)
     problems += refusals(folder, sources, headers, folder / "0")
     text = markdown(rows, left=(0, 2, 6))
-    text += f"\n{values} values of {len(scenes)} scenes; {size / 1e6:.1f} MB of sources, {packed / 1e6:.2f} MB in the archive.\n"
+    text += f"\n{values} values of {len(scenes)} scenes; {size / 1e6:.1f} MB of sources, {packed / 1e6:.2f} MB in the archive. "
+    text += f"Of the memory of an instance at most {taken / 2**20:.2f} MiB are used.\n"
     if problems:
         raise SystemExit(f"{text}\n" + "\n".join(problems))
     print(text, end="")

@@ -51,7 +51,7 @@ BD_HIDDEN
 #define BD_PAGE 65536u
 /* Memory of an instance in pages of 64 KiB: what the library may grow to. */
 #ifndef BD_PAGES
-#define BD_PAGES 48u
+#define BD_PAGES 32u
 #endif
 #define BD_MEMORY (BD_PAGES * BD_PAGE)
 
