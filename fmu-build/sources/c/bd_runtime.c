@@ -33,10 +33,31 @@ static f64 bd_after(f64 x, f64 y, f64 z) {
     return a;
 }
 
+/* A difference and a sum of products side by side, which compilers may put into one vector: whether neither is fused. */
+static volatile f64 bd_pairs[3][2] = {{1.0 + DBL_EPSILON, 1.0 + DBL_EPSILON}, {1.0 - DBL_EPSILON, 1.0 - DBL_EPSILON}, {1.0, -1.0}};
+#if defined(__GNUC__)
+__attribute__((noinline))
+#endif
+static void bd_side_by_side(const f64 *x, const f64 *y, const f64 *z, f64 *to) {
+    f64 first = x[0], second = x[1];
+    first *= y[0];
+    second *= y[1];
+    first -= z[0];
+    second += z[1];
+    to[0] = first;
+    to[1] = second;
+}
+
 const char *bd_arithmetic_differs(void) {
     const f64 e = DBL_EPSILON;
+    static const char fused[] = "products and sums are fused; compile with -ffp-contract=off, so that results are those of other machines";
+    f64 x[3][2], to[2];
+    int k;
+    for (k = 0; k < 6; ++k) x[k / 2][k % 2] = bd_pairs[k / 2][k % 2];
+    bd_side_by_side(x[0], x[1], x[2], to);
     /* (1 + e)(1 - e) = 1 - e², which rounds to 1: what is left of it shows that nothing was rounded in between */
-    if (bd_after(1.0 + e, 1.0 - e, -1.0) != 0.0) return "products and sums are fused; compile with -ffp-contract=off, so that results are those of other machines";
+    if (bd_after(1.0 + e, 1.0 - e, -1.0) != 0.0) return fused;
+    if (to[0] != 0.0 || to[1] != 0.0) return fused;
     if (bd_after(DBL_MIN, 0.5, 0.0) == 0.0 || bd_after(DBL_MIN * e, 1.0, 0.0) != DBL_MIN * e) return "numbers near zero are flushed to it; compile without -ffast-math, and set the processor to IEEE 754";
     /* beyond the middle between two numbers by less than extended precision holds: rounded once it is the upper one */
     if (bd_after(e * (0.5 + e), 1.0, 1.0) != 1.0 + e) return "numbers are rounded twice; on x86 compile with -msse2 -mfpmath=sse";

@@ -8,11 +8,12 @@
 #define BD_RUNTIME_H
 
 /* Products and sums are rounded one by one: an operation that fuses them gives other bits. Compilers that fuse by default, as gcc's
-   default dialect does, are kept from it here, and bd_arithmetic_differs looks whether that worked. */
+   default dialect does, are kept from it here, and bd_arithmetic_differs looks whether that worked. Vectors of statements go with it:
+   gcc 12 fuses alternating sums and differences of products that it has put into vectors, whatever it is told about fusing. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__)
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-tree-slp-vectorize", "no-tree-loop-vectorize")
 #elif defined(_MSC_VER)
 #pragma fp_contract(off)
 #endif

@@ -84,7 +84,7 @@ impl PackageCommand {
             match sources::Tools::found() {
                 Ok(tools) => {
                     for (version, fmu) in [(Version::Two, fmu.clone()), (Version::Three, of_fmi3(&fmu))] {
-                        variants.push(sources::package(&tools, version, &fmu)?);
+                        variants.push(sources::package(&tools, version, Packing::Small, &fmu)?);
                     }
                 }
                 Err(remark) => left_out.push(remark),

@@ -12,7 +12,7 @@ use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::{File, Tools};
 use crate::fmu::libraries::{CRATES, Library};
-use crate::fmu::package::Version;
+use crate::fmu::package::{Packing, Version};
 use crate::fmu::{describe, describe3, documentation, licences};
 use crate::tools::files::write_whole;
 use answers::text::xml::Element;
@@ -26,10 +26,10 @@ const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its libr
                      with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
 
 /// Writes the archive with the sources next to `fmu`, and returns its path.
-pub fn package(tools: &Tools, version: Version, fmu: &Path) -> Result<PathBuf> {
+pub fn package(tools: &Tools, version: Version, packing: Packing, fmu: &Path) -> Result<PathBuf> {
     let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
     let target = fmu.with_file_name(format!("{name}_sources.fmu"));
-    let files = tools.files(version)?;
+    let files = tools.files(version, packing)?;
     let bytes = variant(version, fmu, &files).with_context(|| format!("{} cannot be packed", target.display()))?;
     write_whole(&target, &bytes)?;
     Ok(target)

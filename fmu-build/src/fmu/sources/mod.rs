@@ -13,7 +13,7 @@ use anyhow::{Context, Result};
 pub use archive::package;
 pub use translate::File;
 
-use crate::fmu::package::Version;
+use crate::fmu::package::{Packing, Version};
 use crate::fmu::toolchains::{self, Wasm};
 use crate::fmu::wasm::WasmCrate;
 use crate::tools::paths;
@@ -41,8 +41,8 @@ impl Tools {
         }
     }
 
-    /// All files of `sources` for a version of FMI.
-    pub fn files(&self, version: Version) -> Result<Vec<File>> {
+    /// All files of the sources for a version of FMI; packed in little time they give the same results by more instructions.
+    pub fn files(&self, version: Version, packing: Packing) -> Result<Vec<File>> {
         let (feature, face) = match version {
             Version::Two => ("fmi2", "fmi2Functions.c"),
             Version::Three => ("fmi3", "fmi3Functions.c"),
@@ -50,7 +50,7 @@ impl Tools {
         let library = WasmCrate {
             package: CRATE,
             features: &[feature],
-            parts: "1",
+            parts: if packing == Packing::Quick { "16" } else { "1" },
             level: "2",
             options: &[STACK],
             folder: "sources",
