@@ -13,7 +13,7 @@ from counting import NARROW, callgrind, counts, stepping
 from tools import say
 
 # scenes, by the names that the stepping program knows
-SCENES = (("straight",), ("turn",), ("turn", "rolling", "reversal"))
+SCENES = (("straight",), ("turn", "rolling", "reversal"))
 # steps of the method [s], and the number of communication steps of 1 ms
 SIZES, STEPS = ("1e-3", "1e-4", "1e-5"), "300"
 # most that the costliest step may cost over the median one

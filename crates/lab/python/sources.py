@@ -190,11 +190,11 @@ def main():
     native.close()
     library = folder / "library"
     run(["gcc", "-O2", f"-I{headers}", Path(__file__).with_name("commands.c"), native.binary, "-o", library, f"-Wl,-rpath,{native.binary.parent}"])
-    problems, calls_of_c, rows = [], set(), [["compiler", "scenes", "bits", "speed", "warnings", "compiled in, s"]]
+    problems, calls_of_c, rows = [], set(), [["compiler", "scenes", "bits", "speed", "compiled in, s"]]
     known = list(builds(zig, quick))
     for place, build in enumerate(known):
         if not build.is_there():
-            rows.append([build.name, "–", "not there", *"–––"])
+            rows.append([build.name, "–", "not there", *"––"])
             continue
         say(place / len(known), f"compiling by {build.name}")
         program, warnings, seconds, names = compile_all(build, sources, headers, folder / str(place))
@@ -211,7 +211,7 @@ def main():
                 differing.append(f"{scene[0]}: {words} {done.stderr.decode()[-300:]}")
         fast = [] if build.runner else speeds(program, library, timed, folder)
         rows.append([build.name, str(len(scenes)), "same" if not differing else "different",
-                     f"{min(fast):.2f} to {max(fast):.2f}" if fast else "–", str(len(warnings)), f"{seconds:.0f}"])
+                     f"{min(fast):.2f} to {max(fast):.2f}" if fast else "–", f"{seconds:.0f}"])
         calls_of_c |= names
         problems += [f"{build.name}: {problem}" for problem in [*differing, *warnings[:3]]]
         problems += [f"{build.name} calls {name}" for name in sorted(names - ALLOWED)]
@@ -238,7 +238,7 @@ def main():
 def by_fmpy(unit, folder, scenes, wanted, problems):
     """The row of the build by fmpy: what it compiles as its users do, with cmake, runs in fmpy itself."""
     if not shutil.which("cmake"):
-        return ["fmpy, gcc -O3", "–", "not there", *"–––"]
+        return ["fmpy, gcc -O3", "–", "not there", *"––"]
     say(0.97, "compiling by fmpy")
     with zipfile.ZipFile(unit) as archive:
         archive.extractall(folder)
@@ -247,7 +247,7 @@ def by_fmpy(unit, folder, scenes, wanted, problems):
                               stdout=log, stderr=log, check=False)
     if done.returncode:
         problems.append(f"fmpy cannot build the unit, see {folder / 'log'}")
-        return ["fmpy, gcc -O3", "–", "not built", *"–––"]
+        return ["fmpy, gcc -O3", "–", "not built", *"––"]
     platform, differing, tried = Platform("fmpy", folder, ""), [], 0
     for (name, *scene), expected in zip(scenes, wanted):
         if name in BY_FMPY:
@@ -257,7 +257,7 @@ def by_fmpy(unit, folder, scenes, wanted, problems):
     platform.close()
     exported, _, _ = binaries.of_linux(platform.binary)
     problems += differing + [f"{name} is exported" for name in exported if not name.startswith("fmi2")]
-    return ["fmpy, gcc -O3", str(tried), "different" if differing else "same", *"–––"]
+    return ["fmpy, gcc -O3", str(tried), "different" if differing else "same", *"––"]
 
 
 def checked_by_hand(sources, headers, size):

@@ -3,9 +3,7 @@
 use std::ffi::{c_int, c_void};
 use std::ptr;
 
-use bevel_differential::fmi2::{
-    Boolean, CallbackFunctions, ComponentPointer, Logger, Status, Text, fmi2Instantiate,
-};
+use bevel_differential::fmi2::{Boolean, CallbackFunctions, ComponentPointer, Logger, Status, Text, fmi2Instantiate};
 
 use crate::messages;
 

@@ -1,7 +1,7 @@
 //! Why the library stopped: the message of a panic, which in WebAssembly ends in a trap.
 
-use std::fmt::Write as _;
 use std::cell::UnsafeCell;
+use std::fmt::Write as _;
 
 /// Bytes of the reason; the rest is cut.
 const MOST: usize = 512;

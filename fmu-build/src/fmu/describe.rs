@@ -71,7 +71,10 @@ pub enum Choices {
 pub fn model_description(choices: Choices) -> Result<String> {
     let root = root("2.0", "guid", guid())
         .with("numberOfEventIndicators", EVENT_INDICATORS)
-        .child(kind_element("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false)).with(DERIVATIVE, true))
+        .child(
+            kind_element("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false))
+                .with(DERIVATIVE, true),
+        )
         .child(kind_element("CoSimulation", |kind| co_simulation(kind, OUTPUT_ORDER)).with(DERIVATIVE, true));
     described(root, choices, Part::Whole)
 }

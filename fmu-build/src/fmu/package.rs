@@ -12,7 +12,9 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, CRATES, Libraries, Library};
 use crate::fmu::page;
-use crate::fmu::{describe, describe3, documentation, effect_list, evidence, licences, plain_types, sources, terminals};
+use crate::fmu::{
+    describe, describe3, documentation, effect_list, evidence, licences, plain_types, sources, terminals,
+};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;

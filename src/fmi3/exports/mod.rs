@@ -10,9 +10,9 @@
 use super::types::*;
 use super::{Call, FACE, values};
 use crate::instance::c_types::c_void;
-use crate::instance::{HostMemory, Instance, call, debug_logging, plain};
 #[cfg(feature = "full")]
 use crate::instance::{CallError, c_types::c_int, getters, host_solver};
+use crate::instance::{HostMemory, Instance, call, debug_logging, plain};
 
 #[cfg(feature = "full")]
 mod clocks;

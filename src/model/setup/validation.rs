@@ -39,7 +39,10 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         refuse(name, "a speed-driven side needs its half-shaft, and this build leaves all effects out".into());
     }
     if !FULL && scene.gear_contact == GearContact::Solid {
-        refuse("scene.gear_contact", "this build, for real time, leaves solid teeth out: choose ideal, lumped or tooth".into());
+        refuse(
+            "scene.gear_contact",
+            "this build, for real time, leaves solid teeth out: choose ideal, lumped or tooth".into(),
+        );
     }
     if !FULL && !matches!(p.solver.method, Method::Adaptive | Method::FixedStep) {
         refuse("solver.method", "this build, for real time, has the methods fixed_step and adaptive alone".into());

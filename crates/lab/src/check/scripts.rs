@@ -85,7 +85,10 @@ pub const SOURCES: Script = Script {
          libc6-dev-arm64-cross qemu-user. What is not there is left out.",
     ),
     options: || {
-        vec![flag("quick", "Only gcc -O2, and six scenes"), flag("write", "Also renew docs/fmi.md").conflicts_with("quick")]
+        vec![
+            flag("quick", "Only gcc -O2, and six scenes"),
+            flag("write", "Also renew docs/fmi.md").conflicts_with("quick"),
+        ]
     },
     needs: Needs::Tests,
     file: "crates/lab/python/sources.py",

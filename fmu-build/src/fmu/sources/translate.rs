@@ -105,9 +105,17 @@ impl<'a> Parts<'a> {
             Some((name, bytes.split_once('}')?.0))
         });
         Ok(Self {
-            declared: text.lines().filter(|line| line.starts_with("static ") && line.contains("(w2c_bd*") && line.ends_with(");")).collect(),
+            declared: text
+                .lines()
+                .filter(|line| line.starts_with("static ") && line.contains("(w2c_bd*") && line.ends_with(");"))
+                .collect(),
             functions,
-            globals: block("static void init_globals(w2c_bd* instance) {").context("no globals")?.lines().map(str::trim).filter(|line| line.starts_with(GLOBAL)).collect(),
+            globals: block("static void init_globals(w2c_bd* instance) {")
+                .context("no globals")?
+                .lines()
+                .map(str::trim)
+                .filter(|line| line.starts_with(GLOBAL))
+                .collect(),
             entries: text.lines().map(str::trim).filter(|line| line.starts_with("{Ref")).collect(),
             data: data.collect(),
             table: line("funcref_table_init(").context("no table of functions")?,
@@ -122,9 +130,14 @@ impl<'a> Parts<'a> {
         let pages = arguments(self.memory).nth(1).context("memory of unknown size")?;
         writeln!(out, "#define BD_FIRST_PAGES {pages}u")?;
         // the first global is the place of the stack, which begins at its end and grows towards 0
-        let stack = self.globals.first().and_then(|line| line.split("= ").nth(1)).context("a library without a stack")?;
+        let stack =
+            self.globals.first().and_then(|line| line.split("= ").nth(1)).context("a library without a stack")?;
         writeln!(out, "#define BD_STACK {}", stack.trim_end_matches(';'))?;
-        writeln!(out, "#define BD_GLOBALS {}", self.globals.iter().map(|line| format!("u32 g{};", global(line))).collect::<String>())?;
+        writeln!(
+            out,
+            "#define BD_GLOBALS {}",
+            self.globals.iter().map(|line| format!("u32 g{};", global(line))).collect::<String>()
+        )?;
         out.push_str("#include \"bd_runtime.h\"\nBD_HIDDEN\n");
         for declared in &self.declared {
             writeln!(out, "{}", renamed(declared.trim_start_matches("static ")).replace("w2c_bd*", "bd *"))?;
@@ -136,7 +149,10 @@ impl<'a> Parts<'a> {
     /// The table of functions, and the first content of memory.
     fn tables(&self) -> Result<String> {
         let mut out = format!("{HEAD}#include \"bd_library.h\"\n#include <string.h>\n");
-        let first: usize = arguments(self.table).nth(3).and_then(|first| first.trim_end_matches('u').parse().ok()).context("a table that begins nowhere")?;
+        let first: usize = arguments(self.table)
+            .nth(3)
+            .and_then(|first| first.trim_end_matches('u').parse().ok())
+            .context("a table that begins nowhere")?;
         let count = first + self.entries.len();
         writeln!(out, "const u32 bd_table_size = {count}u;\nconst bd_entry bd_table[] = {{")?;
         out.push_str(&"{0, 0},\n".repeat(first));
@@ -150,7 +166,8 @@ impl<'a> Parts<'a> {
         }
         out.push_str("};\n");
         for (name, bytes) in &self.data {
-            let bytes = bytes.split(',').filter_map(|byte| u8::from_str_radix(byte.trim().trim_start_matches("0x"), 16).ok());
+            let bytes =
+                bytes.split(',').filter_map(|byte| u8::from_str_radix(byte.trim().trim_start_matches("0x"), 16).ok());
             writeln!(out, "static const u8 {name}[] = {{")?;
             let mut column = 0;
             for byte in bytes {
@@ -168,7 +185,12 @@ impl<'a> Parts<'a> {
         }
         for load in &self.loads {
             let [place, name, count] = [1, 2, 3].map(|k| arguments(load).nth(k).unwrap_or_default());
-            writeln!(out, "memcpy(s->memory.bytes + {place}, {}, {});", name.trim_start_matches("data_segment_data_w2c_bd_"), count.trim_end_matches(')'))?;
+            writeln!(
+                out,
+                "memcpy(s->memory.bytes + {place}, {}, {});",
+                name.trim_start_matches("data_segment_data_w2c_bd_"),
+                count.trim_end_matches(')')
+            )?;
         }
         out.push_str("}\n");
         Ok(out)
@@ -252,14 +274,23 @@ mod tests {
     #[test]
     fn statements_are_rewritten() {
         for (from, to) in [
-            ("var_d0 = f64_load_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0) + 8u);",
-             "d0=f64_load(s, i0, 8u);"),
-            ("i32_store8_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0), var_i1);",
-             "i32_store8(s, i0, 0u, i1);"),
-            ("var_i0 = CALL_INDIRECT(instance->w2c_T0, u32 (*)(void*, u32, f64), w2c_bd_t3, var_i3, instance->w2c_T0.data[var_i3].module_instance, var_i0, var_d1);",
-             "i0=bd_call(u32 (*)(bd *, u32, f64), 3, i3)(s, i0, d1);"),
+            (
+                "var_d0 = f64_load_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0) + 8u);",
+                "d0=f64_load(s, i0, 8u);",
+            ),
+            (
+                "i32_store8_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0), var_i1);",
+                "i32_store8(s, i0, 0u, i1);",
+            ),
+            (
+                "var_i0 = CALL_INDIRECT(instance->w2c_T0, u32 (*)(void*, u32, f64), w2c_bd_t3, var_i3, instance->w2c_T0.data[var_i3].module_instance, var_i0, var_d1);",
+                "i0=bd_call(u32 (*)(bd *, u32, f64), 3, i3)(s, i0, d1);",
+            ),
             ("var_i0 = w2c_bd_f143(instance, var_i0);", "i0=bd_f143(s, i0);"),
-            ("memory_copy(&instance->w2c_memory, &instance->w2c_memory, var_i0, var_i1, var_i2);", "memory_copy(s, i0, i1, i2);"),
+            (
+                "memory_copy(&instance->w2c_memory, &instance->w2c_memory, var_i0, var_i1, var_i2);",
+                "memory_copy(s, i0, i1, i2);",
+            ),
             ("instance->w2c_g0 = var_i0;", "s->g0=i0;"),
             ("if (var_i0) {goto var_B3;}", "if (i0) {goto B3;}"),
         ] {
