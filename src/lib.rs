@@ -31,10 +31,15 @@ pub mod variables;
 
 pub use differential::{Differential, DifferentialError};
 
+/// Whether this build has what real-time targets do without, see the feature in `Cargo.toml`.
+pub const FULL: bool = cfg!(feature = "full");
+
 // the C ABI is the one place that must handle foreign pointers
 #[allow(unsafe_code)]
+#[cfg(feature = "fmi2")]
 pub mod fmi2;
 #[allow(unsafe_code)]
+#[cfg(feature = "fmi3")]
 pub mod fmi3;
 #[allow(unsafe_code)]
 pub mod instance;

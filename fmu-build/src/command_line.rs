@@ -20,7 +20,7 @@ pub const PACKAGE: &str = "bevel-differential";
 /// The commands of the Python package; those who type one here are told where it is.
 pub const IN_THE_PACKAGE: [&str; 6] = ["scene", "loads", "report", "accuracy", "geometry", "pattern"];
 /// The commands of the laboratory; those who type one here are told where it is.
-pub const IN_THE_LABORATORY: [&str; 25] = [
+pub const IN_THE_LABORATORY: [&str; 26] = [
     "cost",
     "solids",
     "stiffness",
@@ -46,6 +46,7 @@ pub const IN_THE_LABORATORY: [&str; 25] = [
     "coefficients",
     "hosts",
     "platforms",
+    "sources",
 ];
 
 #[derive(Parser)]

@@ -33,7 +33,9 @@ macro_rules! with_law {
             $crate::contact::laws::Law::Line($law) => $body,
             $crate::contact::laws::Law::LineWeber($law) => $body,
             $crate::contact::laws::Law::Lumped($law) => $body,
-            $crate::contact::laws::Law::Solid($solid) => $other,
+            $crate::contact::laws::Law::Solid($solid) if $crate::FULL => $other,
+            // refused when the scene was checked
+            $crate::contact::laws::Law::Solid(_) => unreachable!(),
         }
     };
 }

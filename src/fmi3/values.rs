@@ -231,6 +231,7 @@ pub fn none_of(references: InputArray<u32>, wanted: &str) -> CallResult {
 }
 
 /// Rows of the table that variables show, all of them in their order.
+#[cfg(feature = "full")]
 fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u32>> {
     let mut rows = Vec::with_capacity(references.len());
     for reference in references.iter() {
@@ -246,6 +247,7 @@ fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u
 }
 
 /// Rows of unknowns and knowns, in whose numbers there must be `[of unknowns, of knowns]` values.
+#[cfg(feature = "full")]
 fn rows_of_both(
     instance: &Instance,
     [unknowns, knowns]: [InputArray<u32>; 2],
@@ -258,6 +260,7 @@ fn rows_of_both(
 }
 
 /// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.
+#[cfg(feature = "full")]
 pub fn directional_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],
@@ -270,6 +273,7 @@ pub fn directional_derivative(
 }
 
 /// fmi3GetAdjointDerivative: for each known the sum over unknowns of `seed` times their derivative by it.
+#[cfg(feature = "full")]
 pub fn adjoint_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],

@@ -41,6 +41,9 @@ pub enum Kind {
     CoSimulation = 1,
 }
 
+/// Why a build without the other kind refuses it.
+pub const ONE_KIND: &str = "this build, for real time, is for co-simulation alone";
+
 /// A version of FMI: what its functions are called in messages.
 #[derive(Debug)]
 pub struct Face {

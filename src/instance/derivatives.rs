@@ -1,6 +1,6 @@
 //! Derivatives by time: of inputs, as the host sets them, and of outputs.
 
-use super::sensitivity::{Slopes, finite_slope, output_source};
+use super::sensitivity::{Slopes, check_built, finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase};
 use crate::model::{InputDerivatives, ORDERS};
@@ -104,6 +104,7 @@ impl Instance {
         orders: InputArray<i32>,
         values: OutputArray<f64>,
     ) -> CallResult {
+        check_built()?;
         for (reference, order) in references.iter().zip(orders.iter()) {
             let row = row(reference)?;
             if order != OUTPUT_ORDER {

@@ -21,6 +21,7 @@ macro_rules! plain {
 }
 
 /// Functions that fill an array of numbers.
+#[cfg(feature = "full")]
 macro_rules! getters {
     ($($function:ident $call:ident $method:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
@@ -36,6 +37,7 @@ macro_rules! getters {
 }
 
 /// The functions by which the host's solver moves on: a completed step, the time, the states.
+#[cfg(feature = "full")]
 macro_rules! host_solver {
     ($completed:ident $time:ident $states:ident $argument:literal) => {
         #[doc = concat!(stringify!($completed), ". Snapshots are complete: it makes no difference whether the host may go back in time.")]
@@ -97,4 +99,6 @@ macro_rules! debug_logging {
     };
 }
 
-pub(crate) use {call, debug_logging, getters, host_solver, plain};
+pub(crate) use {call, debug_logging, plain};
+#[cfg(feature = "full")]
+pub(crate) use {getters, host_solver};

@@ -31,7 +31,9 @@ pub use call_error::{CallError, CallResult};
 pub use component::{Component, free, run};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
-pub(crate) use exports::{call, debug_logging, getters, host_solver, plain};
+pub(crate) use exports::{call, debug_logging, plain};
+#[cfg(feature = "full")]
+pub(crate) use exports::{getters, host_solver};
 pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
 pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};

@@ -1,5 +1,7 @@
 //! Directional derivatives and adjoint derivatives, of a running simulation and of the start that is being chosen.
 
+use crate::FULL;
+
 use super::values::{finite, row, wrong_type};
 use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
 use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, STENCIL, Simulation, StencilReadings};
@@ -20,6 +22,7 @@ impl Instance {
         known: impl Iterator<Item = (u32, f64)> + Clone,
         values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
+        check_built()?;
         let unknowns = Unknowns::of(unknown)?;
         if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
@@ -39,6 +42,7 @@ impl Instance {
         known: impl Iterator<Item = u32>,
         values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
+        check_built()?;
         let unknowns = Unknowns::of(unknown)?;
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
@@ -69,6 +73,12 @@ impl Instance {
         let present = simulation.with_inputs_applied();
         act(&Columns::Running(present.as_ref().unwrap_or(simulation)))
     }
+}
+
+/// Refuses calls that ask for derivatives of variables in a build without them.
+#[inline]
+pub fn check_built() -> CallResult {
+    if FULL { Ok(()) } else { Err(CallError::error("this build, for real time, has no derivatives of variables")) }
 }
 
 /// Where derivatives are taken.

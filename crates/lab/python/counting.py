@@ -28,7 +28,7 @@ def stepping(folder, effects, name):
     settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
     printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
-                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features"]), "--message-format", "json", "--target-dir", folder],
+                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json", "--target-dir", folder],
                    "cargo did not start", settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
              if message.get("executable") and message["target"]["name"] == "steps"]
@@ -53,6 +53,21 @@ def callgrind(program, vectors, arguments, options=(), out="/dev/null"):
     """Runs a program under callgrind, and returns what callgrind reported."""
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
     return said(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
+
+
+def counts(folder):
+    """Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
+    the program as well, and `count` its end."""
+    found = []
+    for file in folder.iterdir():
+        if file.suffix[1:].isdigit() and int(file.suffix[1:]) > 1:
+            summary = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("summary:")]
+            if not summary:
+                raise SystemExit(f"{file} has no count")
+            found.append(int(summary[0].split()[1]))
+    if len(found) < 2:
+        raise SystemExit("callgrind found no separate steps: does the stepping program have its symbols?")
+    return found
 
 
 def per_step(count, arguments):

@@ -35,7 +35,8 @@ class Platform:
     is_timed = True
 
     def __init__(self, name, fmu):
-        self.name, self.folder = name, Path(extract(str(fmu)))
+        self.name = name
+        self.folder = Path(fmu) if Path(fmu).is_dir() else Path(extract(str(fmu)))
         self.binary = next((self.folder / "binaries").glob("*/*"))
         self.fmu = Fmu(self.folder)
         self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]

@@ -8,30 +8,16 @@ import sys
 from pathlib import Path
 
 from bevel_differential.text import markdown
-from counting import NARROW, callgrind, stepping
+import real_time_sources
+from counting import NARROW, callgrind, counts, stepping
 from tools import say
 
 # scenes, by the names that the stepping program knows
-SCENES = (("straight",), ("turn",), ("straight", "rolling"), ("turn", "rolling", "reversal"))
+SCENES = (("straight",), ("turn", "rolling", "reversal"))
 # steps of the method [s], and the number of communication steps of 1 ms
 SIZES, STEPS = ("1e-3", "1e-4", "1e-5"), "300"
 # most that the costliest step may cost over the median one
 MOST = 2.0
-
-
-def counts(folder):
-    """Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
-    the program as well, and `count` its end."""
-    found = []
-    for file in folder.iterdir():
-        if file.suffix[1:].isdigit() and int(file.suffix[1:]) > 1:
-            summary = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("summary:")]
-            if not summary:
-                raise SystemExit(f"{file} has no count")
-            found.append(int(summary[0].split()[1]))
-    if len(found) < 2:
-        raise SystemExit("callgrind found no separate steps: does the stepping program have its symbols?")
-    return found
 
 
 def main():
@@ -51,7 +37,13 @@ def main():
             median, most = statistics.median(found), max(found)
             worst = max(worst, most / median)
             rows.append([name, size, f"{median:.0f}", str(most), f"{most / median:.2f}"])
-    text = f"{markdown(rows)}\nInstructions of a communication step of 1 ms, {STEPS} steps each.\n"
+    remark = real_time_sources.REMARK
+    if real_time_sources.UNIT.is_file():
+        found, remark = real_time_sources.rows(folder.with_name("real-time-sources"))
+        for name, size, median, most in found:
+            worst = max(worst, most / median)
+            rows.append([name, size, f"{median:.0f}", str(most), f"{most / median:.2f}"])
+    text = f"{markdown(rows)}\nInstructions of a communication step of 1 ms, {STEPS} steps each. {remark}"
     if worst > MOST:
         raise SystemExit(f"{text}\nthe costliest step costs {worst:.2f} times the median one, more than {MOST:g}")
     print(text, end="")

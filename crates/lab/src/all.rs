@@ -16,7 +16,7 @@ use fmu_build::tools::progress::Progress;
 const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 21] = [
+const COMMANDS: [&[&str]; 22] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time"],
@@ -33,6 +33,7 @@ const COMMANDS: [&[&str]; 21] = [
     &["memcheck"],
     &["hosts"],
     &["platforms"],
+    &["sources", "--quick"],
     &["test-wheel"],
     &["test-page"],
     &["test-python"],

@@ -22,6 +22,7 @@ const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
 /// The study's duration and output interval [s].
 const STOP_TIME: f64 = 0.5;
 const STEP_SIZE: f64 = 0.001;
+const DERIVATIVE: &str = "providesDirectionalDerivative";
 
 /// Writes modelDescription/modelDescription.xml, and the lists of effects in README.md and docs/effects.md
 #[derive(Args, Clone, Debug)]
@@ -68,17 +69,47 @@ pub enum Choices {
 
 /// The model description as XML, with named choices declared as `choices` says.
 pub fn model_description(choices: Choices) -> Result<String> {
-    let table = table();
-    let variables = table.rows.iter().enumerate();
     let root = root("2.0", "guid", guid())
         .with("numberOfEventIndicators", EVENT_INDICATORS)
-        .child(kind_element("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false)))
-        .child(kind_element("CoSimulation", |kind| {
-            kind.with("canHandleVariableCommunicationStepSize", true)
-                .with("canInterpolateInputs", true)
-                .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
-                .with("canRunAsynchronuously", false)
-        }))
+        .child(
+            kind_element("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false))
+                .with(DERIVATIVE, true),
+        )
+        .child(kind_element("CoSimulation", |kind| co_simulation(kind, OUTPUT_ORDER)).with(DERIVATIVE, true));
+    described(root, choices, Part::Whole)
+}
+
+/// That of the sources in C, of which `files` are compiled: what real-time targets do without is not there.
+pub fn model_description_of_sources<'a>(files: impl Iterator<Item = &'a str>) -> Result<String> {
+    let files = files.map(|name| Element::new("File").with("name", name));
+    let kind = kind_element("CoSimulation", |kind| co_simulation(kind, 0))
+        .with(DERIVATIVE, false)
+        .child(Element::new("SourceFiles").children(files));
+    described(root("2.0", "guid", guid()).child(kind), Choices::Enumerations, Part::RealTime)
+}
+
+/// What of the unit a description is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All of it.
+    Whole,
+    /// What real-time targets need.
+    RealTime,
+}
+
+/// What only co-simulation has.
+fn co_simulation(kind: Element, output_order: i32) -> Element {
+    kind.with("canHandleVariableCommunicationStepSize", true)
+        .with("canInterpolateInputs", true)
+        .with("maxOutputDerivativeOrder", output_order)
+        .with("canRunAsynchronuously", false)
+}
+
+/// The description behind the kinds of simulation.
+fn described(root: Element, choices: Choices, part: Part) -> Result<String> {
+    let table = table();
+    let variables = table.rows.iter().enumerate();
+    let root = root
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
         .children(
             (choices == Choices::Enumerations)
@@ -86,7 +117,9 @@ pub fn model_description(choices: Choices) -> Result<String> {
         )
         .child(log_categories())
         .child(default_experiment())
-        .child(Element::new("ModelVariables").children(variables.map(|(i, row)| scalar_variable(i, row, choices))))
+        .child(
+            Element::new("ModelVariables").children(variables.map(|(i, row)| scalar_variable(i, row, (choices, part)))),
+        )
         .child(structure(table));
     root.document().context("the model description cannot be written")
 }
@@ -138,7 +171,6 @@ fn kind_element(name: &'static str, own: impl FnOnce(Element) -> Element) -> Ele
         .with("canNotUseMemoryManagementFunctions", true)
         .with("canGetAndSetFMUstate", true)
         .with("canSerializeFMUstate", true)
-        .with("providesDirectionalDerivative", true)
 }
 
 pub(super) fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'static Unit> {
@@ -213,7 +245,7 @@ pub(super) fn variability(row: &Variable) -> &'static str {
     }
 }
 
-fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
+fn scalar_variable(reference: usize, row: &Variable, (choices, part): (Choices, Part)) -> Element {
     let initial = match row.causality {
         Causality::Parameter => Some("exact"),
         Causality::Input => None,
@@ -226,7 +258,7 @@ fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Elemen
         .with("causality", causality(row))
         .with("variability", variability(row))
         .with_some("initial", initial)
-        .child(variable_type(row, is_velocity(reference), choices))
+        .child(variable_type(row, part == Part::Whole && is_velocity(reference), choices))
 }
 
 /// Description of a variable. Where its choices are integers, the description names the choice of each number.

@@ -17,8 +17,10 @@ pub mod package;
 pub mod page;
 pub mod plain_types;
 pub mod platforms;
+pub mod sources;
 pub mod terminals;
 pub mod toolchains;
+pub mod wasm;
 pub mod wheel;
 
 use anyhow::Result;

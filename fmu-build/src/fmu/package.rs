@@ -12,7 +12,9 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, CRATES, Libraries, Library};
 use crate::fmu::page;
-use crate::fmu::{describe, describe3, documentation, effect_list, evidence, licences, plain_types, terminals};
+use crate::fmu::{
+    describe, describe3, documentation, effect_list, evidence, licences, plain_types, sources, terminals,
+};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -66,16 +68,30 @@ pub struct PackageCommand {
     /// Also build BevelDifferential_integers.fmu, for hosts without enumerations (libcosim, Ecos)
     #[arg(long)]
     integers: bool,
+    /// Also build BevelDifferential_sources.fmu and BevelDifferential3_sources.fmu, with the unit as sources in C for real-time systems
+    #[arg(long)]
+    sources: bool,
 }
 
 impl PackageCommand {
     /// Packages the FMU and prints where it is.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("packaging the FMU");
-        let (fmu, left_out) = packed()?;
-        let plain = if self.integers { Some(plain_types::package(&fmu)?) } else { None };
+        let (fmu, mut left_out) = packed()?;
+        let mut variants = if self.integers { vec![plain_types::package(&fmu)?] } else { Vec::new() };
+        if self.sources {
+            progress.stage("building the library for sources in C");
+            match sources::Tools::found() {
+                Ok(tools) => {
+                    for (version, fmu) in [(Version::Two, fmu.clone()), (Version::Three, of_fmi3(&fmu))] {
+                        variants.push(sources::package(&tools, version, Packing::Small, &fmu)?);
+                    }
+                }
+                Err(remark) => left_out.push(remark),
+            }
+        }
         progress.finish();
-        for file in [fmu.clone(), of_fmi3(&fmu)].iter().chain(&plain) {
+        for file in [fmu.clone(), of_fmi3(&fmu)].iter().chain(&variants) {
             println!("{}", paths::shown(file));
         }
         if !left_out.is_empty() {

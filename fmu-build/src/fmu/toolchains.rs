@@ -33,13 +33,14 @@ pub const DARWIN_TARGETS: [&str; 2] = ["x86_64-apple-darwin", "aarch64-apple-dar
 /// Oldest Rust that compiles the library.
 const OLDEST_RUST: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Installs the tool chains for old Linux systems, ARM, macOS, Windows and browsers, with qemu and wine, in target/toolchains
+/// Installs the tool chains for old Linux systems, ARM, macOS, Windows, browsers and sources in C, with qemu and wine, in
+/// target/toolchains
 ///
 /// They need Debian on x86-64, 600 MB to download and 3 GB on disk. Packaging uses them from then on.
 #[derive(Args, Clone, Debug)]
 pub struct ToolchainsCommand {
     /// Install only this one
-    #[arg(value_parser = ["linux64", "aarch64-linux", "darwin64", "win64", "wasm"])]
+    #[arg(value_parser = ["linux64", "aarch64-linux", "darwin64", "win64", "wasm", "sources"])]
     platform: Option<String>,
 }
 
@@ -73,7 +74,11 @@ impl ToolchainsCommand {
             let windows = WINDOWS.made(&progress)?;
             made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
         }
-        if wanted("wasm") {
+        if wanted("sources") {
+            let sources = sources().made(|what| progress.stage(what))?;
+            made.push(format!("C from WebAssembly:    {}", paths::shown(&sources.programs())));
+        }
+        if wanted("wasm") || wanted("sources") {
             let place = match Compiler::made(&[WASM_TARGET], &progress)? {
                 Compiler::Installed => format!("rustup's target {WASM_TARGET}, nothing to install"),
                 Compiler::Unpacked(tools) => paths::shown(&tools.programs()),
@@ -90,6 +95,12 @@ impl ToolchainsCommand {
 pub fn old_linux() -> Wanted {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
     Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
+}
+
+/// What turns WebAssembly into C; the tool chain for WebAssembly goes with it.
+pub fn sources() -> Wanted {
+    let requirements = paths::workspace().join("fmu-build").join("cross").join("sources.txt");
+    Wanted { folder: paths::toolchains().join("sources"), requirements, holds: "wasm2c" }
 }
 
 /// A tool chain that a script in fmu-build/cross unpacks from Debian's packages.

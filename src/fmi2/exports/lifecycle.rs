@@ -5,7 +5,8 @@ use std::ptr;
 
 use super::super::logger::HostLogger;
 use super::*;
-use crate::instance::{Component, Experiment, Instance, Log, catch, free};
+use crate::FULL;
+use crate::instance::{Component, Experiment, Instance, Log, ONE_KIND, catch, free};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.
@@ -68,6 +69,8 @@ fn instantiate(
     } else if given.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
         let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
         format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
+    } else if let (false, Some(Kind::ModelExchange)) = (FULL, made_for) {
+        ONE_KIND.to_owned()
     } else if let Some(kind) = made_for {
         return Some(Instance::new(&FACE, kind, log));
     } else {

@@ -10,9 +10,12 @@
 use super::types::*;
 use super::{Call, FACE};
 use crate::instance::c_types::{c_char, c_int};
-use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, getters, host_solver, plain};
+use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, plain};
+#[cfg(feature = "full")]
+use crate::instance::{getters, host_solver};
 
 mod derivatives;
+#[cfg(feature = "full")]
 mod exchange;
 mod lifecycle;
 mod states;
@@ -20,6 +23,7 @@ mod stepping;
 mod variables;
 
 pub use derivatives::*;
+#[cfg(feature = "full")]
 pub use exchange::*;
 pub use lifecycle::*;
 pub use states::*;

@@ -1,9 +1,12 @@
 //! Events, and model exchange.
 
 use super::*;
+#[cfg(feature = "full")]
 use crate::instance::EVENT_INDICATORS;
+#[cfg(feature = "full")]
 use crate::model::STATES;
 
+#[cfg(feature = "full")]
 getters! {
     fmi3GetContinuousStateDerivatives GetContinuousStateDerivatives get_derivatives;
     fmi3GetEventIndicators GetEventIndicators get_event_indicators;
@@ -14,10 +17,15 @@ getters! {
 plain! {
     fmi3EnterEventMode EnterEventMode enter_event_mode_of_any;
     fmi3EnterStepMode EnterStepMode enter_step_mode;
-    fmi3EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode_of_exchange;
     fmi3EvaluateDiscreteStates EvaluateDiscreteStates evaluate_discrete_states;
 }
 
+#[cfg(feature = "full")]
+plain! {
+    fmi3EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode_of_exchange;
+}
+
+#[cfg(feature = "full")]
 macro_rules! counts {
     ($($function:ident $call:ident $count:expr;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
@@ -32,6 +40,7 @@ macro_rules! counts {
     )+};
 }
 
+#[cfg(feature = "full")]
 counts! {
     fmi3GetNumberOfEventIndicators GetNumberOfEventIndicators EVENT_INDICATORS;
     fmi3GetNumberOfContinuousStates GetNumberOfContinuousStates STATES;
@@ -71,4 +80,5 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
     })
 }
 
+#[cfg(feature = "full")]
 host_solver!(fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates "continuousStates");

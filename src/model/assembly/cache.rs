@@ -8,8 +8,12 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use serde::Serialize;
 
+use crate::FULL;
+
 /// Places of a cache.
 pub const PLACES: usize = 16;
+/// The same where memory is little.
+const FEW: usize = 2;
 /// Bytes that most keys fit in.
 const USUAL: usize = 1024;
 
@@ -48,7 +52,7 @@ impl<V> Cache<V> {
         if let Some(found) = places.iter().position(|place| place.key == key) {
             places[..=found].rotate_right(1);
         } else {
-            places.truncate(PLACES - 1);
+            places.truncate(if FULL { PLACES } else { FEW } - 1);
             places.insert(0, Place { key, value: Arc::default() });
         }
         places[0].value.clone()

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::FULL;
 use crate::contact::bodies::PairCouplings;
 use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
@@ -59,7 +60,7 @@ impl Laws {
                 bodies: None,
             });
         }
-        if p.scene.gear_contact == GearContact::Solid {
+        if FULL && p.scene.gear_contact == GearContact::Solid {
             let impact = impact(p, pair);
             let solids = cache.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
             return Ok(Self {

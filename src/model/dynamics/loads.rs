@@ -5,6 +5,7 @@
 //! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
 
 use super::Equations;
+use crate::FULL;
 use crate::contact::detailed::SliceLoad;
 use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad, ToothPair, Touch};
 use crate::geometry::Pair;
@@ -95,7 +96,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             });
             return;
         }
-        if let Law::Solid(solid) = &mesh.law {
+        if let (true, Law::Solid(solid)) = (FULL, &mesh.law) {
             solid.loaded(&self.mesh_state(at, g, s), |load| {
                 let (spot, place) = mesh.engagement.rigid_spot(load.s);
                 let tooth = ToothLoad {

@@ -1,6 +1,7 @@
 //! Loads of whole tooth pairs at an instant, with how evenly each is spread over its face.
 
 use super::Equations;
+use crate::FULL;
 use crate::contact::detailed::{KnownSlice, Opening};
 use crate::contact::errors::{MeshId, PairId};
 use crate::contact::pair_load::PairLoad;
@@ -46,7 +47,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
     fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
         let effect_terms = &self.teeth.effect_terms;
-        if let (false, Law::Solid(solid)) = (self.in_detail(), &self.teeth.mesh.law) {
+        if let (true, false, Law::Solid(solid)) = (FULL, self.in_detail(), &self.teeth.mesh.law) {
             return solid.face_load_factor(&self.mesh_state(at, g, slice.side), slice.flank, slice.s);
         }
         if !self.is_sliced() {

@@ -4,6 +4,8 @@
 //! states have no effect. Trial steps of the host's solver leave no trace: ledger, friction and teeth record completed
 //! steps, and change at events.
 
+use crate::FULL;
+
 use super::events::{are_brakes_new, break_tooth, energy, update_friction};
 use super::progress::complete;
 use super::timeline::{breaks_tooth, next_change};
@@ -95,7 +97,7 @@ impl Simulation {
 
     /// Whether the host's solver integrates the states.
     pub fn is_model_exchange(&self) -> bool {
-        self.accepted.is_some()
+        FULL && self.accepted.is_some()
     }
 
     /// Records the present state as accepted; free speeds have followed the jumps of imposed ones up to `followed`.

@@ -1,5 +1,7 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
+use crate::FULL;
+
 use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, hints};
 use crate::contact::Law;
@@ -97,6 +99,13 @@ pub fn integrate_teeth(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let method = model.parameters.solver.method;
+    if !FULL {
+        return match (teeth.layout.groups, teeth.layout.plain()) {
+            (1, Some(false)) => whole::<LEAST, 1, true>(teeth, model, state, integration, budget),
+            (1, Some(true)) => whole::<EXACT, 1, true>(teeth, model, state, integration, budget),
+            _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget),
+        };
+    }
     if method == Method::Adaptive && !teeth.effect_terms.body_effects.act_in(state) {
         return match teeth.layout.groups {
             1 => whole::<LEAST, 1, false>(teeth, model, state, integration, budget),
@@ -189,13 +198,13 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
-            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT) => {
+            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT || !FULL) => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
                 let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
             other => match other_than_default(other) {
-                Some(other) if ANY_METHOD && N > EXACT => {
+                Some(other) if FULL && ANY_METHOD && N > EXACT => {
                     compared(&other, system, &mut course, clock.now, context, &mut observe)
                 }
                 _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {

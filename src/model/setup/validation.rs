@@ -1,10 +1,11 @@
 //! Scenes that contradict themselves, refused by name.
 
 use super::Parameters;
+use crate::FULL;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
 use crate::model::effect_kinds::BUILT;
-use crate::model::scene::{CarrierDrive, GearContact, PlanetSpin, SideDrive};
+use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive};
 use crate::problem::Problem;
 
 /// Everything in `p` that does not go together.
@@ -36,6 +37,15 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     if !BUILT && (speed_driven[0] || speed_driven[1]) {
         let name = if speed_driven[0] { "scene.left_drive" } else { "scene.right_drive" };
         refuse(name, "a speed-driven side needs its half-shaft, and this build leaves all effects out".into());
+    }
+    if !FULL && scene.gear_contact == GearContact::Solid {
+        refuse(
+            "scene.gear_contact",
+            "this build, for real time, leaves solid teeth out: choose ideal, lumped or tooth".into(),
+        );
+    }
+    if !FULL && !matches!(p.solver.method, Method::Adaptive | Method::FixedStep) {
+        refuse("solver.method", "this build, for real time, has the methods fixed_step and adaptive alone".into());
     }
     let contact = &p.contact;
     if contact.stiffness_from_hertz && contact.exponent != crate::contact::hertz::EXPONENT {

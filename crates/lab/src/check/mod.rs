@@ -1,5 +1,5 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms, a browser or a machine without Rust; and two that
+//! time, other hosts, other platforms, compilers of C, a browser or a machine without Rust; and two that
 //! look for changes of the source that no test, or no experiment of the evidence, notices.
 
 pub mod fuzz;
@@ -9,6 +9,7 @@ mod platforms;
 pub mod python_tests;
 pub mod questions;
 mod scripts;
+mod sources;
 
 use crate::tools::command::Command;
 
@@ -27,5 +28,6 @@ pub fn commands() -> Vec<Command> {
         scripts::COEFFICIENTS.command(),
         scripts::HOSTS.command(),
         scripts::PLATFORMS.command(),
+        scripts::SOURCES.command(),
     ]
 }

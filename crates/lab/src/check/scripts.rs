@@ -10,7 +10,7 @@ use clap::{Arg, ArgMatches, value_parser};
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
-use super::platforms;
+use super::{platforms, sources};
 use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number};
 
 /// The wheel on a machine without Rust.
@@ -84,6 +84,29 @@ pub const REAL_TIME: Script = Script {
     doing: "counting",
     given: &[Given::Target("real-time"), Given::Target(BUILD)],
     sections: &[("docs/cost.md", "real-time", "")],
+    ..DEFAULTS
+};
+
+/// The unit as sources in C: bits, warnings, calls of the C library, time to compile, traps.
+pub const SOURCES: Script = Script {
+    name: "sources",
+    about: "Checks that the unit as sources in C gives the same bits by several compilers, on x86-64 and on ARM under qemu",
+    more: Some(
+        "It takes the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
+         libc6-dev-arm64-cross qemu-user. What is not there is left out.",
+    ),
+    options: || {
+        vec![
+            flag("quick", "Only gcc -O2, and six scenes"),
+            flag("write", "Also renew docs/fmi.md").conflicts_with("quick"),
+        ]
+    },
+    needs: Needs::Tests,
+    file: "crates/lab/python/sources.py",
+    doing: "comparing",
+    folder: Some("sources"),
+    given: &[Given::Named("quick"), Given::Folder, Given::Made(sources::built)],
+    sections: &[("docs/fmi.md", "sources", "")],
     ..DEFAULTS
 };
 

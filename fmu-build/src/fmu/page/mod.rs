@@ -11,8 +11,8 @@ use anyhow::{Context, Result, bail};
 use bevel_differential::variables::guid;
 use clap::Args;
 
-use crate::fmu::libraries;
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
+use crate::fmu::wasm::WasmCrate;
 use crate::tools::files::copy_folder;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -22,9 +22,8 @@ use crate::tools::python::{Environment, finish};
 pub const FILE: &str = "BevelDifferential.html";
 /// What makes it.
 const COMMAND: &str = "cargo run --release -- page";
-/// The crate of the library for browsers, and what its file is called.
+/// The crate of the library for browsers.
 const CRATE: &str = "bevel-differential-page";
-const LIBRARY: &str = "bevel_differential_page.wasm";
 /// Settings of the compiler for users, and those of a build that is sooner done: parts of a crate that are compiled beside each
 /// other, and the level of optimisation. Neither touches a result.
 const FOR_USERS: [&str; 2] = ["1", "3"];
@@ -70,26 +69,8 @@ impl PageCommand {
 
 /// The library for browsers, compiled in so many parts at this level of optimisation.
 fn library(tools: &Compiler, [parts, level]: [&str; 2]) -> Result<PathBuf> {
-    let folder = paths::target().join("cross").join("wasm");
-    let mut cargo = Command::new(libraries::cargo());
-    cargo
-        .current_dir(paths::workspace())
-        .args(["build", "--release", "--quiet", "--package", CRATE, "--target", WASM_TARGET, "--target-dir"])
-        .arg(&folder)
-        // whatever this build is for
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
-        .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
-    if let Compiler::Unpacked(tools) = tools {
-        cargo
-            .arg("-Zbuild-std=std,panic_abort")
-            .env("RUSTC", tools.programs().join("rustc"))
-            // Debian's Rust is a stable one, and building the standard library is not yet
-            .env("RUSTC_BOOTSTRAP", "1")
-            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"));
-    }
-    finish(&mut cargo, "the library for browsers cannot be built")?;
-    Ok(folder.join(WASM_TARGET).join("release").join(LIBRARY))
+    let library = WasmCrate { package: CRATE, features: &[], parts, level, options: &[], folder: "wasm" };
+    library.compiled(tools, "the library for browsers cannot be built")
 }
 
 /// The page around `library`; the sources are copied, so that nothing is written where they are.

@@ -1,0 +1,35 @@
+//! An instance of FMI 2.0.
+
+use std::ffi::{c_int, c_void};
+use std::ptr;
+
+use bevel_differential::fmi2::{Boolean, CallbackFunctions, ComponentPointer, Logger, Status, Text, fmi2Instantiate};
+
+use crate::messages;
+
+/// A logger of C takes any number of arguments; compiled for WebAssembly these are one pointer, which is not used.
+type PlainLogger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, *const c_void);
+
+unsafe extern "C" fn keep(_: *mut c_void, _: Text, status: Status, category: Text, message: Text, _: *const c_void) {
+    // SAFETY: the library passes texts that end with 0
+    unsafe { messages::keep(status, category, message) };
+}
+
+/// fmi2Instantiate with messages that are kept.
+///
+/// # Safety
+/// `name` and `guid` are NULL or end with 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn source_instantiate(name: Text, kind: c_int, guid: Text, logging: Boolean) -> ComponentPointer {
+    // SAFETY: the same function type for WebAssembly, see `PlainLogger`
+    let logger = unsafe { std::mem::transmute::<PlainLogger, Logger>(keep) };
+    let callbacks = CallbackFunctions {
+        logger: Some(logger),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        component_environment: ptr::null_mut(),
+    };
+    // SAFETY: the caller's promise; the callbacks are copied
+    unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), &callbacks, 0, logging) }
+}

@@ -1,0 +1,14 @@
+//! The library that is turned into C: the functions of FMI, and beside them what the C around it needs: room for the values of a
+//! call, an instance that keeps its messages, and the reason of a panic.
+//!
+//! One such library, with a memory of its own, is one instance of the unit. Pointers are places in that memory, 0 is NULL.
+#![cfg(target_family = "wasm")]
+
+#[cfg(feature = "fmi2")]
+mod begin2;
+#[cfg(feature = "fmi3")]
+mod begin3;
+mod messages;
+mod reason;
+mod room;
+mod start;

@@ -1,0 +1,30 @@
+//! Room for what a host passes by pointers.
+
+use std::cell::UnsafeCell;
+
+/// Words that are there from the start: references and values of all variables of the unit, and more.
+const WORDS: usize = 1024;
+
+struct Room(UnsafeCell<Vec<u64>>);
+
+// SAFETY: compiled for WebAssembly without threads
+unsafe impl Sync for Room {}
+
+static ROOM: Room = Room(UnsafeCell::new(Vec::new()));
+
+/// Makes the room that any usual call takes, so that none allocates later.
+pub fn make() {
+    source_room(WORDS * size_of::<u64>());
+}
+
+/// Room for `bytes`, aligned for all numbers, until this is called again. What it holds is left over from calls before.
+#[unsafe(no_mangle)]
+pub extern "C" fn source_room(bytes: usize) -> *mut u64 {
+    // SAFETY: one thread, and no reference outlives this call
+    let words = unsafe { &mut *ROOM.0.get() };
+    let wanted = bytes.div_ceil(size_of::<u64>());
+    if words.len() < wanted {
+        words.resize(wanted, 0);
+    }
+    words.as_mut_ptr()
+}

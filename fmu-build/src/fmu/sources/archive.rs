@@ -1,0 +1,106 @@
+//! The archive with sources in C: that of the FMU without libraries and what belongs to them, with a description of what the sources
+//! can do.
+
+use std::fs::File as Archive;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use bevel_differential::variables::MODEL_NAME;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+
+use super::{File, Tools};
+use crate::fmu::libraries::{CRATES, Library};
+use crate::fmu::package::{Packing, Version};
+use crate::fmu::{describe, describe3, documentation, licences};
+use crate::tools::files::write_whole;
+use answers::text::xml::Element;
+
+const DESCRIPTION: &str = "modelDescription.xml";
+const INDEX: &str = "documentation/index.html";
+/// What of the FMU the sources do without: libraries, evidence of all that these can do, and the page that stands on one.
+const LEFT_OUT: [&str; 4] = ["binaries/", "extra/", "documentation/fmi-ls-ref", "documentation/BevelDifferential.html"];
+/// What the sources need.
+const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its library setjmp, string functions and roots. Co-simulation \
+                     with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
+
+/// Writes the archive with the sources next to `fmu`, and returns its path.
+pub fn package(tools: &Tools, version: Version, packing: Packing, fmu: &Path) -> Result<PathBuf> {
+    let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
+    let target = fmu.with_file_name(format!("{name}_sources.fmu"));
+    let files = tools.files(version, packing)?;
+    let bytes = variant(version, fmu, &files).with_context(|| format!("{} cannot be packed", target.display()))?;
+    write_whole(&target, &bytes)?;
+    Ok(target)
+}
+
+fn variant(version: Version, fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
+    let mut archive = ZipArchive::new(Archive::open(fmu)?)?;
+    let mut out = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(9))
+        .last_modified_time(DateTime::default())
+        .unix_permissions(0o644);
+    let add = |out: &mut ZipWriter<_>, name: &str, text: &str| -> Result<()> {
+        out.start_file(name, options)?;
+        Ok(out.write_all(text.as_bytes())?)
+    };
+    for index in 0..archive.len() {
+        let name = archive.by_index_raw(index)?.name()?.into_owned();
+        if LEFT_OUT.iter().any(|part| name.starts_with(part)) {
+            continue;
+        }
+        match &name[..] {
+            DESCRIPTION => add(&mut out, DESCRIPTION, &description(version, files)?)?,
+            INDEX => add(&mut out, INDEX, &index_page()?)?,
+            _ => out.raw_copy_file(archive.by_index_raw(index)?)?,
+        }
+    }
+    for (name, text) in files {
+        add(&mut out, &format!("sources/{name}"), text)?;
+    }
+    if version == Version::Three {
+        add(&mut out, "sources/buildDescription.xml", &build_description(files)?)?;
+    }
+    Ok(out.finish()?.into_inner())
+}
+
+fn description(version: Version, files: &[File]) -> Result<String> {
+    match version {
+        Version::Two => describe::model_description_of_sources(compiled(files)),
+        Version::Three => describe3::model_description_of_sources(),
+    }
+}
+
+/// The files that a compiler is given, without headers.
+fn compiled(files: &[File]) -> impl Iterator<Item = &str> {
+    files.iter().map(|(name, _)| name.as_str()).filter(|name| name.ends_with(".c"))
+}
+
+/// How FMI 3.0 says what to compile.
+fn build_description(files: &[File]) -> Result<String> {
+    let set = Element::new("SourceFileSet")
+        .with("language", "C99")
+        .children(compiled(files).map(|name| Element::new("SourceFile").with("name", name)));
+    let configuration = Element::new("BuildConfiguration").with("modelIdentifier", MODEL_NAME).child(set);
+    let root = Element::new("fmiBuildDescription").with("fmiVersion", "3.0").child(configuration);
+    root.document().context("the description of the build cannot be written")
+}
+
+/// The documentation of the archive.
+fn index_page() -> Result<String> {
+    let sources = Library {
+        platform: "sources",
+        in_fmi3: Vec::new(),
+        in_wheels: "",
+        ending: "c",
+        file: PathBuf::new(),
+        answers: PathBuf::new(),
+        needs: NEEDS.to_owned(),
+        added: Vec::new(),
+    };
+    let linked = licences::collected(CRATES[0], &[])?.linked;
+    documentation::page(&[sources], &linked, &documentation::Beside { live: None, tests: None })
+}

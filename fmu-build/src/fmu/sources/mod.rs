@@ -1,0 +1,76 @@
+//! The unit as sources in C: the library for WebAssembly, turned into C by wasm2c, around it the C in `fmu-build/sources/c`, and an
+//! archive with them.
+
+mod archive;
+mod translate;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, Result};
+
+pub use archive::package;
+pub use translate::File;
+
+use crate::fmu::package::{Packing, Version};
+use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
+use crate::fmu::wasm::WasmCrate;
+use crate::tools::paths;
+use crate::tools::python::{Environment, finish};
+
+/// The crate of the library.
+const CRATE: &str = "bevel-differential-sources";
+/// The stack within the library's memory, twice what any scene of the tests takes [bytes].
+const STACK: &str = "-Clink-arg=-zstack-size=262144";
+/// Parts that both versions of FMI share, in `fmu-build/sources/c`.
+const SHARED: [&str; 4] = ["bd_runtime.h", "bd_runtime.c", "bd_unit.h", "bd_unit.c"];
+
+/// What makes the sources.
+pub struct Tools {
+    wasm: Compiler,
+    to_c: Environment,
+}
+
+impl Tools {
+    /// What is installed, or how to get it.
+    pub fn found() -> Result<Self, String> {
+        match (Compiler::found(&[WASM_TARGET]), toolchains::sources().found()) {
+            (Some(wasm), Some(to_c)) => Ok(Self { wasm, to_c }),
+            _ => Err(format!("the sources in C are left out; to get them: {} sources", toolchains::COMMAND)),
+        }
+    }
+
+    /// All files of the sources for a version of FMI; packed in little time they give the same results by more instructions.
+    pub fn files(&self, version: Version, packing: Packing) -> Result<Vec<File>> {
+        let (feature, face) = match version {
+            Version::Two => ("fmi2", "fmi2Functions.c"),
+            Version::Three => ("fmi3", "fmi3Functions.c"),
+        };
+        let library = WasmCrate {
+            package: CRATE,
+            features: &[feature],
+            parts: if packing == Packing::Quick { "16" } else { "1" },
+            level: "2",
+            options: &[STACK],
+            folder: "sources",
+        };
+        let library = library.compiled(&self.wasm, "the library for sources in C cannot be built")?;
+        let mut files = translate::files(&self.in_c(&library)?)?;
+        let own = paths::workspace().join("fmu-build").join("sources").join("c");
+        for name in SHARED.into_iter().chain([face]) {
+            let text = fs::read_to_string(own.join(name)).with_context(|| format!("{name} cannot be read"))?;
+            files.push((name.to_owned(), text));
+        }
+        Ok(files)
+    }
+
+    /// What wasm2c makes of `library`.
+    fn in_c(&self, library: &Path) -> Result<String> {
+        let file = library.with_extension("c");
+        let mut program = Command::new(self.to_c.programs().join("wasm2c"));
+        program.args(["--no-debug-names", "--module-name", "bd", "--output"]).args([&file, library]);
+        finish(&mut program, "wasm2c cannot turn the library into C")?;
+        fs::read_to_string(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)))
+    }
+}
