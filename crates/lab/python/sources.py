@@ -23,7 +23,7 @@ import platform_scenes
 from bevel_differential.text import markdown
 from effects_list import effects
 from platforms import FMU, STEPS, Platform, compared
-from tools import say
+from tools import WORKSPACE, say
 
 # what the sources do without
 SOLID, METHODS = "solid", ("radau", "rodas4", "dormand_prince")
@@ -177,6 +177,8 @@ def main():
         packed = sum(entry.compress_size for entry in archive.infolist() if entry.filename.startswith("sources/"))
     sources = folder / "unit" / "sources"
     fmpy.read_model_description(unit, validate=True)
+    # what zig compiles of its own, beside its tool chain
+    os.environ.setdefault("ZIG_GLOBAL_CACHE_DIR", str(WORKSPACE / "target" / "toolchains" / "zig-cache"))
     native = Platform("native", fmu, "")
     scenes = [scene for scene in platform_scenes.all_scenes(Path(scene_files), effects(FMU)) if is_within(scene)]
     if quick:
