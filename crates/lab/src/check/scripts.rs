@@ -97,7 +97,7 @@ pub const SOURCES: Script = Script {
     ),
     options: || {
         vec![
-            flag("quick", "Only gcc -O2, and six scenes"),
+            flag("quick", "Only gcc -O1, and six scenes"),
             flag("write", "Also renew docs/fmi.md").conflicts_with("quick"),
         ]
     },
