@@ -110,5 +110,5 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
 
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
     with pytest.raises(DifferentialError) as refused:
-        drive({"oil.viscosity_100": 2e-4})
+        drive({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True})
     assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])

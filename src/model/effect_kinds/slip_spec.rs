@@ -40,8 +40,11 @@ impl SlipSpec {
         1.0 + (factor - 1.0) * ((temperature - self.reference) / (end - self.reference)).min(1.0)
     }
 
-    /// What is wrong with the order of its temperatures; `names` of the cold, reference and hot one.
+    /// What is wrong with the order of its temperatures, where they act; `names` of the cold, reference and hot one.
     pub fn problem(&self, [cold, reference, hot]: [&'static str; 3]) -> Option<Problem> {
+        if !self.feels_temperature() {
+            return None;
+        }
         if self.cold >= self.reference {
             let (this, other) = (self.cold, self.reference);
             return Some(problem!(
@@ -65,12 +68,8 @@ impl SlipSpec {
 macro_rules! slip_rows {
     ($effect:literal, $field:ident) => {{
         use $crate::declaration::{row, units};
-        let temperature = |name, of, at: fn(&mut Self) -> &mut f64| {
-            row(name, of).when(concat!($effect, ".cold_factor != 1 or ", $effect, ".hot_factor != 1")).real(
-                (units::KELVIN, units::DEG_C),
-                (213.15, 673.15),
-                at,
-            )
+        let temperature = |name, of, condition, at: fn(&mut Self) -> &mut f64| {
+            row(name, of).when(condition).real((units::KELVIN, units::DEG_C), (213.15, 673.15), at)
         };
         let factor = |name, of, at: fn(&mut Self) -> &mut f64| row(name, of).real(units::ONE, (0.0, 10.0), at);
         [
@@ -85,20 +84,27 @@ macro_rules! slip_rows {
                 (-1.0, 1.0),
                 |p: &mut Self| &mut p.$field.slip_slope,
             ),
-            temperature(concat!($effect, ".cold_temperature"), "Temperature of the cold point of friction", |p| {
-                &mut p.$field.cold
-            }),
+            temperature(
+                concat!($effect, ".cold_temperature"),
+                "Temperature of the cold point of friction",
+                concat!($effect, ".cold_factor != 1"),
+                |p| &mut p.$field.cold,
+            ),
             factor(concat!($effect, ".cold_factor"), "Friction at the cold point over that at the reference", |p| {
                 &mut p.$field.cold_factor
             }),
             temperature(
                 concat!($effect, ".reference_temperature"),
                 "Temperature at which friction has its given values",
+                concat!($effect, ".cold_factor != 1 or ", $effect, ".hot_factor != 1"),
                 |p| &mut p.$field.reference,
             ),
-            temperature(concat!($effect, ".hot_temperature"), "Temperature of the hot point of friction", |p| {
-                &mut p.$field.hot
-            }),
+            temperature(
+                concat!($effect, ".hot_temperature"),
+                "Temperature of the hot point of friction",
+                concat!($effect, ".hot_factor != 1"),
+                |p| &mut p.$field.hot,
+            ),
             factor(concat!($effect, ".hot_factor"), "Friction at the hot point over that at the reference", |p| {
                 &mut p.$field.hot_factor
             }),

@@ -78,7 +78,8 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
             ));
         }
     }
-    found.extend(p.oil.problem());
-    found.extend(p.scene_effects(pair).problems());
+    let effects = p.scene_effects(pair);
+    found.extend(p.oil.problem().filter(|_| effects.oil_acts()));
+    found.extend(effects.problems());
     found
 }

@@ -21,7 +21,8 @@ struct Run {
 
 impl Run {
     fn random(index: u64) -> Option<Self> {
-        let scene = random::scene(index)?;
+        let mut scene = random::scene(index)?;
+        random::warm(&mut Draw::new(index ^ random::WARM), &mut scene.parameters);
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
 

@@ -18,6 +18,7 @@ const MODULE: f64 = 4.5e-3;
 /// Tells generators of one scene apart.
 const LATER: u64 = 1 << 40;
 const ROLLING: u64 = 1 << 41;
+pub const WARM: u64 = 1 << 42;
 
 /// SplitMix64.
 pub struct Draw(u64);
@@ -210,6 +211,21 @@ fn later(d: &mut Draw, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.chance(0.5);
 }
 
+/// Small nodes, which warm up within a moment, and frictions that feel it.
+pub fn warm(d: &mut Draw, p: &mut Parameters) {
+    p.effects.warm_up = d.chance(0.3);
+    let s = &mut p.specs;
+    (s.warm_up.clutch_capacity, s.warm_up.washer_capacity) = (d.about(3.0, 3.0), d.about(1.0, 3.0));
+    for sliding in [&mut s.limited_slip.sliding, &mut s.thrust_friction.sliding, &mut s.wheel_brake.sliding] {
+        (sliding.stribeck_speed, sliding.slip_slope) = (d.between(0.0, 0.2), d.between(-0.02, 0.02));
+        (sliding.cold_factor, sliding.hot_factor) = (d.between(0.8, 1.3), d.between(0.5, 1.1));
+    }
+    (s.thrust_friction.static_ratio, s.wheel_brake.static_ratio) = (d.between(1.0, 1.5), d.between(1.0, 1.5));
+    s.bearing_drag.viscosity_from_oil = d.chance(0.5);
+    s.tooth_friction.viscosity_from_oil = d.chance(0.5);
+    (p.oil.temperature, s.wheel_brake.temperature) = (d.between(250.0, 400.0), d.between(250.0, 600.0));
+}
+
 /// Scene number `index` with planets that roll over some teeth.
 pub fn rolling(index: u64) -> Option<Scene> {
     let d = &mut Draw::new(index ^ ROLLING);
@@ -218,6 +234,7 @@ pub fn rolling(index: u64) -> Option<Scene> {
         return None;
     }
     p.effects.mesh_history = true;
+    warm(&mut Draw::new(index ^ WARM), &mut p);
     p.scene.carrier_drive = CarrierDrive::Speed;
     (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Torque, SideDrive::Torque);
     p.scene.planet_spin = PlanetSpin::Imposed;

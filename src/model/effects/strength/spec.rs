@@ -148,7 +148,7 @@ impl Declare for StrengthSpec {
                 "strength.scuffing_temperature",
                 "Contact temperature at which flanks scuff, by a test of the oil (FZG; ISO/TS 10300-20)",
             )
-            .when("effects.tooth_friction = true")
+            .when("effects.tooth_friction = true or effects.warm_up = true")
             .real((units::KELVIN, DEG_C), (300.0, 2000.0), |p| &mut p.scuffing_temperature),
             row(
                 "strength.rate_from",
