@@ -137,8 +137,14 @@ pub trait Acted<const N: usize> {
     /// All positions and velocities as effects see them.
     fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
         let Acting { inputs, input_derivatives, oil_viscosity, .. } = self.acting();
-        let (inputs_now, input_rates, oil_viscosity) = (inputs, &input_derivatives.rates[0], *oil_viscosity);
-        BodyMotion { q: &at.q, v: &at.v, layout: self.layout(), inputs: inputs_now, input_rates, oil_viscosity }
+        BodyMotion {
+            q: &at.q,
+            v: &at.v,
+            layout: self.layout(),
+            inputs,
+            input_rates: &input_derivatives.rates[0],
+            oil_viscosity: *oil_viscosity,
+        }
     }
 
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
