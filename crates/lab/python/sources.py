@@ -22,14 +22,9 @@ import binaries
 import platform_scenes
 from bevel_differential.text import markdown
 from effects_list import effects
-<<<<<<< HEAD
 from platform_hosts import STEPS, Platform
 from platforms import FMU, compared
-from tools import say
-=======
-from platforms import FMU, STEPS, Platform, compared
 from tools import WORKSPACE, say
->>>>>>> sources
 
 # what the sources do without
 SOLID, METHODS = "solid", ("radau", "rodas4", "dormand_prince")
@@ -183,13 +178,9 @@ def main():
         packed = sum(entry.compress_size for entry in archive.infolist() if entry.filename.startswith("sources/"))
     sources = folder / "unit" / "sources"
     fmpy.read_model_description(unit, validate=True)
-<<<<<<< HEAD
-    native = Platform("native", fmu)
-=======
     # what zig compiles of its own, beside its tool chain
     os.environ.setdefault("ZIG_GLOBAL_CACHE_DIR", str(WORKSPACE / "target" / "toolchains" / "zig-cache"))
-    native = Platform("native", fmu, "")
->>>>>>> sources
+    native = Platform("native", fmu)
     scenes = [scene for scene in platform_scenes.all_scenes(Path(scene_files), effects(FMU)) if is_within(scene)]
     if quick:
         scenes = [scene for scene in scenes if scene[0] in QUICK]
