@@ -76,6 +76,9 @@ const LAST_STEPS: f64 = 3.0;
 const LARGEST_GROWTH: f64 = 6.0;
 /// Growth of the step that is tried after kinks, from one kink to the next.
 const AFTER_KINK_GROWTH: f64 = 4.0;
+/// Cuts at a switch after which each halves the step at least: where the distance from the switch jumps, as that of a held
+/// body whose speed turns round, a straight line through its ends does not find it.
+const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
@@ -134,7 +137,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let ends = until + resolution >= course.end;
     let mut after_rejection = false;
     let mut unbalanced = 0;
-    let mut in_a_row = 0;
+    let (mut in_a_row, mut cuts) = (0, 0);
     let mut switch_at = f64::INFINITY;
     let mut lin = Linearisation::default();
     // energies where it was taken, if that is where the next step begins
@@ -211,13 +214,15 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             let ends = ((point, course.time), (&extension.end, course.time + h));
             if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
                 statistics.rejected_switch += 1;
-                switch_at = (h * fraction).max(resolution);
+                cuts += 1;
+                let most = if cuts > CUTS_BY_LINE { 0.5 } else { 1.0 };
+                switch_at = (h * fraction.min(most)).max(resolution);
                 continue;
             }
             // not a number where either is not
             error = if halfway.size < error { error } else { halfway.size };
             if error <= 1.0 {
-                (switch_at, in_a_row) = (f64::INFINITY, 0);
+                (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
                 course.pending = Some(Pending { attempt, extension, ledger_rates, energy, part: 1.0 });
