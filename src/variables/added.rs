@@ -118,6 +118,11 @@ const ADDED: &[&str] = &[
     "temperature.flash",
     "temperature.contact",
     "safety.scuffing",
+    "warm_up.gears_above_oil",
+    "warm_up.clutch_above_oil",
+    "warm_up.washers_above_oil",
+    "warm_up.case_above_oil",
+    "warm_up.cycle",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

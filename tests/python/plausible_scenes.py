@@ -14,6 +14,8 @@ EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3,
 ADAPTIVE, FIXED_STEP, RADAU, RODAS4 = 1, 2, 3, 4
 IMPLICIT = [FIXED_STEP, RADAU, RODAS4]
 MODULE = 4.5e-3
+# number of choices when the seeds were chosen: a start with steady heat is drawn apart
+FIRST_CHOICES = {"scene.start": 3}
 
 # factor below and above the start value, drawn by logarithm
 FACTORS = {
@@ -50,7 +52,8 @@ BANDS = {
     "oil.viscosity_100": (5e-06, 3e-05), "oil.density": (800.0, 950.0), "oil.density_fall": (0.5, 0.8),
     "bearing_drag.reference_temperature": (330.0, 370.0), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
     "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
-    "strength.scuffing_temperature": (450.0, 800.0),
+    "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (1e-3, 1e-2),
+    **{f"warm_up.{node}_above_oil": (-20.0, 20.0) for node in ("gears", "clutch", "washers", "case")},
     # friction over speed and temperature, points of temperature in order
     **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
         "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
@@ -77,7 +80,7 @@ def value(variable, u, scene):
     if variable.kind == "Boolean":
         return u < 0.5
     if variable.kind == "Enumeration":
-        return 1 + int(u * len(variable.literals))
+        return 1 + int(u * FIRST_CHOICES.get(variable.name, len(variable.literals)))
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
     size = scene.get("geometry.module", MODULE)

@@ -29,7 +29,9 @@ LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"
          "warm_up.clutch_capacity", "warm_up.washer_capacity", "warm_up.case_capacity", "warm_up.gears_to_oil",
          "warm_up.gears_to_oil_per_speed", "warm_up.clutch_to_oil", "warm_up.washers_to_oil", "warm_up.oil_to_case",
          "warm_up.case_to_ambient", "warm_up.case_to_ambient_per_speed", "warm_up.oil_share",
-         "strength.thermal_contact_coefficient", "strength.scuffing_temperature"]
+         "strength.thermal_contact_coefficient", "strength.scuffing_temperature", "warm_up.gears_above_oil", "warm_up.clutch_above_oil",
+         "warm_up.washers_above_oil", "warm_up.case_above_oil", "warm_up.cycle"]
+STEADY_HEAT = 4
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 
@@ -43,7 +45,7 @@ def wild_value(variable, u):
     if variable.kind == "Boolean":
         return u < 0.5
     if variable.kind == "Enumeration":
-        return 1 + int(u * len(variable.literals))
+        return 1 + int(u * plausible_scenes.FIRST_CHOICES.get(variable.name, len(variable.literals)))
     low, high = variable.minimum, variable.maximum
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
@@ -75,5 +77,7 @@ def scenes(fmu, kind, count, seed, first=0, last=None):
             draw = lambda v, u: plausible_scenes.value(v, u, start)  # noqa: E731
             if kind == "bold":
                 start |= {v.name: wild_value(v, random.random()) for v in variables if random.random() < BOLD}
+        if later["warm_up.cycle"] > 0.8 and (kind == "wild" or start["effects.warm_up"]):
+            start["scene.start"] = STEADY_HEAT
         steps = schedule(random, DURATION[kind], inputs, lambda v: draw(v, random.random()))
         yield index, {"start": start, "steps": steps}

@@ -112,3 +112,61 @@ def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
     with pytest.raises(DifferentialError) as refused:
         drive({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True})
     assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])
+
+
+# 40 N·m in each pack at 20 rad/s of the planets
+STEADY = SLIP | {"scene.start": "steady_heat", "effects.warm_up": True, "limited_slip.preload": 40.0,
+                 "limited_slip.torque_coefficient": 0.0, "carrier.speed_command": 10.0, "warm_up.cycle": 0.1}
+
+
+@pytest.mark.parametrize("contact", ["ideal", "lumped"])
+@pytest.mark.parametrize("given", [False, True])
+def test_a_start_with_steady_heat_balances_the_heat_of_the_clutch(drive, contact, given):
+    driven = drive(STEADY | {"scene.gear_contact": contact, "warm_up.sump_given": given, "warm_up.ambient_temperature": 285.0})
+    heat = 2.0 * 40.0 * 20.0 * theory.RATIO
+    # start values: 10 W/K from the clutch, 30 W/K from the oil to the case, 10 W/K and 0.1 W·s/(K·rad) to ambient
+    to_ambient = 10.0 + 0.1 * 10.0
+    oil = 353.15 if given else 285.0 + heat / to_ambient + heat / 30.0
+    case = (30.0 * oil + to_ambient * 285.0) / (30.0 + to_ambient)
+    tolerance = 1e-9 if contact == "ideal" else 1e-5
+    expected = [oil, oil, oil + heat / 10.0, oil, case]
+    assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(expected, rel=tolerance)
+    driven.to(30.0, 1.0)
+    assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(expected, rel=10.0 * tolerance)
+
+
+def test_a_start_with_steady_heat_stays_where_friction_feels_temperature(drive):
+    values = STEADY | {"scene.gear_contact": "lumped", "limited_slip.hot_factor": 0.5, "limited_slip.cold_factor": 1.5,
+                       "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.2}
+    driven = drive(values)
+    begin = [driven[f"temperature.{node}"] for node in NODES]
+    driven.to(300.0, 1.0)
+    # friction follows temperature in steps of 0.5 K
+    assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(begin, abs=0.5)
+    # from afar it comes to the same
+    far = drive(values | {"scene.start": "equilibrium", "oil.temperature": 300.0, "solver.relative_tolerance": 1e-4})
+    far.to(8000.0, 20.0)
+    assert [far[f"temperature.{node}"] for node in NODES] == pytest.approx(begin, abs=0.5)
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ({"effects.warm_up": False}, ["scene.start", "steady_heat", "effects.warm_up"]),
+    ({"warm_up.clutch_to_oil": 0.0}, ["no steady temperatures", "clutch packs", "warm_up.clutch_to_oil"]),
+    ({"warm_up.case_to_ambient": 0.0, "warm_up.case_to_ambient_per_speed": 0.0}, ["no steady temperatures", "degC"]),
+    ({"scene.start": "equilibrium", "warm_up.case_above_oil": 350.0}, ["warm_up.case_above_oil", "350 K", "673.15 K"]),
+])
+def test_a_start_without_steady_heat_is_refused_by_name(drive, values, words):
+    with pytest.raises(DifferentialError) as refused:
+        drive(STEADY | {"scene.gear_contact": "ideal"} | values)
+    assert all(word in str(refused.value) for word in words), str(refused.value)
+
+
+def test_a_drive_begins_with_nodes_above_the_oil(drive):
+    above = {"gears": 12.0, "clutch": 40.0, "washers": -5.0, "case": -20.0}
+    driven = drive({"effects.warm_up": True, "oil.temperature": 330.0} | {f"warm_up.{node}_above_oil": k for node, k in above.items()})
+    assert [driven[f"temperature.{node}"] for node in NODES] == [330.0, 342.0, 370.0, 325.0, 310.0]
+    assert driven["warm_up.stored"] == 0.0
+    driven.to(50.0, 1.0)
+    # no friction: what is stored has come from ambient, and the nodes draw together
+    assert driven["warm_up.stored"] == pytest.approx(-driven["warm_up.given_off"], rel=1e-9)
+    assert abs(driven["temperature.clutch"] - driven["temperature.oil"]) < 0.5 * 40.0

@@ -7,9 +7,11 @@
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units::{self, DEG_C};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::{Changes, Declare, Effect, Reading};
+use crate::model::effect_kinds::{Changes, Declare, Effect, Reading, Setting};
 use crate::model::thermal::network::Conductance;
+use crate::model::thermal::steady::RANGE;
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
+use crate::problem::Problem;
 
 spec! {
     /// Warming up of oil, gears, clutch packs, washers and case.
@@ -44,6 +46,16 @@ spec! {
         pub case_to_ambient_per_speed: f64 = 0.1,
         /// Share of the heat of teeth, washers and clutches that goes into the oil at once.
         pub oil_share: f64 = 0.0,
+        /// What the gears are above the oil at the start [K].
+        pub gears_above_oil: f64 = 0.0,
+        /// What the clutch packs are above the oil at the start [K].
+        pub clutch_above_oil: f64 = 0.0,
+        /// What washers and pins are above the oil at the start [K].
+        pub washers_above_oil: f64 = 0.0,
+        /// What the case is above the oil at the start [K].
+        pub case_above_oil: f64 = 0.0,
+        /// Length of the cycle whose mean heats balance at a start with steady heat [s].
+        pub cycle: f64 = 1.0,
     }
 }
 
@@ -89,6 +101,8 @@ impl Declare for WarmUpSpec {
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let capacity = |name, of, at| row(name, of).real(units::JOULE_PER_K, (1.0, 1e9), at);
         let conductance = |name, of, at| row(name, of).tunable().real(units::WATT_PER_K, (0.0, 1e6), at);
+        let above =
+            |name, of, at| row(name, of).when("scene.start != steady_heat").real(units::KELVIN, (-400.0, 400.0), at);
         let per_speed = |name, of, at| row(name, of).tunable().real(units::WATT_S_PER_K_RAD, (0.0, 1e4), at);
         vec![
             row("warm_up.ambient_temperature", "Temperature around the case").tunable().real(
@@ -123,13 +137,56 @@ impl Declare for WarmUpSpec {
             ),
             row("warm_up.oil_share", "Share of the heat of teeth, washers and clutches that goes into the oil at once")
                 .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_share),
+            above("warm_up.gears_above_oil", "Gears above the oil at the start", |p| &mut p.gears_above_oil),
+            above("warm_up.clutch_above_oil", "Clutch packs above the oil at the start", |p| &mut p.clutch_above_oil),
+            above("warm_up.washers_above_oil", "Washers and pins above the oil at the start", |p| {
+                &mut p.washers_above_oil
+            }),
+            above("warm_up.case_above_oil", "Case above the oil at the start", |p| &mut p.case_above_oil),
+            row("warm_up.cycle", "Length of the cycle whose mean heats balance at a start with steady heat")
+                .when("scene.start = steady_heat")
+                .real(units::SECOND, (1e-3, 10.0), |p| &mut p.cycle),
         ]
     }
 }
 
-impl Effect for WarmUpSpec {}
+impl Effect for WarmUpSpec {
+    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        let [coldest, hottest] = RANGE;
+        for (name, above) in self.above_oil() {
+            let temperature = setting.oil.temperature + above;
+            if !(coldest..=hottest).contains(&temperature) {
+                found.push(problem!(
+                    name,
+                    "{above} K: with oil.temperature = {} K this node would begin at {temperature} K; it must be within {coldest} \
+                     to {hottest} K",
+                    setting.oil.temperature
+                ));
+            }
+        }
+    }
+}
 
 impl WarmUpSpec {
+    /// What nodes are above the oil at the start [K], in their order, by name.
+    fn above_oil(&self) -> [(&'static str, f64); NODES - 1] {
+        [
+            ("warm_up.gears_above_oil", self.gears_above_oil),
+            ("warm_up.clutch_above_oil", self.clutch_above_oil),
+            ("warm_up.washers_above_oil", self.washers_above_oil),
+            ("warm_up.case_above_oil", self.case_above_oil),
+        ]
+    }
+
+    /// Temperatures at the start with the oil at `oil` [K].
+    pub fn temperatures_at_start(&self, oil: f64) -> [f64; NODES] {
+        let mut temperatures = [oil; NODES];
+        for (temperature, (_, above)) in temperatures[GEARS..].iter_mut().zip(self.above_oil()) {
+            *temperature += above;
+        }
+        temperatures
+    }
+
     /// Where the heat `output` of the ledger enters: shares of the nodes.
     fn shares(&self, output: &str) -> [f64; NODES] {
         let mut shares = [0.0; NODES];

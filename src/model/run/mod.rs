@@ -17,6 +17,7 @@ mod sensitivity;
 mod simulation;
 mod start;
 mod start_report;
+mod steady_heat;
 mod timeline;
 mod watching;
 

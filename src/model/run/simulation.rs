@@ -48,12 +48,16 @@ impl Simulation {
         let mut simulation =
             Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
-        state.thermal = Thermal::uniform(parameters.oil.temperature);
+        let oil = parameters.oil.temperature;
+        state.thermal = match &model.thermal {
+            Some(_) => Thermal::at(parameters.specs.warm_up.temperatures_at_start(oil)),
+            None => Thermal::uniform(oil),
+        };
         start::speeds(model, inputs, state);
         // a tooth that is broken from the start on
         break_tooth(model, inputs, state);
         let mut preload = None;
-        if parameters.scene.start == Start::Equilibrium {
+        if parameters.scene.start.is_in_equilibrium() {
             match &model.gears {
                 Gears::Ideal(ideal) => start::wind(model, &ideal.body_effects.half_shafts, inputs, state),
                 Gears::Teeth(teeth) => {
@@ -65,11 +69,14 @@ impl Simulation {
         }
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
         update_friction(&simulation.model, inputs, &mut simulation.state);
-        let mut in_equilibrium = parameters.scene.start == Start::Equilibrium;
+        let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
         if let Some(preload) = &preload {
             let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
             in_equilibrium = outcome.in_equilibrium;
             Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
+        }
+        if parameters.scene.start == Start::SteadyHeat {
+            simulation.begin_with_steady_heat().map_err(|problem| vec![problem])?;
         }
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];

@@ -40,6 +40,14 @@ choices! {
         Equilibrium = 1, "equilibrium": "meshes preloaded by the loads at the start time";
         Rolling = 2, "rolling": "speeds by Willis' equation, teeth in mid-gap, unloaded";
         Rest = 3, "rest": "everything at rest that is not imposed";
+        SteadyHeat = 4, "steady_heat": "equilibrium, with the temperatures at which the heats of a cycle balance";
+    }
+}
+
+impl Start {
+    /// Whether the loads press the meshes together at the start.
+    pub fn is_in_equilibrium(self) -> bool {
+        matches!(self, Self::Equilibrium | Self::SteadyHeat)
     }
 }
 

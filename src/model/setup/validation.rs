@@ -5,7 +5,7 @@ use crate::FULL;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
 use crate::model::effect_kinds::BUILT;
-use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive};
+use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
 use crate::problem::Problem;
 
 /// Everything in `p` that does not go together.
@@ -62,6 +62,12 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         && let Err(problem) = crate::contact::damping::dimensionless_damping(contact.restitution)
     {
         found.push(problem);
+    }
+    if scene.start == Start::SteadyHeat && !p.effects.warm_up {
+        found.push(Problem::new(
+            "scene.start",
+            "steady_heat needs temperatures that change: set effects.warm_up = true",
+        ));
     }
     if scene.gear_contact == GearContact::Solid {
         if contact.law != ContactLaw::Impact {

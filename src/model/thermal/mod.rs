@@ -4,6 +4,10 @@ pub mod network;
 #[cfg(test)]
 #[path = "tests/network.rs"]
 mod network_tests;
+pub mod steady;
+#[cfg(test)]
+#[path = "tests/steady.rs"]
+mod steady_tests;
 
 use serde::{Deserialize, Serialize};
 
@@ -34,9 +38,11 @@ const SHORTER: f64 = 0.5;
 /// Temperatures of all nodes, and the heat that made them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Thermal {
-    /// Temperature of all nodes at the start [K].
+    /// Temperature of the oil at the start, from which all rises count [K].
     start: f64,
-    /// What each has warmed up by since [K].
+    /// What each node is above that at the start [K].
+    first: [f64; NODES],
+    /// What each is above it now [K].
     pub rises: [f64; NODES],
     /// Temperatures as friction feels them [K].
     pub felt: [f64; NODES],
@@ -53,15 +59,27 @@ pub struct Thermal {
 impl Thermal {
     /// All nodes at `temperature` [K].
     pub fn uniform(temperature: f64) -> Self {
+        Self::at([temperature; NODES])
+    }
+
+    /// Nodes at `temperatures` [K].
+    pub fn at(temperatures: [f64; NODES]) -> Self {
+        let first = temperatures.map(|temperature| temperature - temperatures[OIL]);
         Self {
-            start: temperature,
-            rises: [0.0; NODES],
-            felt: [temperature; NODES],
+            start: temperatures[OIL],
+            first,
+            rises: first,
+            felt: temperatures,
             entered: [0.0; NODES],
             given_off: 0.0,
             longest: LONGEST,
             unfelt_step: LONGEST,
         }
+    }
+
+    /// What each node has warmed up by since the start [K].
+    pub fn gains(&self) -> [f64; NODES] {
+        std::array::from_fn(|i| self.rises[i] - self.first[i])
     }
 
     /// Temperatures [K].
@@ -91,7 +109,7 @@ impl Thermal {
     pub fn is_finite(&self) -> bool {
         let sum = |x: &[f64]| x.iter().sum::<f64>();
         let rest = self.start + self.given_off;
-        (sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite()
+        (sum(&self.first) + sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite()
             && self.longest > 0.0
             && self.unfelt_step > 0.0
     }

@@ -47,20 +47,20 @@ pub struct Network<const H: usize> {
 }
 
 impl Conductance {
-    fn at(self, speed: f64) -> f64 {
+    pub(super) fn at(self, speed: f64) -> f64 {
         self.at_rest + self.per_speed * speed
     }
 }
 
 impl<const H: usize> Network<H> {
     /// Heat of the ledger in each node [J].
-    fn entering(&self, heat: &[f64; H]) -> [f64; NODES] {
+    pub fn entering(&self, heat: &[f64; H]) -> [f64; NODES] {
         std::array::from_fn(|i| heat.iter().zip(&self.shares).map(|(heat, share)| heat * share[i]).sum())
     }
 
     /// Heat stored since the start [J].
     pub fn stored(&self, thermal: &Thermal) -> f64 {
-        (0..NODES).map(|i| self.capacity[i] * thermal.rises[i]).sum()
+        self.capacity.iter().zip(thermal.gains()).map(|(capacity, gain)| capacity * gain).sum()
     }
 
     /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its
@@ -128,4 +128,4 @@ impl<const H: usize> Network<H> {
 }
 
 /// All nodes but the oil.
-const GEARS_TO_CASE: std::ops::RangeInclusive<usize> = super::GEARS..=CASE;
+pub(super) const GEARS_TO_CASE: std::ops::RangeInclusive<usize> = super::GEARS..=CASE;

@@ -224,6 +224,19 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
     s.bearing_drag.viscosity_from_oil = d.chance(0.5);
     s.tooth_friction.viscosity_from_oil = d.chance(0.5);
     (p.oil.temperature, s.wheel_brake.temperature) = (d.between(250.0, 400.0), d.between(250.0, 600.0));
+    let warm_up = &mut s.warm_up;
+    for above in [
+        &mut warm_up.gears_above_oil,
+        &mut warm_up.clutch_above_oil,
+        &mut warm_up.washers_above_oil,
+        &mut warm_up.case_above_oil,
+    ] {
+        *above = d.between(-20.0, 20.0);
+    }
+    warm_up.cycle = d.between(2e-3, 1e-2);
+    if p.effects.warm_up && d.chance(0.2) {
+        p.scene.start = Start::SteadyHeat;
+    }
 }
 
 /// Scene number `index` with planets that roll over some teeth.

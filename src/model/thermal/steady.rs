@@ -1,0 +1,123 @@
+//! Steady temperatures: those at which the heats of a cycle, which themselves depend on temperature, balance what leaves.
+//!
+//! ```text
+//! R(θ) = P(θ) + k − K θ = 0
+//! ```
+//!
+//! with the mean heats P, the matrix K of the conductances and the flow k from ambient. The way there is that of the network
+//! itself, in steps of the implicit Euler rule that grow without bound:
+//!
+//! ```text
+//! (C/h + K − ∂P/∂θ) δ = R(θ)
+//! ```
+//!
+//! so that it ends where the nodes warm up to from cold, and cool down to from hot. If both differ there are several steady
+//! states. Without friction that feels temperature the system is linear, and one long step solves it.
+//!
+//! Source: pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numerical Analysis 35 (1998), p. 508.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::network::GEARS_TO_CASE;
+use super::{CASE, NODES, Network, OIL};
+
+/// Coldest and hottest steady temperatures [K]: −60 and 400 °C, as of all temperatures of the interface.
+pub const RANGE: [f64; 2] = [213.15, 673.15];
+/// First and longest steps [s], and their growth.
+const STEPS: [f64; 2] = [60.0, 1e9];
+const GROWTH: f64 = 8.0;
+/// Most steps.
+const MOST_STEPS: usize = 60;
+/// Difference over which the growth of a heat with temperature is taken [K].
+const DIFFERENCE: f64 = 1.0;
+/// Change in the longest step below which temperatures are steady [K].
+const STEADY: f64 = 1e-6;
+
+/// Mean heats of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// Heat that enters each node [W].
+    pub power: [f64; NODES],
+    /// Mean carrier speed, without its sign [rad/s].
+    pub speed: f64,
+}
+
+/// Where a search for steady temperatures ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steady {
+    /// There [K].
+    At([f64; NODES]),
+    /// A node would become this hot or cold [K].
+    Beyond(usize, f64),
+    /// It has no end.
+    Nowhere,
+}
+
+impl<const H: usize> Network<H> {
+    /// Steady temperatures that are reached from `begin` [K]. `heats` tells the heats of a cycle at temperatures; `felt` names the
+    /// nodes whose temperatures change them.
+    pub fn steady<E>(
+        &self,
+        begin: f64,
+        felt: &[usize],
+        mut heats: impl FnMut(&[f64; NODES]) -> Result<Cycle, E>,
+    ) -> Result<Steady, E> {
+        let mut at = SVector::<f64, NODES>::repeat(begin);
+        at[OIL] = self.sump.unwrap_or(begin);
+        let [first, longest] = STEPS;
+        let mut h = if felt.is_empty() { longest } else { first };
+        for _ in 0..MOST_STEPS {
+            // far outside no law of an oil holds; the way may lead there, its end may not
+            let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(RANGE[0], RANGE[1])).into();
+            let cycle = heats(&within(&at))?;
+            let (mut matrix, flow) = self.conduction(cycle.speed);
+            let rest = SVector::from(cycle.power) + flow - matrix * at;
+            for i in 0..NODES {
+                matrix[(i, i)] += self.capacity[i] / h;
+            }
+            for &j in felt {
+                let mut beside = at;
+                beside[j] += DIFFERENCE;
+                let power = heats(&within(&beside))?.power;
+                for i in 0..NODES {
+                    matrix[(i, j)] -= (power[i] - cycle.power[i]) / DIFFERENCE;
+                }
+            }
+            let mut rest = rest;
+            if self.sump.is_some() {
+                (0..NODES).for_each(|j| matrix[(OIL, j)] = 0.0);
+                (matrix[(OIL, OIL)], rest[OIL]) = (1.0, 0.0);
+            }
+            let Some(change) = matrix.lu().solve(&rest) else { return Ok(Steady::Nowhere) };
+            at += change;
+            if h == longest && change.amax() < STEADY {
+                return Ok(Steady::At(at.into()));
+            }
+            let out = |x: f64| (x - x.clamp(RANGE[0], RANGE[1])).abs();
+            if h == longest
+                && let Some(node) =
+                    (0..NODES).filter(|&i| out(at[i]) > 0.0).max_by(|&a, &b| out(at[a]).total_cmp(&out(at[b])))
+            {
+                return Ok(Steady::Beyond(node, at[node]));
+            }
+            h = longest.min(GROWTH * h);
+        }
+        Ok(Steady::Nowhere)
+    }
+
+    /// Matrix of the conductances with the carrier at `speed` [W/K], and the flow from ambient [W].
+    fn conduction(&self, speed: f64) -> (SMatrix<f64, NODES, NODES>, SVector<f64, NODES>) {
+        let (mut matrix, mut flow) = (SMatrix::zeros(), SVector::zeros());
+        for i in GEARS_TO_CASE {
+            let g = self.to_oil[i].at(speed);
+            for (from, to) in [(i, OIL), (OIL, i)] {
+                matrix[(from, from)] += g;
+                matrix[(from, to)] -= g;
+            }
+        }
+        let g = self.to_ambient.at(speed);
+        matrix[(CASE, CASE)] += g;
+        flow[CASE] = g * self.ambient;
+        (matrix, flow)
+    }
+}
