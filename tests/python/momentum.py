@@ -34,7 +34,9 @@ class Momentum:
         self.ends = opened.read([f"inertia.{s}_end" for s in SIDES])
         self.drag = {name: opened.get(f"bearing_drag.{name}") for name in
                      ["carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous",
-                      "breakaway_speed", "viscosity_from_oil", "reference_temperature"]}
+                      "breakaway_speed", "viscosity_from_oil", "reference_temperature", "churning_from_geometry",
+                      "carrier_diameter", "carrier_width", "oil_level", "seal_diameter", "seal_torque_per_diameter",
+                      "bearing_load", "bearing_diameter", "bearing_coefficient"]}
         self.pins = [f"planet[{i + 1}].pin_speed" if self.on["effects.pin_compliance"] else "carrier.speed"
                      for i in range(self.planets)]
         self.bodies = ["carrier.speed", *self.pins, "left.speed", "right.speed"]
@@ -71,14 +73,18 @@ class Momentum:
         if not self.on["effects.bearing_drag"]:
             return np.zeros(3)
         d = self.drag
-        thick = 1.0
+        thick, churning = 1.0, d["carrier_churning"]
+        oil, points = self.opened.get("temperature.oil"), [self.opened.get(f"oil.{name}") for name in theory.OIL]
         if d["viscosity_from_oil"]:
-            oil, points = self.opened.get("temperature.oil"), [self.opened.get(f"oil.{name}") for name in theory.OIL]
             thick = theory.viscosity(oil, *points) / theory.viscosity(d["reference_temperature"], *points)
         built_up = np.tanh(speeds / d["breakaway_speed"])
-        carrier = d["carrier_torque"] * built_up[0] + thick * d["carrier_viscous"] * speeds[0]
-        carrier += d["carrier_churning"] * speeds[0] * abs(speeds[0])
-        return np.array([carrier, *(d["side_torque"] * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
+        if d["churning_from_geometry"]:
+            kinematic = theory.kinematic_viscosity(oil, *points[:2])
+            churning = theory.churning(kinematic, 1.0, d["carrier_diameter"], d["carrier_width"], d["oil_level"])
+        bearings = d["carrier_torque"] + 2.0 * d["bearing_coefficient"] * d["bearing_load"] * d["bearing_diameter"]
+        seal = d["side_torque"] + d["seal_torque_per_diameter"] * d["seal_diameter"]
+        carrier = bearings * built_up[0] + thick * d["carrier_viscous"] * speeds[0] + churning * speeds[0] * abs(speeds[0])
+        return np.array([carrier, *(seal * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
 
     def check(self):
         """Asserts the balance at the present instant."""
