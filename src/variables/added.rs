@@ -123,6 +123,15 @@ const ADDED: &[&str] = &[
     "warm_up.washers_above_oil",
     "warm_up.case_above_oil",
     "warm_up.cycle",
+    "bearing_drag.churning_from_geometry",
+    "bearing_drag.carrier_diameter",
+    "bearing_drag.carrier_width",
+    "bearing_drag.oil_level",
+    "bearing_drag.seal_diameter",
+    "bearing_drag.seal_torque_per_diameter",
+    "bearing_drag.bearing_load",
+    "bearing_drag.bearing_diameter",
+    "bearing_drag.bearing_coefficient",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

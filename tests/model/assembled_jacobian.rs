@@ -39,6 +39,13 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     };
     let friction = |p: &mut Parameters| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true);
     let pins = |p: &mut Parameters| p.effects.pin_compliance = true;
+    // a large carrier in a cold oil
+    let dragged = |p: &mut Parameters| {
+        (p.effects.bearing_drag, p.oil.temperature) = (true, 263.15);
+        let drag = &mut p.specs.bearing_drag;
+        (drag.churning_from_geometry, drag.viscosity_from_oil, drag.carrier_diameter) = (true, true, 0.4);
+        (drag.seal_diameter, drag.bearing_load, drag.breakaway_speed) = (0.04, 2e4, 30.0);
+    };
     // friction that falls and rises with the speed of sliding, on washers, pins, plates and linings
     let by_speed = |p: &mut Parameters| {
         (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
@@ -68,6 +75,7 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         ("bodies, pins", turn(|p| (bodies(p), pins(p)).0)),
         ("bodies, errors, friction, pins", turn(|p| (bodies(p), errors(p), friction(p), pins(p)).0)),
         ("shafts and drag", turn(|p| (p.effects.half_shaft, p.effects.bearing_drag) = (true, true))),
+        ("drag by size and load", turn(dragged)),
     ]
 }
 

@@ -6,13 +6,14 @@ drive that imposes the carrier's speed must give follows from the torques of the
 
 INSTANT   of all terms at an instant: rounding
 SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/theory.md states
-RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off"""
+RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off
+WARMER    of an oil that warms up: drag follows it by 0.1 K, in steps within which it changes as much [K]"""
 
 import numpy as np
 import outline_solids
 import theory
 
-INSTANT, SOLIDS, RUN = 1e-9, 2e-5, 10.0
+INSTANT, SOLIDS, RUN, WARMER = 1e-9, 2e-5, 10.0, 0.2
 SIDES = ["left", "right"]
 # dry friction between side gears and carrier, of which no output tells
 RUBBING = ["effects.thrust_friction", "effects.limited_slip"]
@@ -34,7 +35,9 @@ class Momentum:
         self.ends = opened.read([f"inertia.{s}_end" for s in SIDES])
         self.drag = {name: opened.get(f"bearing_drag.{name}") for name in
                      ["carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous",
-                      "breakaway_speed", "viscosity_from_oil", "reference_temperature"]}
+                      "breakaway_speed", "viscosity_from_oil", "reference_temperature", "churning_from_geometry",
+                      "carrier_diameter", "carrier_width", "oil_level", "seal_diameter", "seal_torque_per_diameter",
+                      "bearing_load", "bearing_diameter", "bearing_coefficient"]}
         self.pins = [f"planet[{i + 1}].pin_speed" if self.on["effects.pin_compliance"] else "carrier.speed"
                      for i in range(self.planets)]
         self.bodies = ["carrier.speed", *self.pins, "left.speed", "right.speed"]
@@ -66,29 +69,36 @@ class Momentum:
         """Inertia of each body."""
         return np.array([self.carrier, *[self.orbit] * self.planets, self.side, self.side])
 
-    def dragged(self, speeds):
-        """Torques of drag on carrier and side gears."""
+    def dragged(self, speeds, warmer=0.0):
+        """Torques of drag on carrier and side gears, in an oil warmer by some kelvins."""
         if not self.on["effects.bearing_drag"]:
             return np.zeros(3)
         d = self.drag
-        thick = 1.0
+        thick, churning = 1.0, d["carrier_churning"]
+        oil, points = self.opened.get("temperature.oil") + warmer, [self.opened.get(f"oil.{name}") for name in theory.OIL]
         if d["viscosity_from_oil"]:
-            oil, points = self.opened.get("temperature.oil"), [self.opened.get(f"oil.{name}") for name in theory.OIL]
             thick = theory.viscosity(oil, *points) / theory.viscosity(d["reference_temperature"], *points)
         built_up = np.tanh(speeds / d["breakaway_speed"])
-        carrier = d["carrier_torque"] * built_up[0] + thick * d["carrier_viscous"] * speeds[0]
-        carrier += d["carrier_churning"] * speeds[0] * abs(speeds[0])
-        return np.array([carrier, *(d["side_torque"] * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
+        if d["churning_from_geometry"]:
+            kinematic = theory.kinematic_viscosity(oil, *points[:2])
+            churning = theory.churning(kinematic, 1.0, d["carrier_diameter"], d["carrier_width"], d["oil_level"])
+        bearings = d["carrier_torque"] + 2.0 * d["bearing_coefficient"] * d["bearing_load"] * d["bearing_diameter"]
+        seal = d["side_torque"] + d["seal_torque_per_diameter"] * d["seal_diameter"]
+        carrier = bearings * built_up[0] + thick * d["carrier_viscous"] * speeds[0] + churning * speeds[0] * abs(speeds[0])
+        return np.array([carrier, *(seal * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
 
     def check(self):
         """Asserts the balance at the present instant."""
         one = self.opened
         rates = np.array(one.read([f"der({name})" for name in self.bodies]))
         terms = self.weights() * rates
-        drag = self.dragged(np.array(one.read(["carrier.speed", "left.speed", "right.speed"])))
+        speeds = np.array(one.read(["carrier.speed", "left.speed", "right.speed"]))
+        drag = self.dragged(speeds)
         drive, *shafts = one.read(["carrier.torque", "left.shaft_torque", "right.shaft_torque"])
         meshes = self.radius * np.array(one.read(["left.tangential_force", "right.tangential_force"]))
         rounding = INSTANT * (np.sum(np.abs(terms)) + sum(map(abs, [drive, *shafts, *drag])) + np.sum(np.abs(meshes)))
+        if self.on["effects.warm_up"]:
+            rounding += np.sum(np.abs(self.dragged(speeds, WARMER) - self.dragged(speeds, -WARMER)))
         facets = SOLIDS * (self.facets[0] * np.sum(np.abs(terms[1:-2])) + self.facets[1] * np.sum(np.abs(terms[-2:])))
         off = np.sum(terms) - (drive - sum(shafts) - np.sum(drag))
         assert abs(off) <= rounding + facets, f"momentum about the axle is off by {off} N.m: {terms} {drive} {shafts}"

@@ -50,7 +50,9 @@ BANDS = {
     "strength.tool_radius": (0.0, 0.3),
     "oil.temperature": (250.0, 400.0), "warm_up.ambient_temperature": (243.0, 323.0), "oil.viscosity_40": (5e-05, 0.0003),
     "oil.viscosity_100": (5e-06, 3e-05), "oil.density": (800.0, 950.0), "oil.density_fall": (0.5, 0.8),
-    "bearing_drag.reference_temperature": (330.0, 370.0), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
+    "bearing_drag.reference_temperature": (330.0, 370.0), "bearing_drag.oil_level": (0.0, 1.0),
+    "bearing_drag.seal_torque_per_diameter": (1.0, 6.0), "bearing_drag.bearing_load": (0.0, 5000.0),
+    "bearing_drag.bearing_coefficient": (2e-4, 1e-3), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
     "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
     "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (1e-3, 1e-2),
     **{f"warm_up.{node}_above_oil": (-20.0, 20.0) for node in ("gears", "clutch", "washers", "case")},
@@ -67,7 +69,8 @@ IN_MODULES = {
     "tooth_errors.planet_tip_relief": (0.0, 0.01), "tooth_errors.side_tip_relief": (0.0, 0.01),
     "tooth_errors.crowning": (0.0, 0.01), "tooth_errors.planet_axial_offset": (-0.01, 0.01),
     "tooth_errors.side_axial_offset": (-0.01, 0.01), "tooth_errors.axis_offset": (-0.01, 0.01),
-    "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
+    "bearing_drag.carrier_diameter": (30.0, 50.0), "bearing_drag.carrier_width": (5.0, 20.0), "bearing_drag.seal_diameter": (0.0, 12.0),
+    "bearing_drag.bearing_diameter": (10.0, 20.0), "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
     "thrust_friction.planet_washer_radius": (1.0, 4.0), "thrust_friction.side_washer_radius": (2.0, 6.0)}
 # torques, relative to those that teeth of this size carry
 IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_command": 2.0,

@@ -30,7 +30,9 @@ LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"
          "warm_up.gears_to_oil_per_speed", "warm_up.clutch_to_oil", "warm_up.washers_to_oil", "warm_up.oil_to_case",
          "warm_up.case_to_ambient", "warm_up.case_to_ambient_per_speed", "warm_up.oil_share",
          "strength.thermal_contact_coefficient", "strength.scuffing_temperature", "warm_up.gears_above_oil", "warm_up.clutch_above_oil",
-         "warm_up.washers_above_oil", "warm_up.case_above_oil", "warm_up.cycle"]
+         "warm_up.washers_above_oil", "warm_up.case_above_oil", "warm_up.cycle",
+         *(f"bearing_drag.{name}" for name in ("churning_from_geometry", "carrier_diameter", "carrier_width", "oil_level", "seal_diameter",
+                                               "seal_torque_per_diameter", "bearing_load", "bearing_diameter", "bearing_coefficient"))]
 STEADY_HEAT = 4
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03

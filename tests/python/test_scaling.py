@@ -59,6 +59,8 @@ CARRIERS = {
                     "GPa, m, m/s and mPa.s under powers"),
     "oil": (BLOWS | {"effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "oil.temperature": 320.0}, STEPS, ONLY_MASS,
             OUTPUTS, "0.7 mm2/s in the line of ASTM D341"),
+    "churning": (BLOWS | {"effects.bearing_drag": True, "bearing_drag.churning_from_geometry": True}, STEPS, NONE, OUTPUTS,
+                 "kW, mm2/s, 1/min and mm under powers (ISO/TR 14179-1)"),
     "thrust_friction": (WHEELS | {"effects.thrust_friction": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "limited_slip": (WHEELS | {"effects.limited_slip": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "lock": (WHEELS | {"lock.command": 1.0}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
@@ -95,7 +97,7 @@ def homogeneous(start):
     """A plausible scene without what carries units."""
     start = start | {f"effects.{name}": False for name in CARRIERS if f"effects.{name}" in start}
     start |= {"lock.command": 0.0, "tooth_friction.law": 1, "tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
-              "bearing_drag.viscosity_from_oil": False,
+              "bearing_drag.viscosity_from_oil": False, "bearing_drag.churning_from_geometry": False,
               "material.density": min(start["material.density"], 10e3), **TIGHT}
     if start["geometry.addendum_system"] == GLEASON:
         start["geometry.addendum_system"] = EXPLICIT

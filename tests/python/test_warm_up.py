@@ -108,6 +108,54 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
     assert heats[1] / heats[0] == pytest.approx(theory.viscosity(253.15) / theory.viscosity(353.15), rel=1e-9)
 
 
+# carrier and sides turn at one speed, and nothing else drags
+ROLLING = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, **{f"bearing_drag.{name}": 0.0 for name in (
+    "carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous")}}
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("kelvin", [373.15, 263.15])
+def test_a_carrier_churns_by_its_size_the_oil_s_level_and_its_viscosity(drive, kelvin, sign):
+    driven = drive(ROLLING | {"bearing_drag.churning_from_geometry": True, "bearing_drag.carrier_diameter": 0.22, "bearing_drag.oil_level": 0.4,
+                              "bearing_drag.carrier_width": 0.06, "oil.temperature": kelvin, "carrier.speed_command": sign * 90.0})
+    power = theory.churning(theory.kinematic_viscosity(kelvin), 90.0, 0.22, 0.06, 0.4)
+    unloaded = drive(ROLLING | {"carrier.speed_command": sign * 90.0})
+    assert driven["carrier.torque"] - unloaded["carrier.torque"] == pytest.approx(sign * power / 90.0, rel=1e-9, abs=1e-11)
+    assert driven.to(1.0, 1e-2)["heat.drag"] == pytest.approx(power, rel=1e-9)
+
+
+def test_churning_follows_the_oil_as_it_warms_up(drive):
+    values = ROLLING | {"bearing_drag.churning_from_geometry": True, "effects.warm_up": True, "oil.temperature": 263.15,
+                        "warm_up.oil_capacity": 200.0, "warm_up.oil_to_case": 0.0, "warm_up.gears_to_oil": 0.0, "warm_up.clutch_to_oil": 0.0,
+                        "warm_up.washers_to_oil": 0.0, "warm_up.gears_to_oil_per_speed": 0.0, "carrier.speed_command": 90.0}
+    driven = drive(values).to(2.0, 1e-2)
+    warm, heat = driven["temperature.oil"], driven["heat.drag"]
+    assert warm - 263.15 == pytest.approx(heat / 200.0, rel=1e-6) and warm > 268.0
+    power = (driven.to(2.001, 1e-3)["heat.drag"] - heat) / 1e-3
+    # friction follows the oil in steps of 0.1 K
+    ends = [theory.churning(theory.kinematic_viscosity(warm + by), 90.0, 0.2, 0.05, 0.3) for by in (0.2, -0.2)]
+    assert ends[0] < power < ends[1]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_seals_and_loaded_bearings_drag(drive, sign):
+    values = ROLLING | {"carrier.speed_command": sign * 30.0}
+    seals = drive(values | {"bearing_drag.seal_diameter": 0.04}).to(1.0, 1e-2)
+    # ISO/TR 14179-1 for fluorocarbon rubber: 3.737e-3 N.m per millimetre, on two shafts
+    assert seals["heat.drag"] == pytest.approx(2.0 * 3.737e-3 * 40.0 * 30.0, rel=1e-9)
+    # Palmgren: 0.0004 F d_m in each of two bearings
+    bearings = drive(values | {"bearing_drag.bearing_load": 6000.0, "bearing_drag.bearing_diameter": 0.08}).to(1.0, 1e-2)
+    assert bearings["heat.drag"] == pytest.approx(2.0 * 0.0004 * 6000.0 * 0.08 * 30.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("name, value", [("oil_level", 1.1), ("oil_level", -0.1), ("carrier_diameter", 0.0), ("carrier_width", -1e-3),
+                                         ("seal_diameter", -1e-3), ("seal_torque_per_diameter", 0.0), ("bearing_load", -1.0),
+                                         ("bearing_diameter", 0.0), ("bearing_coefficient", 0.0)])
+def test_values_of_drag_outside_their_ranges_are_refused(drive, name, value):
+    with pytest.raises(DifferentialError, match=f"bearing_drag.{name}"):
+        drive(ROLLING | {"bearing_drag.churning_from_geometry": True, f"bearing_drag.{name}": value})
+
+
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
     with pytest.raises(DifferentialError) as refused:
         drive({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True})

@@ -54,10 +54,21 @@ def largest_wind_up():
 OIL = ["viscosity_40", "viscosity_100", "density", "density_fall"]
 
 
-def viscosity(kelvin, at_40=1e-4, at_100=1.5e-5, density=870.0, fall=0.65):
-    """Dynamic viscosity of an oil at a temperature [Pa.s]: ASTM D341 through the kinematic ones at 40 and 100 degC [m2/s], and
-    its density at 15 degC less its fall [kg/m3]."""
+def kinematic_viscosity(kelvin, at_40=1e-4, at_100=1.5e-5):
+    """Of an oil at a temperature [m2/s]: ASTM D341 through those at 40 and 100 degC."""
     ends = [log10(log10(1e6 * of + 0.7)) for of in (at_40, at_100)]
     place = log10(kelvin / 313.15) / log10(373.15 / 313.15)
-    kinematic = 1e-6 * (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7)
-    return kinematic * (density - fall * (kelvin - 288.15))
+    return 1e-6 * (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7)
+
+
+def viscosity(kelvin, at_40=1e-4, at_100=1.5e-5, density=870.0, fall=0.65):
+    """Dynamic viscosity of an oil at a temperature [Pa.s], with its density at 15 degC less its fall [kg/m3]."""
+    return kinematic_viscosity(kelvin, at_40, at_100) * (density - fall * (kelvin - 288.15))
+
+
+def churning(kinematic, speed, diameter, width, dip):
+    """Power that a smooth disc with its rim and sides churns [W], by ISO/TR 14179-1:2001 in its own units: kW, mm2/s, 1/min and mm."""
+    nu, n, outside, length, arrangement = 1e6 * kinematic, speed * 30.0 / pi, 1e3 * diameter, 1e3 * width, 0.2
+    rim = 7.37 * dip * nu * n**3 * outside**4.7 * length / (arrangement * 1e26)
+    sides = 1.474 * dip * nu * n**3 * outside**5.7 / (arrangement * 1e26)
+    return 1e3 * (rim + sides)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource};
 use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan};
+use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan, Viscosity};
 use crate::model::setup::{Parameters, SceneEffects};
 use crate::model::thermal::{NODES, OIL};
 
@@ -60,8 +60,8 @@ impl BodyEffects {
         Friction::new(&self.friction, (lock, temperatures), inputs, input_derivatives)
     }
 
-    /// Viscosity of the oil at the `temperatures` of all nodes [K], where an effect asks for it [Pa·s].
-    pub fn oil_viscosity(&self, temperatures: &[f64; NODES]) -> Option<f64> {
+    /// Viscosity of the oil at the `temperatures` of all nodes [K], where an effect asks for it.
+    pub fn oil_viscosity(&self, temperatures: &[f64; NODES]) -> Option<Viscosity> {
         self.oil.map(|oil| oil.viscosity(temperatures[OIL]))
     }
 

@@ -10,7 +10,7 @@ use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::DryFriction;
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan,
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,
 };
 use crate::model::thermal::NODES;
 
@@ -28,8 +28,8 @@ pub struct Acting {
     friction: Option<Friction>,
     /// Whether there is any friction.
     pub rubs: bool,
-    /// Viscosity of the oil, where effects ask for it [Pa·s].
-    pub oil_viscosity: Option<f64>,
+    /// Viscosity of the oil, where effects ask for it.
+    pub oil_viscosity: Option<Viscosity>,
 }
 
 impl Acting {

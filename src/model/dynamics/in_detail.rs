@@ -100,7 +100,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
         let [w, dw] = if self.has_pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
-        let (wrapped, viscosity) = (self.wrapped(g, s), self.acting.oil_viscosity);
+        let (wrapped, viscosity) = (self.wrapped(g, s), self.acting.oil_viscosity.map(|oil| oil.dynamic));
         DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped, viscosity }
     }
 

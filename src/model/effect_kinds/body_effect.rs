@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use crate::integrate::Matrix;
-use crate::model::scene::{Inputs, Layout};
+use crate::model::scene::{Inputs, Layout, Viscosity};
 
 /// Positions and velocities of all degrees of freedom, and what the host commands.
 pub struct BodyMotion<'a> {
@@ -17,8 +17,8 @@ pub struct BodyMotion<'a> {
     pub inputs: &'a Inputs,
     /// How fast they change [per s].
     pub input_rates: &'a Inputs,
-    /// Viscosity of the oil, where effects ask for it [Pa·s].
-    pub oil_viscosity: Option<f64>,
+    /// Viscosity of the oil, where effects ask for it.
+    pub oil_viscosity: Option<Viscosity>,
 }
 
 /// Forces and torques by degree of freedom (on each planet singly), and heat by cause.

@@ -1,13 +1,40 @@
 //! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two on the side gears.
 //!
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
-//! with the square of the speed (ISO/TR 14179-1). With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over
-//! that at a reference temperature.
+//! with the square of the speed. With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over that at a
+//! reference temperature.
+//!
+//! Two carrier bearings under the load F and a lip seal on each side gear's shaft add to T₀:
+//!
+//! ```text
+//! carrier     2 f₁ F d_m     f₁ = 0.0004 for tapered rollers (A. Palmgren, Ball and Roller Bearing Engineering, 1959; T. A.
+//!                            Harris, Rolling Bearing Analysis)
+//! side gears  k d            k = 3.737 N for fluorocarbon rubber, 2.429 N for nitrile rubber (ISO/TR 14179-1:2001)
+//! ```
+//!
+//! With `churning_from_geometry` c is that of a smooth disc, its rim and both sides, by ISO/TR 14179-1:2001:
+//!
+//! ```text
+//! P = f_g ν n³ D^4.7 (7.37 L + 1.474 D) / (A_g 10²⁶)     P [kW], ν [mm²/s], n [1/min], D and L [mm], A_g = 0.2
+//! ```
+//!
+//! with the dip factor f_g = immersed depth / D: 0 where the disc runs dry, 1 where it is submerged.
 
-use crate::declaration::units::{self, DEG_C, DEG_PER_S};
+use crate::declaration::units::{self, DEG_C, DEG_PER_S, MM, RPM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
-use crate::model::scene::Plan;
+use crate::model::scene::{OilSpec, Plan, Viscosity};
+
+/// Arrangement constant A_g.
+const ARRANGEMENT: f64 = 0.2;
+/// Factor of the rim of a smooth disc.
+const RIM: f64 = 7.37;
+/// Factor of both sides of a smooth disc.
+const SIDES: f64 = 1.474;
+/// Exponent of the diameter.
+const EXPONENT: f64 = 4.7;
+/// Carrier bearings.
+const BEARINGS: f64 = 2.0;
 
 spec! {
     /// Drag of bearings and oil.
@@ -28,6 +55,24 @@ spec! {
         pub viscosity_from_oil: bool = false,
         /// Temperature at which viscous drag is as given [K].
         pub reference_temperature: f64 = 353.15,
+        /// Churning from the carrier's size and the oil; otherwise as given.
+        pub churning_from_geometry: bool = false,
+        /// Outside diameter of crown wheel and case D [m].
+        pub carrier_diameter: f64 = 0.2,
+        /// Their width L [m].
+        pub carrier_width: f64 = 0.05,
+        /// Immersed depth over the diameter, f_g.
+        pub oil_level: f64 = 0.3,
+        /// Diameter of each side gear's shaft at its seal d [m]; 0 = no seals.
+        pub seal_diameter: f64 = 0.0,
+        /// Torque of a seal per shaft diameter k [N].
+        pub seal_torque_per_diameter: f64 = 3.737,
+        /// Load of each of two carrier bearings F [N].
+        pub bearing_load: f64 = 0.0,
+        /// Mean diameter of the carrier bearings d_m [m].
+        pub bearing_diameter: f64 = 0.07,
+        /// Coefficient of friction of the carrier bearings f₁.
+        pub bearing_coefficient: f64 = 4e-4,
     }
 }
 
@@ -48,11 +93,9 @@ impl Declare for BearingDragSpec {
                 (0.0, 1e3),
                 |p| &mut p.carrier_viscous,
             ),
-            row("bearing_drag.carrier_churning", "Churning of oil by the carrier, with the square of its speed").real(
-                units::NMS2_PER_RAD2,
-                (0.0, 1e2),
-                |p| &mut p.carrier_churning,
-            ),
+            row("bearing_drag.carrier_churning", "Churning by the carrier, with the square of its speed")
+                .when("bearing_drag.churning_from_geometry = false")
+                .real(units::NMS2_PER_RAD2, (0.0, 1e2), |p| &mut p.carrier_churning),
             row("bearing_drag.side_torque", "Load-independent bearing torque on each side gear").real(
                 units::NEWTON_METRE,
                 (0.0, 1e4),
@@ -64,29 +107,70 @@ impl Declare for BearingDragSpec {
                 |p| &mut p.side_viscous,
             ),
             row("bearing_drag.breakaway_speed", "Speed at which the bearing torque has built up")
-                .when("bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0")
+                .when(
+                    "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0 or bearing_drag.seal_diameter > 0 \
+                     or bearing_drag.bearing_load > 0",
+                )
                 .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
-            row(
-                "bearing_drag.viscosity_from_oil",
-                "Viscous drag by the viscosity of the oil at its temperature; false: as given",
-            )
-            .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
-            .switch(|p| &mut p.viscosity_from_oil),
-            row("bearing_drag.reference_temperature", "Temperature of the oil at which viscous drag is as given")
+            row("bearing_drag.viscosity_from_oil", "Viscous drag by the oil's viscosity; false: as given")
+                .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
+                .switch(|p| &mut p.viscosity_from_oil),
+            row("bearing_drag.reference_temperature", "Oil temperature at which viscous drag is as given")
                 .when("bearing_drag.viscosity_from_oil = true")
                 .real((units::KELVIN, DEG_C), (213.15, 673.15), |p| &mut p.reference_temperature),
+            row("bearing_drag.churning_from_geometry", "Churning by size and oil (ISO/TR 14179-1); false: as given")
+                .switch(|p| &mut p.churning_from_geometry),
+            row("bearing_drag.carrier_diameter", "Outside diameter of crown wheel and case")
+                .when("bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0")
+                .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.carrier_diameter),
+            row("bearing_drag.carrier_width", "Width of crown wheel and case")
+                .when("bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0")
+                .real((units::METRE, MM), (0.0, 10.0), |p| &mut p.carrier_width),
+            row("bearing_drag.oil_level", "Immersed depth over bearing_drag.carrier_diameter")
+                .when("bearing_drag.churning_from_geometry = true")
+                .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_level),
+            row("bearing_drag.seal_diameter", "Shaft diameter at side gears' seals; 0 = none").real(
+                (units::METRE, MM),
+                (0.0, 1.0),
+                |p| &mut p.seal_diameter,
+            ),
+            row("bearing_drag.seal_torque_per_diameter", "Torque of a seal per diameter")
+                .when("bearing_drag.seal_diameter > 0")
+                .real(units::NEWTON, (1e-3, 1e3), |p| &mut p.seal_torque_per_diameter),
+            row("bearing_drag.bearing_load", "Load of each carrier bearing")
+                .real(units::NEWTON, (0.0, 1e7), |p| &mut p.bearing_load),
+            row("bearing_drag.bearing_diameter", "Mean diameter of carrier bearings")
+                .when("bearing_drag.bearing_load > 0")
+                .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.bearing_diameter),
+            row("bearing_drag.bearing_coefficient", "Palmgren's f1 of carrier bearings")
+                .when("bearing_drag.bearing_load > 0")
+                .real(units::ONE, (1e-6, 1.0), |p| &mut p.bearing_coefficient),
         ]
+    }
+}
+
+impl BearingDragSpec {
+    /// Whether the carrier churns oil by its size.
+    fn churns_by_size(&self) -> bool {
+        self.churning_from_geometry && self.oil_level > 0.0
+    }
+
+    /// Churning of a smooth disc over the kinematic viscosity [N·m·s³/(rad²·m²)].
+    fn churning_per_viscosity(&self) -> f64 {
+        let [diameter, width] = [self.carrier_diameter, self.carrier_width].map(|length| MM.show(length));
+        let power = libm::pow(diameter, EXPONENT) * (RIM * width + SIDES * diameter) / (ARRANGEMENT * 1e26);
+        // 1 m²/s is 10⁶ mm²/s, 1 kW is 10³ W, and n goes into P = c ω³ with its third power
+        1e9 * RPM.factor * RPM.factor * RPM.factor * self.oil_level * power
     }
 }
 
 impl Effect for BearingDragSpec {
     fn is_oiled(&self) -> bool {
-        self.viscosity_from_oil
+        self.viscosity_from_oil || self.churns_by_size()
     }
 
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        let reference = setting.oil.viscosity(self.reference_temperature);
-        Some(Box::new(Drag { spec: *self, reference, heat_index: setting.heat_index }))
+        Some(Box::new(Drag::new(self, setting.oil, setting.heat_index)))
     }
 }
 
@@ -94,25 +178,46 @@ impl Effect for BearingDragSpec {
 #[derive(Clone, Copy, Debug)]
 struct Drag {
     spec: BearingDragSpec,
+    /// Torque of bearings and seals on the carrier and on each side gear [N·m].
+    coulomb: [f64; 2],
+    /// Churning that does not depend on the oil [N·m·s²/rad²],
+    churning: f64,
+    /// and that which does, over its kinematic viscosity [N·m·s³/(rad²·m²)].
+    churning_per_viscosity: f64,
     /// Viscosity of the oil at which viscous drag is as given [Pa·s].
     reference: f64,
     heat_index: usize,
 }
 
 impl Drag {
-    /// Torque against the rotation of body `i` and its slope by the speed.
-    fn drag(&self, at: &BodyMotion, i: usize) -> (f64, f64) {
+    fn new(spec: &BearingDragSpec, oil: &OilSpec, heat_index: usize) -> Self {
+        let by_size = spec.churning_from_geometry;
+        Self {
+            spec: *spec,
+            coulomb: [
+                spec.carrier_torque + BEARINGS * spec.bearing_coefficient * spec.bearing_load * spec.bearing_diameter,
+                spec.side_torque + spec.seal_torque_per_diameter * spec.seal_diameter,
+            ],
+            churning: if by_size { 0.0 } else { spec.carrier_churning },
+            churning_per_viscosity: if by_size { spec.churning_per_viscosity() } else { 0.0 },
+            reference: oil.viscosity(spec.reference_temperature).dynamic,
+            heat_index,
+        }
+    }
+
+    /// Torque against the rotation of carrier or side gear at the speed `v` [rad/s], and its slope by the speed.
+    fn drag(&self, oil: Option<Viscosity>, is_carrier: bool, v: f64) -> (f64, f64) {
         let spec = &self.spec;
-        let (coulomb, viscous, churning) = if i == at.layout.carrier() {
-            (spec.carrier_torque, spec.carrier_viscous, spec.carrier_churning)
+        let (coulomb, viscous, churning) = if is_carrier {
+            let by_oil = oil.map_or(0.0, |oil| self.churning_per_viscosity * oil.kinematic);
+            (self.coulomb[0], spec.carrier_viscous, self.churning + by_oil)
         } else {
-            (spec.side_torque, spec.side_viscous, 0.0)
+            (self.coulomb[1], spec.side_viscous, 0.0)
         };
-        let viscous = match at.oil_viscosity {
-            Some(viscosity) if spec.viscosity_from_oil => viscous * (viscosity / self.reference),
+        let viscous = match oil {
+            Some(oil) if spec.viscosity_from_oil => viscous * (oil.dynamic / self.reference),
             _ => viscous,
         };
-        let v = at.v[i];
         let t = libm::tanh(v / spec.breakaway_speed);
         (
             coulomb * t + viscous * v + churning * v * v.abs(),
@@ -124,7 +229,7 @@ impl Drag {
 impl BodyEffect for Drag {
     fn act(&self, at: &BodyMotion, out: &mut Action) {
         for i in 0..3 {
-            let (torque, _) = self.drag(at, i);
+            let (torque, _) = self.drag(at.oil_viscosity, i == at.layout.carrier(), at.v[i]);
             out.force[i] -= torque;
             out.heat[self.heat_index] += torque * at.v[i];
         }
@@ -132,7 +237,77 @@ impl BodyEffect for Drag {
 
     fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         for i in 0..3 {
-            out.velocity(i, i, -self.drag(at, i).1);
+            out.velocity(i, i, -self.drag(at.oil_viscosity, i == at.layout.carrier(), at.v[i]).1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oil of 100 mm²/s.
+    const OIL: Option<Viscosity> = Some(Viscosity { kinematic: 1e-4, dynamic: 0.085 });
+
+    fn none() -> BearingDragSpec {
+        BearingDragSpec {
+            carrier_torque: 0.0,
+            carrier_viscous: 0.0,
+            side_torque: 0.0,
+            side_viscous: 0.0,
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_carrier_churns_as_a_smooth_disc_by_its_rim_and_its_sides() {
+        let spec = BearingDragSpec { churning_from_geometry: true, ..none() };
+        let drag = Drag::new(&spec, &OilSpec::default(), 0);
+        // by hand: D = 200 mm, L = 50 mm, f_g = 0.3, 100 mm²/s, 1000 1/min; 200^4.7 = 6.528 914 474 78 × 10¹⁰
+        let rim = 7.37 * 0.3 * 100.0 * 1e9 * 6.528_914_474_778_8e10 * 50.0 / 0.2e26;
+        let sides = 1.474 * 0.3 * 100.0 * 1e9 * 6.528_914_474_778_8e10 * 200.0 / 0.2e26;
+        let speed = 1000.0 * std::f64::consts::PI / 30.0;
+        for sign in [1.0, -1.0] {
+            let (torque, _) = drag.drag(OIL, true, sign * speed);
+            assert!((torque * sign * speed / 1e3 / (rim + sides) - 1.0).abs() < 1e-9, "{torque}");
+        }
+        assert_eq!(drag.drag(OIL, false, speed).0, 0.0);
+        let dry = BearingDragSpec { oil_level: 0.0, ..spec };
+        assert!(spec.is_oiled() && !dry.is_oiled());
+        assert_eq!(Drag::new(&dry, &OilSpec::default(), 0).drag(None, true, speed).0, 0.0);
+    }
+
+    #[test]
+    fn seals_and_loaded_bearings_add_to_the_torque_that_builds_up() {
+        let spec = BearingDragSpec { seal_diameter: 0.04, bearing_load: 5000.0, carrier_churning: 0.0, ..none() };
+        let drag = Drag::new(&spec, &OilSpec::default(), 0);
+        // by hand: 2 · 0.0004 · 5000 N · 70 mm = 280 N·mm, and 3.737e-3 · 40 N·m
+        for (is_carrier, full) in [(true, 0.28), (false, 0.149_48)] {
+            for speed in [-20.0, 0.05, 20.0] {
+                let (torque, _) = drag.drag(None, is_carrier, speed);
+                assert!((torque - full * f64::tanh(speed / 0.1)).abs() < 1e-9 * full, "{torque}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_torques() {
+        let spec = BearingDragSpec {
+            churning_from_geometry: true,
+            viscosity_from_oil: true,
+            seal_diameter: 0.04,
+            bearing_load: 5000.0,
+            ..BearingDragSpec::default()
+        };
+        let drag = Drag::new(&spec, &OilSpec::default(), 0);
+        for (is_carrier, speed) in [(true, 50.0), (true, -0.03), (true, -90.0), (false, 0.02), (false, -60.0)] {
+            let torque = |v: f64| drag.drag(OIL, is_carrier, v).0;
+            let step = 1e-4;
+            let slope = (8.0 * (torque(speed + step) - torque(speed - step))
+                - (torque(speed + 2.0 * step) - torque(speed - 2.0 * step)))
+                / (12.0 * step);
+            let exact = drag.drag(OIL, is_carrier, speed).1;
+            assert!((slope / exact - 1.0).abs() < 1e-7, "{is_carrier} {speed}: {exact} {slope}");
         }
     }
 }

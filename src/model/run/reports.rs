@@ -72,7 +72,7 @@ impl Simulation {
         let mut found = None;
         let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
         let viscosity = equations.acting.oil_viscosity;
-        let friction = viscosity.map_or(*friction, |viscosity| friction.with_viscosity(viscosity));
+        let friction = viscosity.map_or(*friction, |oil| friction.with_viscosity(oil.dynamic));
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {
                 equations.detail(&point, g, s, |slice| {

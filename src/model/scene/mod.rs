@@ -17,6 +17,6 @@ pub use layout::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET,
 };
 pub use material::{InertiaSpec, Material};
-pub use oil::OilSpec;
+pub use oil::{OilSpec, Viscosity};
 pub use plan::{Group, Plan, Requests};
 pub use solver::{Method, SolidTeeth, SolverSpec};

@@ -38,6 +38,15 @@ spec! {
     }
 }
 
+/// Viscosity of an oil at one temperature.
+#[derive(Clone, Copy, Debug)]
+pub struct Viscosity {
+    /// Kinematic viscosity [m²/s].
+    pub kinematic: f64,
+    /// Dynamic viscosity [Pa·s].
+    pub dynamic: f64,
+}
+
 impl OilSpec {
     /// A and B of Walther's line.
     fn line(&self) -> [f64; 2] {
@@ -60,9 +69,10 @@ impl OilSpec {
         (self.density - self.density_fall * (temperature - DENSITY_POINT)).max(LEAST_DENSITY * self.density)
     }
 
-    /// Dynamic viscosity at `temperature` [K], in Pa·s.
-    pub fn viscosity(&self, temperature: f64) -> f64 {
-        self.kinematic_viscosity(temperature) * self.density_at(temperature)
+    /// Viscosity at `temperature` [K].
+    pub fn viscosity(&self, temperature: f64) -> Viscosity {
+        let kinematic = self.kinematic_viscosity(temperature);
+        Viscosity { kinematic, dynamic: kinematic * self.density_at(temperature) }
     }
 
     /// What is wrong with it.
@@ -96,7 +106,7 @@ mod tests {
         for t in [233.15, 273.15, 353.15, 423.15] {
             assert!((oil.kinematic_viscosity(t) * 1e6 / by_hand(t) - 1.0).abs() < 1e-9, "{t}");
         }
-        let change = oil.viscosity(233.15) / oil.viscosity(423.15);
+        let change = oil.viscosity(233.15).dynamic / oil.viscosity(423.15).dynamic;
         assert!((1e3..1e5).contains(&change), "{change}");
     }
 

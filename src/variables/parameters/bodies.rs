@@ -4,9 +4,21 @@ use crate::declaration::units::{self, DEG_C, MM2_PER_S, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 
+/// Where the dynamic viscosity of the oil acts, and so its density.
+macro_rules! dynamic {
+    () => {
+        "effects.tooth_friction = true and tooth_friction.viscosity_from_oil = true and tooth_friction.law != coulomb_stribeck \
+         or effects.bearing_drag = true and bearing_drag.viscosity_from_oil = true"
+    };
+}
+
+/// Where the density of the oil acts.
+const DENSE: &str = dynamic!();
 /// Where the viscosity of the oil acts.
-const OILED: &str = "effects.tooth_friction = true and tooth_friction.viscosity_from_oil = true and tooth_friction.law != coulomb_stribeck \
-                     or effects.bearing_drag = true and bearing_drag.viscosity_from_oil = true";
+const OILED: &str = concat!(
+    dynamic!(),
+    " or effects.bearing_drag = true and bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0"
+);
 
 /// Rows of `material.…`, `oil.…` and `inertia.…`.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
@@ -36,10 +48,10 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .when(OILED)
             .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_100),
         row("oil.density", "Density of the oil at 15 degC")
-            .when(OILED)
+            .when(DENSE)
             .real(units::KG_PER_M3, (1.0, 1e5), |p| &mut p.oil.density),
         row("oil.density_fall", "Fall of the density of the oil per temperature")
-            .when(OILED)
+            .when(DENSE)
             .real(units::KG_PER_M3_K, (0.0, 1e3), |p| &mut p.oil.density_fall),
         row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
             .switch(|p| &mut p.inertia.from_geometry),

@@ -178,6 +178,10 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
                 Err(problems) => {
                     let before = changed.len();
                     changed.retain(|(row, ..)| problems.iter().all(|problem| problem.variable != row.name));
+                    if changed.len() == before {
+                        // refused by the name of a value that stays, beside which another one cannot be what it is
+                        changed.retain(|one| with(&[*one]).bits().is_ok());
+                    }
                     assert!(changed.len() < before, "scene {index}: {problems:?}");
                 }
             }

@@ -237,6 +237,11 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
     if p.effects.warm_up && d.chance(0.2) {
         p.scene.start = Start::SteadyHeat;
     }
+    let drag = &mut s.bearing_drag;
+    drag.churning_from_geometry = d.chance(0.5);
+    drag.oil_level = if d.chance(0.8) { d.unit() } else { 0.0 };
+    drag.seal_diameter = if d.chance(0.5) { d.between(0.01, 0.05) } else { 0.0 };
+    drag.bearing_load = if d.chance(0.5) { d.between(0.0, 1e4) } else { 0.0 };
 }
 
 /// Scene number `index` with planets that roll over some teeth.
