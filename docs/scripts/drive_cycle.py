@@ -43,7 +43,7 @@ def main():
         curvature += np.interp(time, [begin - 1, begin, end, end + 1], [0.0, 1.0 / radius, 1.0 / radius, 0.0])
     moving = speed > 0.0
     force = TURNING * MASS * np.gradient(speed, time) + moving * ROLLING * MASS * GRAVITY + 0.5 * AIR * DRAG * speed**2
-    torque = np.maximum(force * RADIUS, ENGINE_BRAKING * np.interp(speed, [OPEN, CLOSED], [0.0, 1.0]))
+    torque = np.maximum(force * RADIUS, ENGINE_BRAKING * np.interp(speed, [OPEN, CLOSED], [0.0, 1.0])) + 0.0  # no -0
     left, right = (speed * (1.0 + side * curvature * TRACK / 2.0) / RADIUS for side in (-1.0, 1.0))
     print(f"{np.trapezoid(speed, time) / 1e3:.1f} km, {speed.max() * 3.6:.0f} km/h, {torque.min():.0f} to {torque.max():.0f} N.m, "
           f"at most {np.abs(speed**2 * curvature).max():.1f} m/s2 to the side")
