@@ -13,7 +13,8 @@ FILE = Path(__file__).resolve().parents[2] / "scenes" / "drive_cycle.csv"
 MASS, RADIUS, TRACK = 1600.0, 0.32, 1.55  # kg, m (rolling radius of the wheels), m
 TURNING, ROLLING, DRAG = 1.05, 0.012, 0.65  # parts of the mass (wheels turn, too) and of the weight, m2 (area times coefficient)
 AIR, GRAVITY = 1.2, 9.81  # kg/m3, m/s2
-ENGINE_BRAKING, OPEN, CLOSED = -150.0, 3.0, 6.0  # N.m at the carrier, and how the clutch lets go, m/s. Brakes at the wheels do the rest
+# N.m at the carrier: an automatic creeps up to a speed, and brakes with its engine from another one, m/s. Brakes at the wheels do the rest
+CREEP, CREEPS, ENGINE_BRAKING, BRAKES = 40.0, 3.0, -150.0, 6.0
 SMOOTHING = np.array([1.0, 2.0, 3.0, 2.0, 1.0]) / 9.0  # over seconds
 
 # time, s: speed, km/h
@@ -43,7 +44,7 @@ def main():
         curvature += np.interp(time, [begin - 1, begin, end, end + 1], [0.0, 1.0 / radius, 1.0 / radius, 0.0])
     moving = speed > 0.0
     force = TURNING * MASS * np.gradient(speed, time) + moving * ROLLING * MASS * GRAVITY + 0.5 * AIR * DRAG * speed**2
-    torque = np.maximum(force * RADIUS, ENGINE_BRAKING * np.interp(speed, [OPEN, CLOSED], [0.0, 1.0])) + 0.0  # no -0
+    torque = np.maximum(force * RADIUS, np.interp(speed, [CREEPS, BRAKES], [CREEP, ENGINE_BRAKING]))
     left, right = (speed * (1.0 + side * curvature * TRACK / 2.0) / RADIUS for side in (-1.0, 1.0))
     print(f"{np.trapezoid(speed, time) / 1e3:.1f} km, {speed.max() * 3.6:.0f} km/h, {torque.min():.0f} to {torque.max():.0f} N.m, "
           f"at most {np.abs(speed**2 * curvature).max():.1f} m/s2 to the side")
@@ -59,8 +60,8 @@ def smooth(values):
 
 HEAD = f"""\
 # ten minutes of a car: town, country road from 204 s, motorway from 390 s, back into town at 536 s; by docs/scripts/drive_cycle.py
-# {MASS:g} kg, wheels of {RADIUS:g} m, track {TRACK:g} m, air {DRAG:g} m2, rolling resistance {ROLLING:g}; the engine brakes with
-# {-ENGINE_BRAKING:g} N.m, brakes at the wheels do the rest
+# {MASS:g} kg, wheels of {RADIUS:g} m, track {TRACK:g} m, air {DRAG:g} m2, rolling resistance {ROLLING:g}; an automatic creeps
+# with {CREEP:g} N.m, the engine brakes with {-ENGINE_BRAKING:g} N.m, brakes at the wheels do the rest
 time [s],carrier.torque_command [N·m],left.speed_command [rad/s],right.speed_command [rad/s]
 """
 
