@@ -66,11 +66,12 @@ fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
         let own = fs::read_to_string(paths::workspace().join(licence))?;
         assert_eq!(text(&format!("{about}/licenses/{licence}"))?, own);
     }
-    let scenes = scene::files(&paths::scenes())?;
-    assert!(scenes.len() >= 10);
-    for scene in scenes {
-        let name = scene.file_name().context("a file")?.to_string_lossy();
-        assert_eq!(text(&format!("bevel_differential/scenes/{name}"))?, fs::read_to_string(&scene)?);
+    assert!(scene::files(&paths::scenes())?.len() >= 10);
+    // scenes and the inputs beside them
+    for file in fs::read_dir(paths::scenes())? {
+        let file = file?;
+        let name = file.file_name().to_string_lossy().into_owned();
+        assert_eq!(text(&format!("bevel_differential/scenes/{name}"))?, fs::read_to_string(file.path())?);
     }
     assert_eq!(text("bevel_differential/py.typed")?, "");
     let mut bytes = Vec::new();

@@ -53,6 +53,13 @@ impl Engagement {
         first
     }
 
+    /// The fraction of the motion from `q` to `q + change`, taken as straight, after which flanks touch or separate; `None` if
+    /// they do not.
+    pub fn kink_of_touch(&self, q: f64, change: f64) -> Option<f64> {
+        let touching = self.approach(q) > 0.0;
+        first_change(|t| (self.approach(q + t * change) > 0.0) != touching)
+    }
+
     /// Calls `visit` with the fractions of the motion at which pairs enter or leave contact abruptly, without corner contact.
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {

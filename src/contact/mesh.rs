@@ -50,11 +50,13 @@ impl Mesh {
     /// one spring has one where flanks touch or separate.
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
-        // the force of solid teeth is smooth enough between facets
-        if matches!(self.law, Law::Solid(_)) {
-            return None;
+        let change = state.rate.map(|rate| h * rate);
+        match self.law {
+            // the force of solid teeth is smooth enough between facets
+            Law::Solid(_) => None,
+            Law::Lumped(_) => self.engagement.kink_of_touch(state.position[0], change[0]),
+            _ => self.engagement.kink::<false>(state.position, change, |_, _, _| 0.0),
         }
-        self.engagement.kink::<false>(state.position, state.rate.map(|rate| h * rate), |_, _, _| 0.0)
     }
 
     /// The same of flanks that may not fit: `opening` is by how much those of a pair with its number, at its place on the path,

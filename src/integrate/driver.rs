@@ -204,7 +204,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
         let mut to_kink = false;
         if h > switch_at {
             (h, cut) = (switch_at, true);
-        } else if let Some(fraction) = system.kink(point, h) {
+        } else if let Some(fraction) = system.kink(point, h).filter(|fraction| moves(point, h * fraction)) {
             (h, cut, to_kink) = (h * fraction, true, true);
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
@@ -267,6 +267,11 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     } else {
         (wanted, false)
     }
+}
+
+/// Whether positions change within `h` [s]: what stands on a kink as far as numbers resolve does not get past it.
+fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
+    point.q.iter().zip(&point.v).any(|(q, v)| q + h * v != *q)
 }
 
 /// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.

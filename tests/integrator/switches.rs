@@ -5,7 +5,7 @@ use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, Se
 use super::continuation::State;
 use super::methods::{Known, with_every_method};
 
-with_every_method!(steps_land_on_switches_in_a_few_attempts);
+with_every_method!(steps_land_on_switches_in_a_few_attempts what_stands_on_a_kink_is_not_held_up_by_it);
 
 /// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. Which of both is chosen from outside.
 struct Kinked {
@@ -71,4 +71,34 @@ fn steps_land_on_switches_in_a_few_attempts<M: Known>() {
     assert!((point.q[0] - 1.0).abs() < 1e-8 && point.v[0].abs() < 1e-7, "{point:?}");
     assert!(statistics.rejected_switch <= 20 * 4, "{statistics:?}");
     assert_eq!(statistics.rejected_invalid, 0);
+}
+
+/// A body without forces that has a kink halfway through every step.
+struct BeforeKink;
+
+impl SecondOrder<1> for BeforeKink {
+    type Rates = ();
+
+    fn evaluate(&self, _: &Point<1>) -> ([f64; 1], ()) {
+        ([0.0], ())
+    }
+    fn linearise(&self, _: &Point<1>) -> Linearisation<1, ()> {
+        Linearisation { acceleration: [0.0], by_position: [[0.0]], by_velocity: [[0.0]], ledger_rates: () }
+    }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0], v: [1.0] }
+    }
+    fn kink(&self, _: &Point<1>, _: f64) -> Option<f64> {
+        Some(0.5)
+    }
+}
+
+fn what_stands_on_a_kink_is_not_held_up_by_it<M: Known>() {
+    // far out numbers resolve 1.5e-11, and the body moves by 1e-12 in all
+    let mut state = State { point: Point { q: [1e5], v: [1e-13] }, time: 0.0, control: Control::new(1e-3) };
+    let mut statistics = Statistics::default();
+    state.stretch::<M, _>(&BeforeKink, 10.0, &mut statistics, |_, _| AfterStep::Continue);
+    assert_eq!(state.time, 10.0);
+    // from 1 ms on, six times as long each time
+    assert!(statistics.accepted <= 8, "{statistics:?}");
 }

@@ -55,8 +55,10 @@ def test_a_scene_has_the_same_bits_by_both_versions(fmu3, fmu, plain_outputs, na
     scene = Scene.load(name, fmu=fmu)
     scene.stop = min(scene.stop, 0.1)
     scene.set({"solver.relative_tolerance": 1e-6})
-    expected = scene.run(plain_outputs)
     signals = scene._signals
+    # FMI 3.0 has no derivatives of inputs
+    signals.slopes = False
+    expected = scene.run(plain_outputs)
     steps = Steps.of(scene.stop, scene.step, signals.jumps, exact=True)
     changes, rows = list(signals.changes), []
     with Unit3(fmu3) as unit:

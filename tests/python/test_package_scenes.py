@@ -5,7 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from test_scenes import CYCLE, EVERYTHING, SCENES
+from test_scenes import CYCLE, EVERYTHING, SCENES, SLOPES
 
 from bevel_differential import DifferentialError, Scene, shipped_scenes
 from bevel_differential.answers import about, ask
@@ -31,9 +31,11 @@ def test_the_shipped_scenes_are_known():
     assert shipped_scenes() == SCENES
 
 
-@pytest.mark.parametrize("name", [*SCENES, "everything"])
+@pytest.mark.parametrize("name", [*SCENES, "everything", "slopes"])
 def test_a_scene_has_the_bits_of_the_command(name, fmu_file, tmp_path, everything):
-    what = everything if name == "everything" else name
+    if name == "slopes":
+        everything.write_text(SLOPES, encoding="utf-8")
+    what = name if name in SCENES else everything
     with Scene.load(what, fmu=fmu_file) as scene:
         record = scene.run()
         with pickle.loads(pickle.dumps(scene)) as copy:
@@ -68,6 +70,7 @@ def test_the_summary_is_in_the_usual_units(fmu_file):
     ("left.load_torque = 300", "right.load_torque = 300", ["0.01 s", "right.load_torque follows a table"]),
     ("cycle.csv", "circle.csv", ["circle.csv"]),
     ("\"carrier.torque\"", "\"carrier.tork\"", ["outputs", "carrier.tork", "did you mean carrier.torque"]),
+    ("step = \"1 ms\"", "step = \"1 ms\"\ninput_slopes = \"yes\"", ["input_slopes", "yes", "true or false"]),
     ("description =", "description ", ["everything.toml"]),
 ])
 def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
@@ -108,3 +111,31 @@ def test_errors_in_tables_from_python_are_named(fmu_file, table, parts):
     with pytest.raises(DifferentialError) as error:
         Scene(outputs=["left.speed"], tables=[table], fmu=fmu_file)
     assert all(part in str(error.value) for part in parts), error.value
+
+
+@pytest.mark.parametrize("input_slopes", [False, True])
+def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slopes, fmu_file):
+    # rad/s over s: a ramp, a kink within a step, a jump at 50 ms, and the same once more from 80 ms on, a jump within a step
+    step, times, speeds, period = 8e-3, [0.0, 0.03, 0.05, 0.05, 0.08], [10.0, 40.0, 30.0, 20.0, 60.0], 0.08
+    with Scene(stop=0.16, step=step, outputs=["carrier.angle", "carrier.speed"], set={"scene.gear_contact": "ideal"},
+               tables=[("carrier.speed_command", times, speeds, period)], input_slopes=input_slopes, fmu=fmu_file) as scene:
+        record = scene.run()
+        assert scene.contents().get("input_slopes", False) == input_slopes
+    begins, ends = record["time"][:-1], record["time"][1:]
+    assert 0.05 in ends
+
+    def speed(time):
+        within = (time + 1e-11) % period
+        return np.interp(within, times[:3], speeds[:3]) if within < 0.05 else np.interp(within, times[3:], speeds[3:])
+
+    for begin, end, turned in zip(begins, ends, np.diff(record["carrier.angle"])):
+        first, last = speed(begin), speed(end - 2e-11)
+        # in the second round no step ends at the jump, and the value is held
+        jumps = begin < period + 0.05 - 1e-9 < end - 2e-9
+        mean = (first + last) / 2.0 if input_slopes and not jumps else first
+        assert turned == pytest.approx(mean * (end - begin), rel=1e-7), begin
+
+
+def test_what_is_no_choice_of_slopes_is_refused(fmu_file):
+    with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
+        Scene(outputs=["left.speed"], input_slopes="yes", fmu=fmu_file)

@@ -54,6 +54,8 @@ period = "7 ms"
 [[inputs]]
 file = "cycle.csv"
 """
+# the same with inputs that go on straight within steps
+SLOPES = f"input_slopes = true{EVERYTHING}"
 CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n4.25,97\n4.25,101\n11.1,90\n"
 
 
@@ -70,14 +72,15 @@ def scene_command():
     return run
 
 
-@pytest.fixture(params=[*SCENES, "everything"])
+@pytest.fixture(params=[*SCENES, "everything", "slopes"])
 def scene(request, tmp_path):
     """Name of a scene, or its file."""
-    if request.param != "everything":
+    text = {"everything": EVERYTHING, "slopes": SLOPES}.get(request.param)
+    if text is None:
         return request.param
     (tmp_path / "cycle.csv").write_text(CYCLE, encoding="utf-8")
-    file = tmp_path / "everything.toml"
-    file.write_text(EVERYTHING, encoding="utf-8")
+    file = tmp_path / f"{request.param}.toml"
+    file.write_text(text, encoding="utf-8")
     return file
 
 

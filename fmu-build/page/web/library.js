@@ -74,6 +74,22 @@ export class Library {
     }
   }
 
+  // Sets how much inputs change in a second: [{reference, value}].
+  setSlopes(slopes) {
+    const count = slopes.length;
+    const room = this.room("Real", count);
+    const orders = this.exports.page_allocate(4 * count);
+    const { references, values } = this.views("Real", room, count);
+    new Int32Array(this.exports.memory.buffer, orders, count).fill(1);
+    slopes.forEach(({ reference, value }, i) => {
+      references[i] = reference;
+      values[i] = value;
+    });
+    const status = this.exports.fmi2SetRealInputDerivatives(this.component, room.references, count, orders, room.values);
+    this.exports.page_free(orders, 4 * count);
+    this.check(status, "setting slopes of inputs");
+  }
+
   // A function that reads these Reals into an array from a place on: references are written once, and nothing is allocated.
   reader(references) {
     const count = references.length;

@@ -12,7 +12,17 @@ export function tableValue([times, values, period], time) {
   return values[after - 1] + share * (values[after] - values[after - 1]);
 }
 
-// `scene`: {stop, step, set, changes: [[time, assignments]], tables: [{reference, table}]}.
+// Slope of a table from just after `begin` to just before `end`; a value that jumps between them, or begins anew, is held.
+export function tableSlope(table, begin, end) {
+  const [times, , period] = table;
+  const [from, to] = [begin, end].map((time) => (period === null ? time : time % period));
+  const anew = to < from || (period !== null && end - begin >= period);
+  const jumps = times.some((time, i) => time === times[i + 1] && from < time && time <= to);
+  return anew || jumps ? 0 : (tableValue(table, end) - tableValue(table, begin)) / (end - begin);
+}
+
+// `scene`: {stop, step, set, changes: [[time, assignments]], tables: [{reference, table}], slopes}; `slopes`: whether tables go on
+// straight within steps.
 export class Run {
   constructor(library, scene) {
     Object.assign(this, { library, scene, time: 0, done: 0, changes: [...scene.changes] });
@@ -26,7 +36,7 @@ export class Run {
 
   // On to the next communication point, or to a change of inputs before it.
   advance() {
-    const { stop, step, tables } = this.scene;
+    const { stop, step, tables, slopes } = this.scene;
     const slack = SLACK * step;
     while (this.changes.length > 0 && this.changes[0][0] <= this.time + slack) this.library.set(this.changes.shift()[1]);
     if (tables.length > 0) {
@@ -37,6 +47,10 @@ export class Run {
     let until = regular > stop - slack ? stop : regular;
     if (this.changes.length > 0 && this.changes[0][0] < until - slack) until = this.changes[0][0];
     else this.done += 1;
+    if (slopes) {
+      const slope = (table) => tableSlope(table, this.time + slack, until - slack);
+      this.library.setSlopes(tables.map(({ reference, table }) => ({ reference, value: slope(table) })));
+    }
     // point and size are numbers whose sum is not rounded
     const size = until - this.time;
     this.library.step(until - size, size);

@@ -88,6 +88,7 @@ export class Setup {
         .map(({ name, times, values, period }) => {
           return { reference: this.table.find(name).reference, table: [times, values, period] };
         }),
+      slopes: this.scene.slopes,
     };
   }
 

@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use answers::scene;
 use anyhow::{Context, Result};
 use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
@@ -20,6 +19,8 @@ use crate::tools::python::{self, Environment};
 
 /// The time of all files in the wheel, in seconds of Unix: 1980-01-01, the earliest that an archive can tell.
 const TIME: &str = "315532800";
+/// Endings of scenes and of the inputs beside them.
+const SCENE_FILES: &[&str] = &["toml", "csv"];
 /// Folders of examples that the package holds, and the endings of their files.
 const EXAMPLES: [(&str, &[&str]); 2] = [("design", &["toml", "csv"]), ("vehicle", &["py"])];
 /// The licences of the project. Those of all that the FMU links lie in the FMU.
@@ -115,20 +116,23 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     write_parts(libraries, Packing::Small, &package)
 }
 
+/// Copies the files of the folder `from` whose names have one of the `endings` into the folder `to`.
+fn copy_with_endings(from: &Path, endings: &[&str], to: &Path) -> Result<()> {
+    for file in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
+        let file = file?.path();
+        if file.extension().is_some_and(|of| endings.iter().any(|ending| of == *ending)) {
+            copy_file(&file, to)?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes what the package holds beside Python's files.
 fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Result<()> {
     let from = paths::workspace();
-    for scene in scene::files(&paths::scenes())? {
-        copy_file(&scene, &package.join("scenes"))?;
-    }
+    copy_with_endings(&paths::scenes(), SCENE_FILES, &package.join("scenes"))?;
     for (folder, endings) in EXAMPLES {
-        let examples = from.join("examples").join(folder);
-        for file in fs::read_dir(&examples).with_context(|| format!("{} cannot be read", paths::shown(&examples)))? {
-            let file = file?.path();
-            if file.extension().is_some_and(|of| endings.iter().any(|ending| of == *ending)) {
-                copy_file(&file, &package.join("examples").join(folder))?;
-            }
-        }
+        copy_with_endings(&from.join("examples").join(folder), endings, &package.join("examples").join(folder))?;
     }
     // beside the FMU, not in it: its address stays, and links to set-ups with it
     if let (Some(page), _) = page::made()? {

@@ -10,7 +10,7 @@ import numpy as np
 from .values import Number, Variable
 
 # function, component, references, count, address of the first row, bytes of a row
-Reader: TypeAlias = tuple[Callable[..., int], ctypes.c_void_p | None, ctypes.c_void_p, int, int, int]
+Rows: TypeAlias = tuple[Callable[..., int], ctypes.c_void_p | None, ctypes.c_void_p, int, int, int]
 
 # what the functions for each kind of variable are called
 CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean"}
@@ -57,9 +57,30 @@ class Batches:
         """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""
         return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
 
-    def readers(self, instance: Any, record: Sequence[np.ndarray]) -> list[Reader]:
-        """For each group a function and its arguments, to which the address of a row is added: (function, component, references,
-        count, address of the first row, bytes of a row)."""
-        return [(instance._get[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),
+    def blocks(self, columns: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """Values over time of all groups, as `record` has them; a column for each variable, in their order."""
+        return [np.ascontiguousarray(np.column_stack([columns[place] for place in places]), dtype)
+                for _, places, _, dtype in self.groups]
+
+    def readers(self, instance: Any, record: Sequence[np.ndarray]) -> list[Rows]:
+        """For each group the function that gets its variables and the arguments, to which the address of a row is added: (function,
+        component, references, count, address of the first row, bytes of a row). `record` must outlive them."""
+        return self._rows(instance, instance._get, record)
+
+    def writers(self, instance: Any, blocks: Sequence[np.ndarray]) -> list[Rows]:
+        """The same to set the variables."""
+        return self._rows(instance, instance._set, blocks)
+
+    def slope_writers(self, instance: Any, blocks: Sequence[np.ndarray]) -> list[Rows]:
+        """The same to set how much inputs, all of them Real, change in a second."""
+        set_derivatives, orders = instance.derivatives_setter(), np.ones(sum(block.shape[1] for block in blocks), np.int32)
+
+        def write(component, references, count, address):
+            return set_derivatives(component, references, count, orders.ctypes.data, address)
+
+        return self._rows(instance, {"Real": write}, blocks)
+
+    def _rows(self, instance, calls, blocks):
+        return [(calls[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),
                  block.ctypes.data, block.strides[0])
-                for (call, places, references, _), block in zip(self.groups, record)]
+                for (call, places, references, _), block in zip(self.groups, blocks)]

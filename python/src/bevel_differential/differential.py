@@ -150,14 +150,20 @@ def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
     driven = Batches.of(tuple(table.variable for table in signals.tables))
+    values, slopes = signals.along(steps.begins + steps.slack, steps.points[1:] - steps.slack)
+    # kept here: writers hold addresses alone
+    blocks, slope_blocks = driven.blocks(values), driven.blocks(slopes) if slopes else []
+    writers = driven.writers(instance, blocks) + (driven.slope_writers(instance, slope_blocks) if slopes else [])
     changes = list(signals.changes)
     sizes = np.diff(steps.points).tolist()
     for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):
         if row:
             while changes and changes[0][0] <= begin + steps.slack:
                 _set(instance, changes.pop(0)[1])
-            if signals.tables:
-                driven.set(instance, signals.at(begin + steps.slack))
+            for write, component, references, count, address, width in writers:
+                status = write(component, references, count, address + (row - 1) * width)
+                if status >= DISCARD:
+                    instance.check(status, f"setting inputs at {begin:g} s")
             instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
             if get(component, references, count, address + row * width) >= DISCARD:

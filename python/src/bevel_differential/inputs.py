@@ -30,16 +30,32 @@ class Table:
 
     def at(self, time: float) -> Any:
         """Value just after a time."""
-        times, values = self.times, self.values
+        return self.along(np.array([time]))[0]
+
+    def along(self, points: np.ndarray) -> np.ndarray:
+        """Values just after times `points`, s, shape (points,)."""
+        times, values, points = self.times, self.values, self._within_period(points)
+        after = np.searchsorted(times, points, side="right")
+        found = values[np.maximum(after - 1, 0)]
+        if self.variable.kind == "Real":
+            inner = (after > 0) & (after < len(times))
+            after, before = after[inner], after[inner] - 1
+            share = (points[inner] - times[before]) / (times[after] - times[before])
+            found[inner] = values[before] + share * (values[after] - values[before])
+        return found
+
+    def slopes(self, begins: np.ndarray, ends: np.ndarray) -> np.ndarray:
+        """Slopes over steps from just after `begins` to just before `ends`, s, per second; shape (steps,). A value that jumps within a
+        step, or begins its period anew, is held."""
+        first, last = self._within_period(begins), self._within_period(ends)
+        sizes, jumps = ends - begins, self.jumps()
+        held = (last < first) | (np.searchsorted(jumps, first, side="right") != np.searchsorted(jumps, last, side="right"))
         if self.period is not None:
-            time = np.fmod(time, self.period)
-        after = int(np.searchsorted(times, time, side="right"))
-        if after in (0, len(times)):
-            return values[min(after, len(times) - 1)]
-        if self.variable.kind != "Real":
-            return values[after - 1]
-        share = (time - times[after - 1]) / (times[after] - times[after - 1])
-        return values[after - 1] + share * (values[after] - values[after - 1])
+            held |= sizes >= self.period
+        return np.where(held, 0.0, (self.along(ends) - self.along(begins)) / np.where(held, 1.0, sizes))
+
+    def _within_period(self, points: np.ndarray) -> np.ndarray:
+        return points if self.period is None else np.fmod(points, self.period)
 
     def jumps(self) -> np.ndarray:
         """Times at which the value jumps, s."""
@@ -49,11 +65,12 @@ class Table:
 class Signals:
     """Inputs and tunable parameters of a run: constant, or changing with time.
 
-    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time."""
+    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time; `slopes`: whether
+    tables, then of inputs alone, go on straight within steps."""
 
     def __init__(self, constants: Iterable[tuple[Variable, Number]] = (), tables: Iterable[Table] = (),
-                 changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = ()):
-        self.constants, self.tables = list(constants), list(tables)
+                 changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = False):
+        self.constants, self.tables, self.slopes = list(constants), list(tables), slopes
         self.changes = sorted(changes, key=lambda change: change[0])
         times = [time for table in self.tables for time in table.jumps().tolist()] + [time for time, _ in self.changes]
         self.jumps = tuple(sorted(set(times)))
@@ -75,9 +92,11 @@ class Signals:
         """Values at the start: [(variable, value)]."""
         return self.constants + [(table.variable, table.at(0.0)) for table in self.tables]
 
-    def at(self, time: float) -> list[Number]:
-        """Values of all tables after a time."""
-        return [table.at(time) for table in self.tables]
+    def along(self, begins: np.ndarray, ends: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Values of all tables just after the beginnings of steps, and their slopes to just before the ends, if they have any;
+        each of shape (steps,)."""
+        slopes = [table.slopes(begins, ends) for table in self.tables] if self.slopes else []
+        return [table.along(begins) for table in self.tables], slopes
 
 
 def input_variable(fmu: Fmu, name: str) -> Variable:

@@ -131,6 +131,11 @@ class Instance(Closing):
         references = [self.fmu.variable(name).reference for name in slopes]
         self._through(self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
 
+    def derivatives_setter(self) -> Any:
+        """The function of the FMU that sets derivatives of inputs, without wrappers."""
+        return self._function("fmi2SetRealInputDerivatives", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p,
+                              ctypes.c_void_p)
+
     def get(self, name: str) -> Number:
         """The value of one variable, in SI; of an enumeration its number."""
         return self.read((name,))[0]

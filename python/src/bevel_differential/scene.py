@@ -26,13 +26,14 @@ class Scene(Runner):
     """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
-    `tables`: [(input, times, values, period or None)], straight from point to point. All times in s or with a unit.
-    Values are written as for `Differential`."""
+    `tables`: [(input, times, values, period or None)], straight from point to point. With `input_slopes` they go on straight within
+    steps, too; otherwise their values are held. All times in s or with a unit. Values are written as for `Differential`."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
-                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), fmu: FileName | Fmu | None = None):
+                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), input_slopes: bool = False,
+                 fmu: FileName | Fmu | None = None):
         super().__init__(fmu)
         self.name, self.description = name, description
         self.stop, self.step = span("stop_time", stop), span("step", step)
@@ -41,6 +42,9 @@ class Scene(Runner):
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
         self.tables = [(name, times, values, period) for name, times, values, period in tables]
+        if not isinstance(input_slopes, bool):
+            raise DifferentialError(f"input_slopes = {input_slopes!r}: it is True or False")
+        self.input_slopes = input_slopes
         super().set(set)
         self._signals = self._checked_signals()
 
@@ -139,12 +143,13 @@ class Scene(Runner):
                   for name, times, values, period in self.tables]
         return {"description": self.description, "stop_time": self.stop, "step": self.step, "outputs": self.outputs,
                 "set": plain(self.values if values is None else values),
-                "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables}
+                "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables,
+                **({"input_slopes": True} if self.input_slopes else {})}
 
     def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
                 "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
-                "fmu": self.fmu}
+                "input_slopes": self.input_slopes, "fmu": self.fmu}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         Scene.__init__(self, **state)
@@ -191,7 +196,7 @@ class Scene(Runner):
                                             "remove one")
                 if variable.variability == "fixed":
                     raise DifferentialError(f"{variable.name} is fixed: only inputs and tunable parameters change during a run")
-        return Signals((), tables, changes)
+        return Signals((), tables, changes, self.input_slopes)
 
 
 def _outputs(record: np.ndarray) -> tuple[str, ...]:

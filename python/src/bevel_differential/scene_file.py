@@ -35,7 +35,8 @@ def read_scene(file: Path) -> dict[str, Any]:
     found = ask({"ask": "scene", "of": about(file)})
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
-            "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]]}
+            "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]],
+            "input_slopes": found["input_slopes"]}
 
 
 def read_toml(file: Path) -> dict[str, Any]:

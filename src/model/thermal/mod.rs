@@ -98,6 +98,10 @@ impl Thermal {
         let rates = self.rises.iter().zip(begin).map(|(end, begin)| (end - begin).abs() / h);
         let fastest = rates.zip(UNFELT).fold(0.0, |most: f64, (rate, unfelt)| most.max(rate / unfelt));
         self.unfelt_step = LONGEST.min(1.0 / fastest.max(f64::MIN_POSITIVE));
+        // a burst of heat that had shortened steps is over: friction is to feel what it made, and the longest step is found anew
+        if h > SHORTER * self.longest && SHORTER * self.unfelt_step > self.longest {
+            self.longest = f64::INFINITY;
+        }
     }
 
     /// Lets friction feel the present temperatures.

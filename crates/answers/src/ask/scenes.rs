@@ -102,6 +102,7 @@ impl SceneQuestion {
             "set": values(&scene.settings),
             "at": events.collect::<Vec<_>>(),
             "tables": tables.collect::<Vec<_>>(),
+            "input_slopes": scene.input_slopes,
             "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
         }))
     }

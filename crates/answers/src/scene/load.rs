@@ -5,6 +5,7 @@
 //! stop_time = 0.5                        # in s, or with a unit: "500 ms"
 //! step = 1e-3                            # communication step
 //! outputs = ["left.speed"]
+//! input_slopes = true                    # tables go on straight within a step; otherwise their values are held
 //!
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
@@ -46,6 +47,7 @@ pub struct File {
     description: String,
     stop_time: Value,
     step: Value,
+    input_slopes: Option<Value>,
     #[serde(default)]
     set: Table,
     #[serde(default)]
@@ -100,6 +102,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     for input_file in &entry.inputs {
         add_input_file(input_file, file, &mut input_tables, &mut problems);
     }
+    let input_slopes = input_slopes(entry, &mut problems);
     let outputs = outputs(&entry.outputs, &mut problems);
     overridden(&events, &input_tables, &mut problems);
     problems.or(())?;
@@ -119,6 +122,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         settings,
         events,
         input_tables,
+        input_slopes,
         outputs,
     })
 }
@@ -131,6 +135,18 @@ fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
         problems.extend(check_step(step, stop_time).err());
     }
     (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
+}
+
+/// Whether tables go on straight within steps.
+fn input_slopes(entry: &File, problems: &mut Problems) -> bool {
+    match &entry.input_slopes {
+        None => false,
+        Some(Value::Boolean(value)) => *value,
+        Some(other) => {
+            problems.push(format!("input_slopes = {}: must be true or false", written(other)));
+            false
+        }
+    }
 }
 
 /// Settings of a table with dotted or nested keys. Messages begin with `place`.

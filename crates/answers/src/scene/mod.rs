@@ -45,6 +45,8 @@ pub struct Scene {
     pub events: Vec<Event>,
     /// Inputs that follow a table.
     pub input_tables: Vec<InputTable>,
+    /// Whether tables go on straight within communication steps; otherwise their values are held.
+    pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
 }
@@ -58,7 +60,7 @@ pub struct Event {
     pub settings: Vec<Setting>,
 }
 
-/// An input that goes straight from point to point, read at communication points.
+/// An input that goes straight from point to point.
 #[derive(Clone)]
 pub struct InputTable {
     /// The input.
@@ -77,9 +79,24 @@ impl InputTable {
         self.times.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0])
     }
 
+    /// Slope over the step from just after `begin` to just before `end` [s], per second. A value that jumps within the step,
+    /// or begins its period anew, is held.
+    pub fn slope(&self, begin: f64, end: f64) -> f64 {
+        let [from, to] = [begin, end].map(|time| self.within_period(time));
+        let anew = to < from || self.period.is_some_and(|period| end - begin >= period);
+        if anew || self.jumps().any(|jump| from < jump && jump <= to) {
+            return 0.0;
+        }
+        (self.at(end) - self.at(begin)) / (end - begin)
+    }
+
+    fn within_period(&self, time: f64) -> f64 {
+        self.period.map_or(time, |period| time.rem_euclid(period))
+    }
+
     /// Value at `time` [s], just after a jump.
     pub fn at(&self, time: f64) -> f64 {
-        let time = self.period.map_or(time, |period| time.rem_euclid(period));
+        let time = self.within_period(time);
         let after = self.times.partition_point(|&t| t <= time);
         match (after.checked_sub(1), self.times.get(after)) {
             (None, _) => self.values[0],

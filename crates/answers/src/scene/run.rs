@@ -4,7 +4,7 @@ use std::io::Write;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use bevel_differential::model::{Inputs, Parameters, Simulation};
+use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 
@@ -76,6 +76,9 @@ impl<'a> SceneRun<'a> {
         }
         let change = self.stops.last().copied().filter(|&stop| stop < next - slack);
         next = change.unwrap_or(next);
+        if self.scene.input_slopes {
+            self.feed_slopes(time + slack, next - slack);
+        }
         self.simulation.advance(next).map_err(|failure| anyhow!("{failure}")).with_context(|| refused(self.scene))?;
         self.done += u64::from(change.is_none());
         Ok(())
@@ -101,6 +104,17 @@ impl<'a> SceneRun<'a> {
         if tuned {
             self.simulation.tune(&self.parameters);
         }
+    }
+
+    /// Sets the slopes of tables over a step from `begin` to `end` [s].
+    fn feed_slopes(&mut self, begin: f64, end: f64) {
+        let mut derivatives = InputDerivatives::ZERO;
+        for table in &self.scene.input_tables {
+            if let Access::Input(access) = table.row.access {
+                *access(&mut derivatives.rates[0]) = table.slope(begin, end);
+            }
+        }
+        self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
     }
 
     /// Value of an output.

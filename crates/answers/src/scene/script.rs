@@ -64,6 +64,9 @@ fn arguments(scene: &Scene) -> Result<String> {
             writeln!(out, "{}        ], {period}),", numbers(&table.values))?;
         }
         writeln!(out, "    ],")?;
+        if scene.input_slopes {
+            writeln!(out, "    input_slopes=True,  # tables go on straight within a step")?;
+        }
     }
     let outputs: Result<Vec<String>> = scene.outputs.iter().map(|row| quoted(row.name)).collect();
     writeln!(out, "    outputs=[\n{}    ],", lines("        ", outputs?.into_iter()))?;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use answers::progress::Progress;
-use answers::scene::run::run;
+use answers::scene::run::{SceneRun, run};
 use answers::scene::{Scene, assignments, find, load};
 use anyhow::Result;
 
@@ -221,4 +221,57 @@ fn wrong_changes_are_told_with_what_was_probably_meant() {
         find_with("hil", &folder(), &["step=1e-4", "step=1e-3", "left.speed=1"]).err().map(|error| error.to_string());
     let twice = twice.unwrap_or_default();
     assert!(twice.contains("step is set twice") && twice.lines().count() == 2, "{twice}");
+}
+
+/// A ramp of the carrier's speed to 100 rad/s within the 0.1 s of the scene.
+const RAMP: &str = "[set]\nscene.gear_contact = \"ideal\"\n\
+                    [[table]]\ninput = \"carrier.speed_command\"\ntime = [0, 0.1]\nvalue = [0, 100]\n";
+
+#[test]
+fn a_speed_that_goes_on_straight_turns_the_carrier_by_its_integral() -> Result<()> {
+    // held values lag by half a step of 1 ms
+    for (slopes, angle) in
+        [("", 5.0 - 0.5 * 1e-3 * 100.0), ("input_slopes = false\n", 4.95), ("input_slopes = true\n", 5.0)]
+    {
+        let scene = parsed(&format!("{FRAME}{slopes}{RAMP}"))?;
+        let mut run = SceneRun::start(&scene, scene.step)?;
+        while !run.is_over() {
+            run.advance()?;
+        }
+        let found = run.simulation.motion().carrier_angle;
+        assert!((found - angle).abs() < 1e-8, "{slopes}{found}");
+    }
+    Ok(())
+}
+
+#[test]
+fn slopes_are_those_between_both_ends_of_a_step_and_none_over_a_jump() -> Result<()> {
+    let scene = parsed(&format!(
+        "{FRAME}[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1, 3, 3, 4]\nvalue = [0, 10, 10, 50, 20]\nperiod = 5\n"
+    ))?;
+    let table = &scene.input_tables[0];
+    for (begin, end, slope) in [
+        (0.0, 0.5, 10.0),
+        // a kink
+        (0.5, 1.5, 5.0),
+        (1.0, 2.9, 0.0),
+        // a jump at 3 s, and the same in the next round
+        (2.5, 3.5, 0.0),
+        (7.5, 8.5, 0.0),
+        (8.0, 9.0, -30.0),
+        // after the last point, and over the end of a round
+        (4.0, 4.9, 0.0),
+        (4.5, 5.5, 0.0),
+        (0.2, 5.4, 0.0),
+    ] {
+        assert!((table.slope(begin, end) - slope).abs() < 1e-12, "{begin} to {end}: {}", table.slope(begin, end));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_choice_of_slopes_that_is_none_is_told_by_key_and_value() {
+    let problem =
+        parsed(&format!("{FRAME}input_slopes = 1\n")).err().map(|error| format!("{error:#}")).unwrap_or_default();
+    assert!(problem.contains("input_slopes = 1: must be true or false"), "{problem}");
 }

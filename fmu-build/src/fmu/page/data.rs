@@ -81,6 +81,7 @@ fn of_scene(scene: Scene) -> Value {
         "set": assignments(&scene.settings),
         "changes": scene.events.iter().map(|event| json!([event.time, assignments(&event.settings)])).collect::<Vec<_>>(),
         "tables": scene.input_tables.iter().map(table).collect::<Vec<_>>(),
+        "slopes": scene.input_slopes,
     })
 }
 

@@ -87,3 +87,21 @@ fn a_node_cools_exponentially_where_the_sump_is_given() {
     let expected = START + 100.0 * (-2.0_f64).exp();
     assert!((thermal.temperatures()[CLUTCH] - expected).abs() < 1e-3, "{}", thermal.temperatures()[CLUTCH]);
 }
+
+#[test]
+fn steps_that_a_burst_of_heat_has_shortened_grow_again() {
+    let network = network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0);
+    let mut thermal = Thermal::uniform(START);
+    // a blow: 1 J within a microsecond, at which rate half a kelvin takes 0.5 K · 300 J/K / 1 MW
+    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, 0.0);
+    assert!(thermal.is_to_be_felt());
+    thermal.feel();
+    assert!((thermal.longest / 150e-6 - 1.0).abs() < 1e-6, "{}", thermal.longest);
+    // and no heat after it
+    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, 0.0);
+    assert!(!thermal.is_to_be_felt(), "a short step says nothing of a long one");
+    network.advance(&mut thermal, &[1.0, 0.0], 140e-6, 0.0);
+    assert!(thermal.is_to_be_felt());
+    thermal.feel();
+    assert!(thermal.longest > 100.0, "{}", thermal.longest);
+}
