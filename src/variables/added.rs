@@ -123,6 +123,22 @@ const ADDED: &[&str] = &[
     "warm_up.washers_above_oil",
     "warm_up.case_above_oil",
     "warm_up.cycle",
+    "thrust_friction.planet_washer_area",
+    "thrust_friction.side_washer_area",
+    "thrust_friction.pin_area",
+    "thrust_friction.pv_limit",
+    "thrust_friction.beyond_limit",
+    "limited_slip.friction_area",
+    "limited_slip.plate_coefficient",
+    "limited_slip.pv_limit",
+    "limited_slip.beyond_limit",
+    "wheel_brake.friction_area",
+    "wheel_brake.lining_coefficient",
+    "wheel_brake.pv_limit",
+    "wheel_brake.beyond_limit",
+    "pv.washers",
+    "pv.clutch",
+    "pv.brake",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.
