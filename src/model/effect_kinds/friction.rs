@@ -54,8 +54,7 @@ impl Friction {
         let &FrictionSource { heat_index, static_ratio, .. } = source;
         let SideFriction { constant, per_thrust, per_torque, stiffness, radius, pressed } = source.side;
         let (law, pv_limit) = (source.law(radius), source.pv_limit(pressed));
-        let side =
-            FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, pv_limit, heat_index };
+        let side = FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, pv_limit, heat_index };
         self.side.push(&[side.times(factor)], stiffness);
         let PlanetFriction { per_pin_force, per_thrust, stiffness, radius, pressed } = source.planet;
         let none = FrictionPart { static_ratio, heat_index, ..FrictionPart::NONE };

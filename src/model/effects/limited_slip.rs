@@ -48,7 +48,8 @@ impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
         "Clutch packs between side gears and carrier, preloaded and torque-proportional, with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
-    const READINGS: &'static [Reading] = &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
@@ -60,7 +61,7 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Breakaway torque of a stuck clutch over its sliding torque").real(
+            row("limited_slip.static_ratio", "Breakaway torque over sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
@@ -70,13 +71,16 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.mean_radius", "Mean radius of the plates, at which their sliding speed counts")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("limited_slip.friction_area", "Area of all rubbing faces of a pack").real(
+            row("limited_slip.friction_area", "Area of all faces of a pack").real(
                 (units::SQUARE_METRE, CM2),
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,
             ),
-            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates, by which pressure follows")
-                .real(units::ONE, (0.01, 1.0), |p| &mut p.plate_coefficient),
+            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates").real(
+                units::ONE,
+                (0.01, 1.0),
+                |p| &mut p.plate_coefficient,
+            ),
         ];
         rows.extend(slip_rows!("limited_slip", sliding));
         rows

@@ -70,7 +70,8 @@ impl Declare for ThrustFrictionSpec {
         description: "Heat of thrust washers and pins since the start",
         at_wheels: false,
     });
-    const READINGS: &'static [Reading] = &[pv_reading("pv.washers", "Pressure times sliding speed of washers and pins; largest of all")];
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.washers", "Pressure times sliding speed of washers and pins; largest of all")];
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
         why: "it follows from the thrusts of the meshes",
@@ -98,30 +99,25 @@ impl Declare for ThrustFrictionSpec {
             row("thrust_friction.pin_radius", "Radius of the pins, if not from geometry")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
-            row(
-                "thrust_friction.planet_washer_radius",
-                "Mean radius of the planets' thrust washers, if not from geometry",
-            )
-            .when("thrust_friction.radii_from_geometry = false")
-            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
-            row(
-                "thrust_friction.side_washer_radius",
-                "Mean radius of the side gears' thrust washers, if not from geometry",
-            )
-            .when("thrust_friction.radii_from_geometry = false")
-            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
+            row("thrust_friction.planet_washer_radius", "Mean radius of the planets' washers, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
+            row("thrust_friction.side_washer_radius", "Mean radius of the side gears' washers, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
             row(
                 "thrust_friction.stiffness",
                 "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
             )
             .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-            row("thrust_friction.static_ratio", "Breakaway torque of stuck washers and pins over their sliding torque")
-                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
-            area("thrust_friction.planet_washer_area", "Area of a planet's thrust washer", |p| {
-                &mut p.planet_washer_area
-            }),
-            area("thrust_friction.side_washer_area", "Area of a side gear's thrust washer", |p| &mut p.side_washer_area),
-            area("thrust_friction.pin_area", "Projected area of a planet's bore on its pin", |p| &mut p.pin_area),
+            row("thrust_friction.static_ratio", "Breakaway torque over sliding torque").real(
+                units::ONE,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+            ),
+            area("thrust_friction.planet_washer_area", "Area of a planet's washer", |p| &mut p.planet_washer_area),
+            area("thrust_friction.side_washer_area", "Area of a side gear's washer", |p| &mut p.side_washer_area),
+            area("thrust_friction.pin_area", "Projected area of a pin in its planet", |p| &mut p.pin_area),
         ];
         rows.extend(slip_rows!("thrust_friction", sliding));
         rows

@@ -47,21 +47,22 @@ impl Declare for WheelBrakeSpec {
         "Brakes that resist and hold the wheels, by left.brake_torque and right.brake_torque";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
-    const READINGS: &'static [Reading] = &[pv_reading("pv.brake", "Pressure times sliding speed of the linings; larger of both")];
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.brake", "Pressure times sliding speed of the linings; larger of both")];
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
+            row("wheel_brake.stiffness", "Stiffness of a brake at standstill").real(
                 units::NM_PER_RAD,
                 (1.0, 1e9),
                 |p| &mut p.stiffness,
             ),
-            row(
-                "wheel_brake.static_ratio",
-                "Breakaway torque of a brake at standstill over the torque that is commanded",
-            )
-            .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("wheel_brake.static_ratio", "Breakaway torque over sliding torque").real(
+                units::ONE,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+            ),
             row("wheel_brake.mean_radius", "Mean radius of the linings, at which their sliding speed counts")
                 .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
@@ -70,8 +71,11 @@ impl Declare for WheelBrakeSpec {
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,
             ),
-            row("wheel_brake.lining_coefficient", "Coefficient of friction of the linings, by which pressure follows")
-                .real(units::ONE, (0.01, 1.0), |p| &mut p.lining_coefficient),
+            row("wheel_brake.lining_coefficient", "Coefficient of friction of the linings").real(
+                units::ONE,
+                (0.01, 1.0),
+                |p| &mut p.lining_coefficient,
+            ),
             row("wheel_brake.temperature", "Temperature of the linings")
                 .when("wheel_brake.cold_factor != 1 or wheel_brake.hot_factor != 1")
                 .tunable()

@@ -238,11 +238,9 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
         p.scene.start = Start::SteadyHeat;
     }
     let s = &mut p.specs;
-    for (sliding, middle) in [
-        (&mut s.limited_slip.sliding, 1e5),
-        (&mut s.thrust_friction.sliding, 1e5),
-        (&mut s.wheel_brake.sliding, 1e6),
-    ] {
+    for (sliding, middle) in
+        [(&mut s.limited_slip.sliding, 1e5), (&mut s.thrust_friction.sliding, 1e5), (&mut s.wheel_brake.sliding, 1e6)]
+    {
         sliding.pv_limit = if d.chance(0.5) { d.about(middle, 30.0) } else { 0.0 };
         sliding.beyond_limit = d.between(0.5, 1.5);
     }
