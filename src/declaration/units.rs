@@ -107,6 +107,10 @@ pub const MILLI_PA_S: DisplayUnit = shown("mPa.s", 1e3);
 pub const KM_PER_H: DisplayUnit = shown("km/h", 3.6);
 /// Square millimetre per second.
 pub const MM2_PER_S: DisplayUnit = shown("mm2/s", 1e6);
+/// Square centimetre.
+pub const CM2: DisplayUnit = shown("cm2", 1e4);
+/// Watt per square millimetre: MPa·m/s.
+pub const W_PER_MM2: DisplayUnit = shown("W/mm2", 1e-6);
 /// Degree Celsius.
 pub const DEG_C: DisplayUnit = DisplayUnit { name: "degC", factor: 1.0, offset: -273.15 };
 /// Kilonewton.
@@ -189,6 +193,10 @@ units! {
     WATT_PER_K = "W/K", per_kelvin(1, 2, -3, 0), [];
     /// Thermal conductance per angular speed.
     WATT_S_PER_K_RAD = "W.s/(K.rad)", per_kelvin(1, 2, -2, -1), [];
+    /// Area.
+    SQUARE_METRE = "m2", base(0, 2, 0, 0), [CM2];
+    /// Power per area, pressure times speed.
+    W_PER_M2 = "W/m2", base(1, 0, -3, 0), [W_PER_MM2];
     /// Viscosity.
     PA_S = "Pa.s", base(1, -1, -1, 0), [MILLI_PA_S];
 }

@@ -132,6 +132,22 @@ const ADDED: &[&str] = &[
     "bearing_drag.bearing_load",
     "bearing_drag.bearing_diameter",
     "bearing_drag.bearing_coefficient",
+    "thrust_friction.planet_washer_area",
+    "thrust_friction.side_washer_area",
+    "thrust_friction.pin_area",
+    "thrust_friction.pv_limit",
+    "thrust_friction.beyond_limit",
+    "limited_slip.friction_area",
+    "limited_slip.plate_coefficient",
+    "limited_slip.pv_limit",
+    "limited_slip.beyond_limit",
+    "wheel_brake.friction_area",
+    "wheel_brake.lining_coefficient",
+    "wheel_brake.pv_limit",
+    "wheel_brake.beyond_limit",
+    "pv.washers",
+    "pv.clutch",
+    "pv.brake",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

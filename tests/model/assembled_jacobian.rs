@@ -3,6 +3,7 @@
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::variables::{Access, named};
 
 /// Central differences of order 4: places and weights.
 const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
@@ -30,6 +31,20 @@ fn braked((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
+/// Friction that falls and rises with the speed of sliding, on washers, pins, plates and linings.
+fn by_speed(p: &mut Parameters) {
+    (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
+    let specs = &mut p.specs;
+    (specs.thrust_friction.static_ratio, specs.limited_slip.static_ratio) = (1.6, 1.3);
+    for (sliding, speed, slope) in [
+        (&mut specs.thrust_friction.sliding, 0.05, -0.8),
+        (&mut specs.limited_slip.sliding, 0.2, 0.3),
+        (&mut specs.wheel_brake.sliding, 0.0, -0.05),
+    ] {
+        (sliding.stribeck_speed, sliding.slip_slope) = (speed, slope);
+    }
+}
+
 fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     let line = |p: &mut Parameters| p.contact.law = ContactLaw::Line;
     let bodies = |p: &mut Parameters| (p.contact.law, p.effects.body_compliance) = (ContactLaw::LineWeber, true);
@@ -45,19 +60,6 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         let drag = &mut p.specs.bearing_drag;
         (drag.churning_from_geometry, drag.viscosity_from_oil, drag.carrier_diameter) = (true, true, 0.4);
         (drag.seal_diameter, drag.bearing_load, drag.breakaway_speed) = (0.04, 2e4, 30.0);
-    };
-    // friction that falls and rises with the speed of sliding, on washers, pins, plates and linings
-    let by_speed = |p: &mut Parameters| {
-        (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
-        let specs = &mut p.specs;
-        (specs.thrust_friction.static_ratio, specs.limited_slip.static_ratio) = (1.6, 1.3);
-        for (sliding, speed, slope) in [
-            (&mut specs.thrust_friction.sliding, 0.05, -0.8),
-            (&mut specs.limited_slip.sliding, 0.2, 0.3),
-            (&mut specs.wheel_brake.sliding, 0.0, -0.05),
-        ] {
-            (sliding.stribeck_speed, sliding.slip_slope) = (speed, slope);
-        }
     };
     vec![
         ("plain", turn(|_| {})),
@@ -101,22 +103,62 @@ fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
         let mut simulation = Simulation::start(&parameters, &inputs, 0.0).expect(name);
         for stop in [1e-3, 4e-3, 9e-3] {
             simulation.advance(stop).expect(name);
-            let (state, n) = (simulation.state(), simulation.degrees_of_freedom());
-            let at = [state.q[..n].to_vec(), state.v[..n].to_vec()];
-            let mut rows = vec![0.0; 4 * n * n];
-            simulation.slopes(&at[0], &at[1], &mut rows);
-            let columns: Vec<Vec<f64>> = (0..2 * n).map(|k| difference(&simulation, &at, k)).collect();
-            for block in 0..2 {
-                let entries = || (0..2 * n).flat_map(|i| (block * n..(block + 1) * n).map(move |k| (i, k)));
-                let largest = entries().fold(0.0f64, |most, (i, k)| most.max(columns[k][i].abs()));
-                for (i, k) in entries() {
-                    let (exact, found) = (rows[2 * n * i + k], columns[k][i]);
-                    assert!(
-                        (exact - found).abs() < WITHIN * largest,
-                        "{name} at {stop} s: row {i}, column {k}: {exact:e}, by differences {found:e}, largest {largest:e}"
-                    );
-                }
+            compare(&simulation, (name, stop));
+        }
+    }
+}
+
+/// p·v of washers and pins, clutch packs and linings: the largest of each [W/m²].
+fn largest_pv(simulation: &mut Simulation) -> [f64; 3] {
+    ["pv.washers", "pv.clutch", "pv.brake"].map(|name| {
+        let Access::Output(of) = named(name).unwrap().access else { panic!("{name} is no output") };
+        of.read(simulation)
+    })
+}
+
+#[test]
+fn the_jacobian_of_frictions_within_and_beyond_the_band_of_their_limit_equals_differences() {
+    for (name, pins) in [("limits", false), ("limits, pins", true)] {
+        let (mut parameters, inputs) = braked(turn(|p| (by_speed(p), p.effects.pin_compliance = pins).0));
+        let mut reached = |limits: [f64; 3], stop: f64| {
+            let specs = &mut parameters.specs;
+            (specs.thrust_friction.sliding.pv_limit, specs.thrust_friction.sliding.beyond_limit) = (limits[0], 0.98);
+            (specs.limited_slip.sliding.pv_limit, specs.limited_slip.sliding.beyond_limit) = (limits[1], 0.98);
+            (specs.wheel_brake.sliding.pv_limit, specs.wheel_brake.sliding.beyond_limit) = (limits[2], 0.98);
+            let mut simulation = Simulation::start(&parameters, &inputs, 0.0).expect(name);
+            simulation.advance(stop).expect(name);
+            simulation
+        };
+        for stop in [2e-3, 6e-3] {
+            let pv = largest_pv(&mut reached([0.0; 3], stop));
+            assert!(pv.iter().all(|pv| *pv > 0.0), "{name} at {stop} s: {pv:?}");
+            for over in [1.01, 1.025, 1.5] {
+                let mut simulation = reached(pv.map(|pv| pv / over), stop);
+                let found = largest_pv(&mut simulation);
+                let shares: Vec<f64> = found.iter().zip(pv).map(|(found, pv)| found / pv).collect();
+                assert!(shares.iter().all(|share| (share - 1.0).abs() < 8e-3), "{name} at {stop} s: {shares:?}");
+                compare(&simulation, (name, stop));
             }
+        }
+    }
+}
+
+/// Compares the Jacobian of `simulation` with differences.
+fn compare(simulation: &Simulation, (name, stop): (&str, f64)) {
+    let (state, n) = (simulation.state(), simulation.degrees_of_freedom());
+    let at = [state.q[..n].to_vec(), state.v[..n].to_vec()];
+    let mut rows = vec![0.0; 4 * n * n];
+    simulation.slopes(&at[0], &at[1], &mut rows);
+    let columns: Vec<Vec<f64>> = (0..2 * n).map(|k| difference(simulation, &at, k)).collect();
+    for block in 0..2 {
+        let entries = || (0..2 * n).flat_map(|i| (block * n..(block + 1) * n).map(move |k| (i, k)));
+        let largest = entries().fold(0.0f64, |most, (i, k)| most.max(columns[k][i].abs()));
+        for (i, k) in entries() {
+            let (exact, found) = (rows[2 * n * i + k], columns[k][i]);
+            assert!(
+                (exact - found).abs() < WITHIN * largest,
+                "{name} at {stop} s: row {i}, column {k}: {exact:e}, by differences {found:e}, largest {largest:e}"
+            );
         }
     }
 }

@@ -24,7 +24,8 @@ FACTORS = {
     "contact.reference_line_load": 10.0, "contact.mesh_stiffness": 100.0, "half_shaft.left_stiffness": 30.0,
     "half_shaft.right_stiffness": 30.0, "pin_compliance.pin_stiffness": 30.0, "pin_compliance.case_stiffness": 30.0,
     "thrust_friction.stiffness": 30.0, "limited_slip.stiffness": 30.0, "lock.stiffness": 30.0, "lock.torque": 30.0,
-    "wheel_brake.stiffness": 30.0,
+    "wheel_brake.stiffness": 30.0, "limited_slip.friction_area": 3.0, "wheel_brake.friction_area": 3.0,
+    **{f"thrust_friction.{name}_area": 3.0 for name in ("planet_washer", "side_washer", "pin")},
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
     "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
     "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
@@ -59,7 +60,9 @@ BANDS = {
     # friction over speed and temperature, points of temperature in order
     **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
         "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
-        "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2)}.items()},
+        "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2),
+        "pv_limit": (0.0, 1e6), "beyond_limit": (0.5, 2.0)}.items()},
+    "limited_slip.plate_coefficient": (0.05, 0.2), "wheel_brake.lining_coefficient": (0.2, 0.6),
     # from the start for half
     "strength.rate_from": (-0.02, 0.02)}
 # lengths that follow the module, in modules

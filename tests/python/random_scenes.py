@@ -32,7 +32,11 @@ LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"
          "strength.thermal_contact_coefficient", "strength.scuffing_temperature", "warm_up.gears_above_oil", "warm_up.clutch_above_oil",
          "warm_up.washers_above_oil", "warm_up.case_above_oil", "warm_up.cycle",
          *(f"bearing_drag.{name}" for name in ("churning_from_geometry", "carrier_diameter", "carrier_width", "oil_level", "seal_diameter",
-                                               "seal_torque_per_diameter", "bearing_load", "bearing_diameter", "bearing_coefficient"))]
+                                               "seal_torque_per_diameter", "bearing_load", "bearing_diameter", "bearing_coefficient")),
+         "thrust_friction.planet_washer_area", "thrust_friction.side_washer_area", "thrust_friction.pin_area",
+         "thrust_friction.pv_limit", "thrust_friction.beyond_limit", "limited_slip.friction_area",
+         "limited_slip.plate_coefficient", "limited_slip.pv_limit", "limited_slip.beyond_limit", "wheel_brake.friction_area",
+         "wheel_brake.lining_coefficient", "wheel_brake.pv_limit", "wheel_brake.beyond_limit"]
 STEADY_HEAT = 4
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03

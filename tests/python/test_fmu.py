@@ -198,7 +198,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     ends = {"inertia.left_end": 1.0, "inertia.right_end": 2.0}
     shafts = {**ends, "effects.half_shaft": True}
     scenes = [ends, {"effects.half_shaft": True}, {**shafts, "effects.strength": True, "effects.tooth_friction": True},
-              {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}]
+              {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}, {**ends, "effects.thrust_friction": True}]
     brakes = {"effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 50.0}
     swapped = {**brakes, "left.brake_torque": 50.0, "right.brake_torque": 100.0}
     scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]
@@ -210,12 +210,17 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     # at most two speeds can be imposed
     drives += [({**shafts, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
     drives += [({**ends, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
+    # brakes that slide on wheels of given speed
+    drives += [({**shafts, **values, **side, f"{name}.speed_command": 50.0}, "speed", "free")
+               for name, values, side in (("left", brakes, left), ("right", swapped, right))]
     drives += [({**shafts, **left, **right, "effects.strength": True, "effects.tooth_friction": True}, "torque", "free"),
                ({**ends, "effects.final_drive": True}, "speed", "free")]
     for contact in ["tooth", "lumped", "ideal"]:
         for scene, carrier, spin in drives:
             if contact != "tooth":
-                scene = {**scene, "effects.tooth_friction": False, "effects.strength": contact == "lumped" and scene.get("effects.strength", False)}
+                scene = {**scene, "effects.tooth_friction": False,
+                         "effects.thrust_friction": contact == "lumped" and scene.get("effects.thrust_friction", False),
+                         "effects.strength": contact == "lumped" and scene.get("effects.strength", False)}
             for kind in ["CoSimulation", "ModelExchange"]:
                 with fmu.open(kind) as opened:
                     opened.initialise(scene | {"geometry.planet_count": 4, "scene.gear_contact": contact,

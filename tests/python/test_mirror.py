@@ -49,6 +49,8 @@ NAMED = {
                            "limited_slip.hot_factor": 0.5, "scene.start": "steady_heat", "warm_up.cycle": 0.01},
     "drag": BIAS | {"effects.bearing_drag": True, "bearing_drag.churning_from_geometry": True, "bearing_drag.carrier_diameter": 0.4,
                     "oil.temperature": 263.15, "bearing_drag.seal_diameter": 0.05, "bearing_drag.bearing_load": 1e4},
+    "above limits of p v": BIAS | {"effects.thrust_friction": True, "effects.limited_slip": True, "thrust_friction.pv_limit": 2e4,
+                                   "thrust_friction.beyond_limit": 1.2, "limited_slip.pv_limit": 1e4, "limited_slip.beyond_limit": 0.7},
     "at rest": BRAKED | brakes(100.0, 50.0) | drive_torque(300.0) | {"scene.start": "rest"},
     "clutch": test_hard_clutches.CLUTCH | {"left.load_torque": 900.0, "right.load_torque": 700.0},
     "misaligned solids": test_solid.SOLID | test_solid.MISALIGNED, "solid turn": test_solid.SOLID | test_solid.STEADY,

@@ -1,4 +1,4 @@
-"""Dry friction by slip speed and temperature: closed forms, the onset of judder by the linear theory, and bad input."""
+"""Dry friction by slip speed, temperature and p v: closed forms, the onset of judder by the linear theory, and bad input."""
 
 from math import exp, pi, sqrt
 
@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import theory
 from bevel_differential import DifferentialError
+from bevel_differential.instance import Instance
+from driving import BIAS, SIDES, UNDAMPED
 
 PRELOAD, RADIUS, RATIO, STRIBECK, SLOPE = 60.0, 0.055, 1.25, 0.08, -0.012
 CLUTCH = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "effects.limited_slip": True, "limited_slip.preload": PRELOAD,
@@ -32,6 +34,79 @@ def test_a_clutch_has_the_torque_of_its_slip_and_temperature(drive, spin, sign):
     # half way from the cold point at 253.15 K to the reference at 353.15 K
     expected = PRELOAD * 0.5 * (cold + 1.0) * over_kinetic(RADIUS * slip)
     assert torque == pytest.approx(expected, rel=1e-12)
+
+
+AREA, PLATES, BEYOND, BAND = 0.03, 0.12, 0.7, 0.05
+
+
+def over_unlimited(pv, limit):
+    """Friction over that without a limit of p v."""
+    share = min(max((pv / limit - 1.0) / BAND, 0.0), 1.0)
+    return 1.0 + (BEYOND - 1.0) * share**2 * (3.0 - 2.0 * share)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("share", [0.5, 0.999, 1.005, 1.025, 1.045, 1.06, 10.0])
+def test_a_clutch_has_the_torque_of_its_pressure_times_speed_which_temperature_leaves_as_it_is(drive, share, sign):
+    slip = 20.0 * theory.RATIO
+    pv = PRELOAD * slip / (PLATES * AREA)
+    driven = drive(CLUTCH | {"planet.spin_command": sign * 20.0, "oil.temperature": 303.15, "limited_slip.cold_factor": 1.4,
+                             "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": PLATES,
+                             "limited_slip.pv_limit": pv / share, "limited_slip.beyond_limit": BEYOND}).to(0.1, 1e-2)
+    assert driven["pv.clutch"] == pytest.approx(pv, rel=1e-12)
+    begin, time = driven["heat.clutch"], driven.time
+    driven.to(0.3, 1e-2)
+    torque = (driven["heat.clutch"] - begin) / (driven.time - time) / (2.0 * slip)
+    assert torque == pytest.approx(PRELOAD * 1.2 * over_kinetic(RADIUS * slip) * over_unlimited(pv, pv / share), rel=1e-12)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("share", [0.5, 1.02, 3.0])
+def test_a_brake_has_the_torque_of_its_pressure_times_speed(drive, share, sign):
+    pv = 400.0 * SPEED / (0.35 * 0.008)
+    driven = drive({"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "planet.spin_command": 0.0,
+                    "carrier.speed_command": sign * SPEED, "effects.wheel_brake": True, "left.brake_torque": 400.0,
+                    "wheel_brake.lining_coefficient": 0.35, "wheel_brake.friction_area": 0.008, "wheel_brake.pv_limit": pv / share,
+                    "wheel_brake.beyond_limit": BEYOND, "left.load_torque": 0.0, "right.load_torque": 0.0}).to(0.02, 1e-2)
+    assert driven["pv.brake"] == pytest.approx(pv, rel=1e-12)
+    assert driven["left.shaft_torque"] == pytest.approx(sign * 400.0 * over_unlimited(pv, pv / share), rel=1e-12)
+
+
+# radius [m] and area [m2]
+PIN, PLANET_WASHER, SIDE_WASHER = (8e-3, 3e-4), (14e-3, 1e-3), (22e-3, 2e-3)
+
+
+@pytest.mark.parametrize("spoilt", [1.0, 0.01, 100.0])
+def test_washers_and_pins_have_the_pressure_times_speed_of_their_forces_and_the_energy_balances_beyond_the_limit(drive, spoilt):
+    pin_area = PIN[1] * spoilt
+    driven = drive(BIAS | {"scene.gear_contact": "lumped", "effects.thrust_friction": True, "thrust_friction.pin_area": pin_area,
+                           "thrust_friction.pv_limit": 2e4, "thrust_friction.beyond_limit": 1.5}).to(0.5, 1e-3)
+    spin = abs(driven["planet[1].spin_speed"])
+    sides = [SIDE_WASHER[0] / SIDE_WASHER[1] * driven[f"{side}.thrust_force"] * abs(driven[f"{side}.speed"] - driven["carrier.speed"])
+             for side in SIDES]
+    pin = PIN[0] / pin_area * driven["planet[1].pin_force"] * spin
+    # the planet's washer also bears the planet's centrifugal force of some 10 N
+    washer = PLANET_WASHER[0] / PLANET_WASHER[1] * (driven["planet[1].thrust_force"] + 10.0) * spin
+    assert driven["pv.washers"] == pytest.approx(max(*sides, pin, washer), rel=1e-9 if max(*sides, pin) > washer else 1e-2)
+    assert driven["pv.washers"] > 2e4 and driven.imbalance() < UNDAMPED
+
+
+def test_a_pressure_times_speed_above_its_limit_is_reported_once_in_a_run(drive):
+    values = CLUTCH | {"planet.spin_command": 20.0, "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": PLATES,
+                       "limited_slip.pv_limit": 2e5}
+    driven = drive(values).to(0.3, 1e-2)
+    pv = PRELOAD * 20.0 * theory.RATIO / (PLATES * AREA) * 1e-6
+    reported = [message for message in driven.messages if "p v" in message]
+    assert len(reported) == 1 and reported[0].startswith("limited_slip.pv_limit: p v of the ")
+    assert all(word in reported[0] for word in ["side gear", f"{pv:.3f} W/mm2", "the limit of 0.200 W/mm2", "t = 0.010000 s"])
+    torque = driven["heat.clutch"]
+    plain = drive(values | {"limited_slip.pv_limit": 0.0}).to(0.3, 1e-2)
+    # without a value for what is beyond the limit a warning is all
+    assert plain["heat.clutch"] == torque and not [message for message in plain.messages if "p v" in message]
+    driven.reset()
+    driven.initialise(values)
+    Instance.step(driven, 1e-2)
+    assert len([message for message in driven.messages if "p v" in message]) == 1
 
 
 # a wheel with its end's inertia on an undamped half-shaft between a speed and a brake
@@ -86,6 +161,10 @@ def test_judder_grows_until_the_wheel_sticks(drive):
     ("limited_slip.hot_temperature", 300.0, ["limited_slip.hot_temperature", "300 K", "in order"]),
     ("limited_slip.hot_temperature", 700.0, ["limited_slip.hot_temperature", "700", "673.15"]),
     ("oil.temperature", 200.0, ["oil.temperature", "200", "213.15"]),
+    ("limited_slip.pv_limit", -1.0, ["limited_slip.pv_limit", "-1"]),
+    ("limited_slip.beyond_limit", -0.1, ["limited_slip.beyond_limit", "-0.1"]),
+    ("limited_slip.friction_area", 0.0, ["limited_slip.friction_area", "0"]),
+    ("limited_slip.plate_coefficient", 1.5, ["limited_slip.plate_coefficient", "1.5"]),
     ("limited_slip.cold_factor", -0.1, ["limited_slip.cold_factor", "-0.1"]),
 ])
 def test_bad_points_are_refused_by_name(drive, name, value, words):

@@ -7,8 +7,11 @@ const BY_OWN_LOAD: &str = ".twist";
 /// Endings of names of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
 /// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
-const BY_MOTION_OF_TEETH: [&str; 4] = ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing"];
+const BY_MOTION_OF_TEETH: [&str; 6] =
+    ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing", "pv.washers", "pv.clutch"];
 const BY_MOTION: [&str; 1] = ["power.loss"];
+/// Output that depends on speeds and on the torques of the brakes, and the ending of their names.
+const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
 const COMMANDS: [&str; 2] = ["carrier.speed_command", "planet.spin_command"];
 const FOLLOWERS: [&str; 6] =
@@ -65,6 +68,9 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
                 return inputs_where(table, |input| {
                     is_torque(input) && input.name.starts_with(side) || is_followed(input)
                 });
+            }
+            if row.name == OF_BRAKES.0 {
+                return inputs_where(table, |input| is_speed(input) || input.name.ends_with(OF_BRAKES.1));
             }
             if named(&BY_MOTION_OF_TEETH) {
                 return inputs_where(table, is_followed);

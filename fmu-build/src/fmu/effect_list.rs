@@ -130,10 +130,11 @@ fn group(name: &str) -> &str {
     name.split_once('.').map_or(name, |(group, _)| group)
 }
 
-/// Every parameter of every effect; what several effects have alike stands once, as `*.parameter`.
+/// Every parameter of every effect, of both sides those of the left; what several effects have alike stands once, as `*.parameter`.
 fn parameters() -> Table {
     let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
-    let all: Vec<&Variable> = EFFECTS.iter().flat_map(own_parameters).collect();
+    let is_of_right = |row: &&Variable| own_part(row.name).starts_with("right");
+    let all: Vec<&Variable> = EFFECTS.iter().flat_map(own_parameters).filter(|row| !is_of_right(row)).collect();
     let told = |row: &Variable| (own_part(row.name), start_with_unit(row), row.description);
     for (k, row) in all.iter().enumerate() {
         let alike: Vec<usize> = (0..all.len()).filter(|&other| told(all[other]) == told(row)).collect();

@@ -87,12 +87,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         &self,
         at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
-        planets: &[SurfaceLoad; G],
+        (sides, planets): &MeshLoads<G>,
         j: &mut Jacobian<'_, N>,
     ) {
         let side = self.teeth.sin_base[1];
         for s in 0..2 {
-            let Some((direction, of_side)) = self.slopes_of_sliding(at, s) else { continue };
+            let Some((direction, of_side)) = self.slopes_of_sliding(at, s, &sides[s]) else { continue };
             let torque = self.sum(|g| self.members(g) * side * loads[g][s].force[0].value());
             let slopes: [[f64; WITH_OTHER]; G] = self.by_group(|g| {
                 let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
@@ -105,7 +105,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             }
         }
         for g in 0..self.groups() {
-            let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g) else { continue };
+            let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]) else {
+                continue;
+            };
             let [l, r] = &loads[g];
             let across = l.tangential.value() + r.tangential.value();
             let along = l.side_axial.value() - r.side_axial.value();
@@ -121,18 +123,25 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    /// Direction in which body `i` slides, and the slopes of its limit torque by thrust and load; none where it does not slide.
-    fn slopes_of_sliding(&self, at: &Point<N>, i: usize) -> Option<(f64, [f64; 2])> {
+    /// Direction in which body `i` slides, and the slopes of its limit torque by thrust and load, under the loads `by`; none
+    /// where it does not slide.
+    fn slopes_of_sliding(&self, at: &Point<N>, i: usize, by: &SurfaceLoad) -> Option<(f64, [f64; 2])> {
         let (friction, state, _) = self.friction_on(i);
         let direction = state.mode.direction();
         let slides = direction != 0.0 && friction.is_on();
-        slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed)))
+        slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed, by)))
     }
 
     /// Derivatives of the planets' dry friction by the speeds that throw them outward.
-    pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<'_, N>) {
+    pub(in crate::model) fn friction_slopes_by_orbit(
+        &self,
+        at: &Point<N>,
+        planets: &[SurfaceLoad; G],
+        j: &mut Jacobian<'_, N>,
+    ) {
         for g in 0..self.groups() {
-            let Some((direction, [per_thrust, _])) = self.slopes_of_sliding(at, FRICTION_PLANETS + g) else { continue };
+            let slopes = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]);
+            let Some((direction, [per_thrust, _])) = slopes else { continue };
             j.by_velocity[self.planet(g)][self.orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
         }
     }

@@ -247,9 +247,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             if T::BY_OTHER {
                 self.add_blocks::<true>(&self.cross_blocks(loads), j.by_position);
             }
-            if let Some((_, planets)) = &surfaces {
-                self.friction_slopes_by_loads(at, loads, planets, j);
-                self.friction_slopes_by_orbit(at, j);
+            if let Some(surfaces) = &surfaces {
+                self.friction_slopes_by_loads(at, loads, surfaces, j);
+                self.friction_slopes_by_orbit(at, &surfaces.1, j);
             }
             self.friction_slopes_under(at, surfaces.as_ref(), j);
         }

@@ -87,16 +87,16 @@ impl DryFriction {
     /// Limit torque of a body that slides at `speed` in its direction [N·m], and its slope by speed.
     pub fn sliding_limit(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         self.parts().iter().fold([0.0; 2], |[torque, slope], p| {
-            let ([value, by_speed], kinetic) = (p.law.factor(speed), p.at(by));
-            [torque + value * kinetic, slope + by_speed * kinetic]
+            let [value, by_speed] = p.sliding(speed, by);
+            [torque + value, slope + by_speed]
         })
     }
 
     /// Slopes of the same by thrust and load.
-    pub fn limit_slopes(&self, speed: f64) -> [f64; 2] {
+    pub fn limit_slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         self.parts().iter().fold([0.0; 2], |[t, l], p| {
-            let [value, _] = p.law.factor(speed);
-            [t + value * p.per_thrust, l + value * p.per_load]
+            let [by_thrust, by_load] = p.slopes(speed, by);
+            [t + by_thrust, l + by_load]
         })
     }
 
@@ -130,7 +130,7 @@ impl DryFriction {
         let (direction, mut limit) = (state.mode.direction(), 0.0);
         let sliding = count * direction * slip.speed;
         for part in self.parts() {
-            let torque = part.law.factor(direction * slip.speed)[0] * part.at(by);
+            let [torque, _] = part.sliding(direction * slip.speed, by);
             limit += torque;
             heat[part.heat_index] += sliding * torque;
         }

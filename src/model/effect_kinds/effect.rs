@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
+use crate::declaration::units::{W_PER_M2, W_PER_MM2};
 use crate::declaration::{DisplayUnit, Parameter, Row, Unit};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
@@ -52,6 +53,11 @@ pub struct Reading {
     pub changes: Changes,
     /// What it is.
     pub description: &'static str,
+}
+
+/// The output of a friction's p·v.
+pub const fn pv_reading(name: &'static str, description: &'static str) -> Reading {
+    Reading { name, unit: W_PER_M2, display: Some(W_PER_MM2), changes: Changes::Always, description }
 }
 
 /// Representations of tooth contact that an effect needs.

@@ -52,20 +52,19 @@ impl Friction {
 
     fn add(&mut self, source: &FrictionSource, factor: f64) {
         let &FrictionSource { heat_index, static_ratio, .. } = source;
-        let SideFriction { constant, per_thrust, per_torque, stiffness, radius } = source.side;
-        let law = source.law(radius);
-        self.side.push(
-            &[FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, heat_index }.times(factor)],
-            stiffness,
-        );
-        let PlanetFriction { per_pin_force, per_thrust, stiffness, radius } = source.planet;
+        let SideFriction { constant, per_thrust, per_torque, stiffness, radius, pressed } = source.side;
+        let (law, pv_limit) = (source.law(radius), source.pv_limit(pressed));
+        let side = FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, pv_limit, heat_index };
+        self.side.push(&[side.times(factor)], stiffness);
+        let PlanetFriction { per_pin_force, per_thrust, stiffness, radius, pressed } = source.planet;
         let none = FrictionPart { static_ratio, heat_index, ..FrictionPart::NONE };
         let [pin, washer] = radius.map(|radius| source.law(radius));
-        if pin.is_constant() {
+        let [pin_limit, washer_limit] = pressed.map(|pressed| source.pv_limit(pressed));
+        if pin.is_constant() && pin_limit.is_none() {
             self.planet.push(&[FrictionPart { per_thrust, per_load: per_pin_force, ..none }.times(factor)], stiffness);
         } else {
-            let pin = FrictionPart { per_load: per_pin_force, law: pin, ..none };
-            let washer = FrictionPart { per_thrust, law: washer, ..none };
+            let pin = FrictionPart { per_load: per_pin_force, law: pin, pv_limit: pin_limit, ..none };
+            let washer = FrictionPart { per_thrust, law: washer, pv_limit: washer_limit, ..none };
             self.planet.push(&[pin.times(factor), washer.times(factor)], stiffness);
         }
     }
@@ -84,7 +83,9 @@ impl Friction {
             if limits.iter().any(|limit| limit[s] != 0.0) {
                 let (static_ratio, law, heat_index) =
                     (source.static_ratio, source.law(wheel.radius), source.heat_index);
-                let part = FrictionPart { per_load: 1.0, static_ratio, law, heat_index, ..FrictionPart::NONE };
+                let pv_limit = source.pv_limit(wheel.pressed);
+                let part =
+                    FrictionPart { per_load: 1.0, static_ratio, law, pv_limit, heat_index, ..FrictionPart::NONE };
                 self.wheel[s].push(&[part.times(factor)], wheel.stiffness);
             }
         }

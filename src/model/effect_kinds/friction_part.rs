@@ -1,7 +1,7 @@
 //! Part of the dry friction on a body that one source contributes, and what it depends on: the load on the surface, and how the
 //! body moves against it.
 
-use super::SlipLaw;
+use super::{Pressed, PvLimit, SlipLaw};
 
 /// Limit torque of one source, and its heat.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,8 @@ pub struct FrictionPart {
     pub static_ratio: f64,
     /// What the limit while sliding becomes at speed.
     pub law: SlipLaw,
+    /// Limit of p·v of its surface, where friction changes at one.
+    pub pv_limit: Option<(Pressed, PvLimit)>,
     /// Index of its heat.
     pub heat_index: usize,
 }
@@ -28,10 +30,11 @@ impl FrictionPart {
         per_load: 0.0,
         static_ratio: 1.0,
         law: SlipLaw::CONSTANT,
+        pv_limit: None,
         heat_index: 0,
     };
 
-    /// The same pressed `factor` times as much.
+    /// The same with `factor` times the friction.
     pub fn times(self, factor: f64) -> Self {
         let Self { constant, per_thrust, per_load, .. } = self;
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load, ..self }
@@ -40,6 +43,28 @@ impl FrictionPart {
     /// Kinetic limit torque [N·m].
     pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+
+    /// Limit torque while the body slides at `speed` in its direction [N·m], and its slope by speed.
+    #[inline]
+    pub(super) fn sliding(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        let ([value, slope], kinetic) = (self.law.factor(speed), self.at(by));
+        let [torque, by_speed] = [value * kinetic, slope * kinetic];
+        let Some((pressed, limit)) = &self.pv_limit else { return [torque, by_speed] };
+        let pressure = pressed.at(by);
+        let [factor, by_pv] = limit.factor(pressure * speed);
+        [factor * torque, factor * by_speed + by_pv * pressure * torque]
+    }
+
+    /// Slopes of the same by thrust and load.
+    #[inline]
+    pub(super) fn slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        let [value, _] = self.law.factor(speed);
+        let [by_thrust, by_load] = [value * self.per_thrust, value * self.per_load];
+        let Some((pressed, limit)) = &self.pv_limit else { return [by_thrust, by_load] };
+        let [factor, by_pv] = limit.factor(pressed.at(by) * speed);
+        let by_pressure = by_pv * speed * value * self.at(by);
+        [factor * by_thrust + by_pressure * pressed.per_thrust, factor * by_load + by_pressure * pressed.per_load]
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an effect contributes to the dry friction of a body: limit torques, by what presses the surfaces.
 
-use super::{SlipLaw, SlipSpec};
+use super::{Pressed, PvLimit, SlipLaw, SlipSpec};
 use crate::model::scene::Inputs;
 use crate::model::thermal::{NODES, OIL};
 
@@ -17,6 +17,8 @@ pub struct SideFriction {
     pub stiffness: f64,
     /// Mean radius of the surface [m].
     pub radius: f64,
+    /// What presses it.
+    pub pressed: Pressed,
 }
 
 /// Dry friction between a planet and its pin and seat.
@@ -30,6 +32,8 @@ pub struct PlanetFriction {
     pub stiffness: f64,
     /// Radii of pin and washer [m].
     pub radius: [f64; 2],
+    /// What presses them.
+    pub pressed: [Pressed; 2],
 }
 
 /// Dry friction between a wheel and the axle it turns on.
@@ -43,6 +47,8 @@ pub struct WheelFriction {
     pub damping_time: [f64; 2],
     /// Mean radius of the surface [m].
     pub radius: f64,
+    /// What presses it; the load is its limit torque.
+    pub pressed: Pressed,
 }
 
 /// Where the temperature of a surface is found.
@@ -57,6 +63,8 @@ pub enum SurfaceTemperature {
 /// What one effect contributes to the dry friction of bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionSource {
+    /// Name of the effect.
+    pub effect: &'static str,
     /// Index of its heat in the ledger.
     pub heat_index: usize,
     /// On each side gear.
@@ -80,6 +88,7 @@ impl FrictionSource {
     pub fn new(heat_index: usize) -> Self {
         let (side, planet) = (SideFriction::default(), PlanetFriction::default());
         Self {
+            effect: "",
             heat_index,
             side,
             planet,
@@ -105,6 +114,12 @@ impl FrictionSource {
         SlipLaw { radius, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
     }
 
+    /// The limit of p·v of a surface that is `pressed`, where friction changes at one.
+    pub fn pv_limit(&self, pressed: Pressed) -> Option<(Pressed, PvLimit)> {
+        let SlipSpec { pv_limit: limit, beyond_limit: beyond, .. } = self.sliding;
+        Some((pressed, PvLimit { limit, beyond })).filter(|(_, limit)| limit.acts())
+    }
+
     /// Whether the loads of the meshes matter.
     pub fn depends_on_load(&self) -> bool {
         let (s, p) = (&self.side, &self.planet);
@@ -118,12 +133,14 @@ impl FrictionSource {
             per_thrust: part * self.side.per_thrust,
             per_torque: part * self.side.per_torque,
             stiffness: part * self.side.stiffness,
+            pressed: self.side.pressed.times(part),
             ..self.side
         };
         let planet = PlanetFriction {
             per_pin_force: part * self.planet.per_pin_force,
             per_thrust: part * self.planet.per_thrust,
             stiffness: part * self.planet.stiffness,
+            pressed: self.planet.pressed.map(|pressed| pressed.times(part)),
             ..self.planet
         };
         Self { side, planet, ..self }

@@ -1,4 +1,4 @@
-//! Parameters of dry friction by slip speed and temperature, which several effects have.
+//! Parameters of dry friction by slip speed, temperature and p·v, which several effects have.
 //!
 //! Over temperature the values are those at the reference times a factor: linear between three points, constant beyond them.
 
@@ -21,6 +21,10 @@ spec! {
         pub hot: f64 = 473.15,
         /// Friction there over that at the reference.
         pub hot_factor: f64 = 1.0,
+        /// Limit of pressure × speed [W/m²]; 0 = none.
+        pub pv_limit: f64 = 0.0,
+        /// Friction beyond that limit over that below it.
+        pub beyond_limit: f64 = 1.0,
     }
 }
 
@@ -108,6 +112,11 @@ macro_rules! slip_rows {
             factor(concat!($effect, ".hot_factor"), "Friction at the hot point over that at the reference", |p| {
                 &mut p.$field.hot_factor
             }),
+            row(concat!($effect, ".pv_limit"), "Limit of pressure times speed, above which the log warns; 0 = none")
+                .real((units::W_PER_M2, units::W_PER_MM2), (0.0, 1e12), |p: &mut Self| &mut p.$field.pv_limit),
+            row(concat!($effect, ".beyond_limit"), "Friction beyond pv_limit over that below it")
+                .when(concat!($effect, ".pv_limit > 0"))
+                .real(units::ONE, (0.0, 10.0), |p: &mut Self| &mut p.$field.beyond_limit),
         ]
     }};
 }

@@ -5,10 +5,11 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use crate::declaration::units::MM;
+use crate::declaration::units::{CM2, MM};
 use crate::declaration::{Parameter, Row, row, units};
 use crate::model::effect_kinds::{
-    Declare, Effect, FrictionSource, Heat, Setting, SideFriction, SlipSpec, SurfaceTemperature, check_slip, slip_rows,
+    Declare, Effect, FrictionSource, Heat, Pressed, Reading, Setting, SideFriction, SlipSpec, SurfaceTemperature,
+    check_slip, pv_reading, slip_rows,
 };
 use crate::model::scene::GearContact;
 use crate::model::thermal::CLUTCH;
@@ -27,6 +28,10 @@ spec! {
         pub stiffness: f64 = 1e5,
         /// Mean radius of the plates [m].
         pub mean_radius: f64 = 0.05,
+        /// Area of all rubbing faces of a pack [m²].
+        pub friction_area: f64 = 0.05,
+        /// Coefficient of friction of the plates.
+        pub plate_coefficient: f64 = 0.1,
         /// How they slide.
         pub sliding: SlipSpec = SlipSpec::default(),
     }
@@ -43,6 +48,8 @@ impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
         "Clutch packs between side gears and carrier, preloaded and torque-proportional, with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
@@ -54,7 +61,7 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Breakaway torque of a stuck clutch over its sliding torque").real(
+            row("limited_slip.static_ratio", "Breakaway torque over sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
@@ -64,6 +71,16 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.mean_radius", "Mean radius of the plates, at which their sliding speed counts")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
+            row("limited_slip.friction_area", "Area of all faces of a pack").real(
+                (units::SQUARE_METRE, CM2),
+                (1e-8, 10.0),
+                |p| &mut p.friction_area,
+            ),
+            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates").real(
+                units::ONE,
+                (0.01, 1.0),
+                |p| &mut p.plate_coefficient,
+            ),
         ];
         rows.extend(slip_rows!("limited_slip", sliding));
         rows
@@ -90,11 +107,15 @@ impl Effect for LimitedSlipSpec {
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+        // a torque μ N r presses with N/A = T/(μ A r)
+        let per_torque = 1.0 / (self.plate_coefficient * self.friction_area);
+        let pressed = Pressed { constant: self.preload, per_load: self.torque_coefficient, ..Pressed::NONE };
         let side = SideFriction {
             constant: self.preload,
             per_torque: self.torque_coefficient,
             stiffness: self.stiffness,
             radius: self.mean_radius,
+            pressed: pressed.times(per_torque),
             ..SideFriction::default()
         };
         let Self { static_ratio, sliding, .. } = *self;

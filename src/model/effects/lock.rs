@@ -21,16 +21,10 @@ impl Declare for LockSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            row("lock.torque", "Torque that the lock holds on each side at full command").real(
-                units::NEWTON_METRE,
-                (0.0, 1e7),
-                |p| &mut p.torque,
-            ),
-            row("lock.stiffness", "Stiffness of the lock on each side at full command").real(
-                units::NM_PER_RAD,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-            ),
+            row("lock.torque", "Torque of each side at full command")
+                .real(units::NEWTON_METRE, (0.0, 1e7), |p| &mut p.torque),
+            row("lock.stiffness", "Stiffness of each side at full command")
+                .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]
     }
 

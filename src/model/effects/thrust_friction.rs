@@ -11,12 +11,12 @@
 //! constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). Of the study's gears the rule gives 8.0,
 //! 13.5 and 22.8 mm, where the start values are 8, 14 and 22 mm.
 
-use crate::declaration::units::{self, MM};
+use crate::declaration::units::{self, CM2, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
-    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Setting, SideFriction, SlipSpec, SurfaceTemperature,
-    check_slip, slip_rows,
+    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, SlipSpec,
+    SurfaceTemperature, check_slip, pv_reading, slip_rows,
 };
 use crate::model::scene::GearContact;
 use crate::model::thermal::WASHERS;
@@ -47,6 +47,12 @@ spec! {
         pub planet_washer_radius: f64 = 14e-3,
         /// Mean radius of the side gears' washers [m], if not from the gears.
         pub side_washer_radius: f64 = 22e-3,
+        /// Area of a planet's washer [m²].
+        pub planet_washer_area: f64 = 1e-3,
+        /// Area of a side gear's washer [m²].
+        pub side_washer_area: f64 = 2e-3,
+        /// Projected area of a planet's bore on its pin, diameter × length [m²].
+        pub pin_area: f64 = 3e-4,
         /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
         pub stiffness: f64 = 1e5,
         /// Breakaway torque of a stuck surface over its sliding torque.
@@ -64,12 +70,15 @@ impl Declare for ThrustFrictionSpec {
         description: "Heat of thrust washers and pins since the start",
         at_wheels: false,
     });
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.washers", "Pressure times sliding speed of washers and pins; largest of all")];
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
         why: "it follows from the thrusts of the meshes",
     });
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
+        let area = |name, of, at| row(name, of).real((units::SQUARE_METRE, CM2), (1e-8, 10.0), at);
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
             row("thrust_friction.coefficient", "Coefficient of friction of the thrust washers").tunable().real(
                 units::ONE,
@@ -90,25 +99,25 @@ impl Declare for ThrustFrictionSpec {
             row("thrust_friction.pin_radius", "Radius of the pins, if not from geometry")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
-            row(
-                "thrust_friction.planet_washer_radius",
-                "Mean radius of the planets' thrust washers, if not from geometry",
-            )
-            .when("thrust_friction.radii_from_geometry = false")
-            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
-            row(
-                "thrust_friction.side_washer_radius",
-                "Mean radius of the side gears' thrust washers, if not from geometry",
-            )
-            .when("thrust_friction.radii_from_geometry = false")
-            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
+            row("thrust_friction.planet_washer_radius", "Mean radius of the planets' washers, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
+            row("thrust_friction.side_washer_radius", "Mean radius of the side gears' washers, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
             row(
                 "thrust_friction.stiffness",
                 "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
             )
             .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-            row("thrust_friction.static_ratio", "Breakaway torque of stuck washers and pins over their sliding torque")
-                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("thrust_friction.static_ratio", "Breakaway torque over sliding torque").real(
+                units::ONE,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+            ),
+            area("thrust_friction.planet_washer_area", "Area of a planet's washer", |p| &mut p.planet_washer_area),
+            area("thrust_friction.side_washer_area", "Area of a side gear's washer", |p| &mut p.side_washer_area),
+            area("thrust_friction.pin_area", "Projected area of a pin in its planet", |p| &mut p.pin_area),
         ];
         rows.extend(slip_rows!("thrust_friction", sliding));
         rows
@@ -211,11 +220,14 @@ impl Effect for ThrustFrictionSpec {
         let [planet, side] = setting.pair.gears.map(|gear| f64::from(gear.teeth));
         let ratio = planet / side;
         let Radii { pin, washer } = self.radii(setting);
+        let by_thrust = |radius: f64, area: f64| Pressed { per_thrust: radius / area, ..Pressed::NONE };
+        let on_pin = Pressed { per_load: pin / self.pin_area, ..Pressed::NONE };
         Some(FrictionSource {
             side: SideFriction {
                 per_thrust: self.coefficient * washer[1],
                 stiffness: self.stiffness,
                 radius: washer[1],
+                pressed: by_thrust(washer[1], self.side_washer_area),
                 ..SideFriction::default()
             },
             planet: PlanetFriction {
@@ -223,6 +235,7 @@ impl Effect for ThrustFrictionSpec {
                 per_thrust: self.coefficient * washer[0],
                 stiffness: self.stiffness * ratio * ratio,
                 radius: [pin, washer[0]],
+                pressed: [on_pin, by_thrust(washer[0], self.planet_washer_area)],
             },
             static_ratio: self.static_ratio,
             sliding: self.sliding,

@@ -113,8 +113,11 @@ impl Declare for WarmUpSpec {
             row("warm_up.sump_given", "Oil keeps oil.temperature, as with a cooler; false: it warms up")
                 .switch(|p| &mut p.sump_given),
             capacity("warm_up.oil_capacity", "Heat capacity of the oil", |p| &mut p.oil_capacity),
-            row("warm_up.gear_specific_heat", "Specific heat of the gears, whose masses are those of their solids")
-                .real(units::JOULE_PER_KG_K, (1.0, 1e5), |p| &mut p.gear_specific_heat),
+            row("warm_up.gear_specific_heat", "Specific heat of the gears, with the masses of their solids").real(
+                units::JOULE_PER_KG_K,
+                (1.0, 1e5),
+                |p| &mut p.gear_specific_heat,
+            ),
             capacity("warm_up.clutch_capacity", "Heat capacity of the clutch packs", |p| &mut p.clutch_capacity),
             capacity("warm_up.washer_capacity", "Heat capacity of washers and pins", |p| &mut p.washer_capacity),
             capacity("warm_up.case_capacity", "Heat capacity of case and housing", |p| &mut p.case_capacity),

@@ -9,12 +9,12 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
 //! of a locked mode, so that both wheels may be braked while speeds are imposed.
 
-use crate::declaration::units::{self, DEG_C, MM};
+use crate::declaration::units::{self, CM2, DEG_C, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SlipSpec, SurfaceTemperature, WheelFriction,
-    check_slip, slip_rows,
+    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, SlipSpec, SurfaceTemperature,
+    WheelFriction, check_slip, pv_reading, slip_rows,
 };
 use crate::numeric::sqrt;
 use crate::problem::Problem;
@@ -28,6 +28,10 @@ spec! {
         pub static_ratio: f64 = 1.0,
         /// Mean radius of the linings [m].
         pub mean_radius: f64 = 0.12,
+        /// Area of the linings of a wheel [m²].
+        pub friction_area: f64 = 0.01,
+        /// Coefficient of friction of the linings.
+        pub lining_coefficient: f64 = 0.4,
         /// Temperature of the linings [K].
         pub temperature: f64 = 353.15,
         /// How they slide.
@@ -43,23 +47,35 @@ impl Declare for WheelBrakeSpec {
         "Brakes that resist and hold the wheels, by left.brake_torque and right.brake_torque";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
+    const READINGS: &'static [Reading] =
+        &[pv_reading("pv.brake", "Pressure times sliding speed of the linings; larger of both")];
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
+            row("wheel_brake.stiffness", "Stiffness of a brake at standstill").real(
                 units::NM_PER_RAD,
                 (1.0, 1e9),
                 |p| &mut p.stiffness,
             ),
-            row(
-                "wheel_brake.static_ratio",
-                "Breakaway torque of a brake at standstill over the torque that is commanded",
-            )
-            .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("wheel_brake.static_ratio", "Breakaway torque over sliding torque").real(
+                units::ONE,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+            ),
             row("wheel_brake.mean_radius", "Mean radius of the linings, at which their sliding speed counts")
                 .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
+            row("wheel_brake.friction_area", "Area of the linings of a wheel").real(
+                (units::SQUARE_METRE, CM2),
+                (1e-8, 10.0),
+                |p| &mut p.friction_area,
+            ),
+            row("wheel_brake.lining_coefficient", "Coefficient of friction of the linings").real(
+                units::ONE,
+                (0.01, 1.0),
+                |p| &mut p.lining_coefficient,
+            ),
             row("wheel_brake.temperature", "Temperature of the linings")
                 .when("wheel_brake.cold_factor != 1 or wheel_brake.hot_factor != 1")
                 .tunable()
@@ -104,6 +120,8 @@ impl Effect for WheelBrakeSpec {
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
             radius: self.mean_radius,
+            // a torque μ N r presses with N/A = T/(μ A r)
+            pressed: Pressed { per_load: 1.0 / (self.lining_coefficient * self.friction_area), ..Pressed::NONE },
         };
         let Self { static_ratio, sliding, .. } = *self;
         let temperature = SurfaceTemperature::Given(self.temperature);

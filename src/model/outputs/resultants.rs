@@ -6,7 +6,7 @@ use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State};
+use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State, each_pv};
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, Plan};
@@ -66,6 +66,15 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
 
+/// Raises the readings of p·v to the largest of each effect's surfaces.
+fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Acted<N>, at: &Point<N>) {
+    each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
+        if let Some(place) = places_of(source.effect, Changes::Always).next() {
+            out.readings[place] = out.readings[place].max(pv);
+        }
+    });
+}
+
 /// Power turned into heat within the differential [W].
 fn lost(heat: &[f64; HEATS]) -> f64 {
     heat.iter().zip(HEATS_WITHIN).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
@@ -91,6 +100,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     read_effects(&mut out, model, inputs, state);
+    read_pv(&mut out, model, equations, point);
     if extent == Extent::Bodies {
         add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
         return out;
@@ -228,5 +238,8 @@ pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inpu
     let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.ideal.rigid_end[s] * a[s];
     let shafts = [0, 1].map(|s| if plan.shafts[s] { ledger_rates.shaft[s] } else { by_rigid(s) });
     let heat = lost(&ledger_rates.heat);
-    without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&equations.torques(point), shafts), heat)
+    let torques = equations.torques(point);
+    let mut out = without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&torques, shafts), heat);
+    read_pv(&mut out, model, equations, point);
+    out
 }

@@ -1,17 +1,29 @@
-//! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength.
+//! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
+//! above its limit.
 
 use super::Simulation;
+use crate::declaration::units::W_PER_MM2;
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::Largest;
+use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::{Largest, each_pv};
+use crate::model::effect_kinds::Surface;
 use crate::model::effects::strength::{Fatigue, Stressed};
-use crate::problem::Problem;
+use crate::problem::{Problem, told_apart};
+
+/// Limits of p·v, by the effects whose surfaces they are.
+const PV_LIMITS: [(&str, &str); 3] = [
+    ("thrust_friction", "thrust_friction.pv_limit"),
+    ("limited_slip", "limited_slip.pv_limit"),
+    ("wheel_brake", "wheel_brake.pv_limit"),
+];
 
 /// What has been reported in a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reported {
     friction_law: bool,
     stress: [bool; Stressed::ALL.len()],
+    pv: [bool; PV_LIMITS.len()],
     start: bool,
 }
 
@@ -33,7 +45,46 @@ impl Simulation {
                 }
             }
         }
+        for ((effect, variable), reported) in PV_LIMITS.into_iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
+            if let Some(problem) = self.above_pv_limit(effect, variable) {
+                *reported = true;
+                found.push(problem);
+            }
+        }
         found
+    }
+
+    /// The surface of `effect` that is the farthest above its limit of p·v, named `variable`, at this instant.
+    fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let sources = &model.body_effects().friction;
+        let limit = sources.iter().find(|source| source.effect == effect)?.sliding.pv_limit;
+        if limit == 0.0 {
+            return None;
+        }
+        let mut worst: Option<(Surface, f64)> = None;
+        with_equations!(model, state, inputs, |equations| {
+            each_pv(&equations, sources, &state.point(), |source, surface, pv| {
+                if source.effect == effect && pv > worst.map_or(limit, |(_, most)| most) {
+                    worst = Some((surface, pv));
+                }
+            });
+        });
+        let (surface, pv) = worst?;
+        let planet = |group: usize| format!("planet[{}]", model.ideal.plan.group(group).planet + 1);
+        let side = |s: usize| ["left", "right"][s];
+        let what = match surface {
+            Surface::Side(s) => format!("the {} side gear", side(s)),
+            Surface::Pin(group) => format!("{} on its pin", planet(group)),
+            Surface::PlanetWasher(group) => format!("{} on its washer", planet(group)),
+            Surface::Wheel(s) => format!("the {} wheel", side(s)),
+        };
+        let [pv, limit] = told_apart([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
+        let time = state.time();
+        Some(problem!(
+            variable,
+            "p v of {what} of {pv} W/mm2 exceeds the limit of {limit} W/mm2 at t = {time:.6} s; reported once"
+        ))
     }
 
     /// Where safety and damage include a start that was not in equilibrium: when they were the worst. The same once in a run, at

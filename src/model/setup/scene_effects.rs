@@ -103,7 +103,9 @@ impl<'a> SceneEffects<'a> {
 
     /// Dry friction.
     pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
-        self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting))
+        self.acting().filter_map(|(entry, setting, effect)| {
+            effect.friction(&setting).map(|source| FrictionSource { effect: entry.name, ..source })
+        })
     }
 }
 

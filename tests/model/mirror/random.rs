@@ -242,6 +242,13 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
     drag.oil_level = if d.chance(0.8) { d.unit() } else { 0.0 };
     drag.seal_diameter = if d.chance(0.5) { d.between(0.01, 0.05) } else { 0.0 };
     drag.bearing_load = if d.chance(0.5) { d.between(0.0, 1e4) } else { 0.0 };
+    let s = &mut p.specs;
+    for (sliding, middle) in
+        [(&mut s.limited_slip.sliding, 1e5), (&mut s.thrust_friction.sliding, 1e5), (&mut s.wheel_brake.sliding, 1e6)]
+    {
+        sliding.pv_limit = if d.chance(0.5) { d.about(middle, 30.0) } else { 0.0 };
+        sliding.beyond_limit = d.between(0.5, 1.5);
+    }
 }
 
 /// Scene number `index` with planets that roll over some teeth.
