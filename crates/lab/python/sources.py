@@ -209,7 +209,10 @@ def main():
             file = folder / "calls"
             file.write_text("\n".join(calls) + "\n", encoding="ascii")
             done = subprocess.run([*build.runner, program, file], capture_output=True, check=False)
-            taken = max(taken, *(int(line.split()[1]) for line in done.stderr.decode().splitlines() if line.startswith("memory ")), 0)
+            told = dict(line.split() for line in done.stderr.decode().splitlines() if line.startswith(("memory ", "allocated ")))
+            taken = max(taken, int(told.get("memory", 0)))
+            if told.get("allocated") != "0":
+                problems.append(f"{build.name}: {scene[0]}: {told.get('allocated')} calls of the allocator after the initialisation")
             found = np.frombuffer(done.stdout, dtype="<f8").reshape(-1, len(native.outputs))
             agrees, words = compared(expected, found)
             if done.returncode or not agrees:
