@@ -236,8 +236,7 @@ def main():
     problems += refusals(folder, sources, headers, folder / "0")
     text = markdown(rows, left=(0, 2))
     text += f"\n{values} values of {len(scenes)} scenes; {size / 1e6:.1f} MB of sources, {packed / 1e6:.2f} MB in the archive. "
-    text += f"Of the C library they call {', '.join(sorted(calls_of_c))}. "
-    text += f"Of the memory of an instance at most {taken / 2**20:.2f} MiB are used.\n"
+    text += f"They call {', '.join(sorted(calls_of_c))}. An instance uses at most {taken / 2**20:.2f} MiB.\n"
     if problems:
         raise SystemExit(f"{text}\n" + "\n".join(problems))
     print(text, end="")
