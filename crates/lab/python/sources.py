@@ -32,8 +32,10 @@ SOLID, METHODS = "solid", ("radau", "rodas4", "dormand_prince")
 QUICK = ("study, turn, tooth", "study, turn, lumped", "turn, fixed_step", "all effects, line", "scenes/hil.toml", "scenes/locked.toml")
 # scenes that fmpy runs with what it builds
 BY_FMPY = ("study, turn, tooth", "scenes/hil.toml", "scenes/study_turning.toml")
-# what the sources may call of the C library
-ALLOWED = {"setjmp", "longjmp", "memcpy", "memmove", "memset", "strlen", "sqrt"}
+# what the sources may call of the C library; processors without an instruction that rounds take floor and trunc from there
+ALLOWED = {"setjmp", "longjmp", "memcpy", "memmove", "memset", "strlen", "sqrt", "floor", "trunc"}
+# what compilers for 32-bit ARM bring along for whole numbers, which is no part of the C library
+OF_COMPILERS = "__aeabi_"
 # the names that libraries have for these
 ALIASES = {"_setjmp": "setjmp", "__aeabi_memcpy": "memcpy", "__aeabi_memmove": "memmove", "__aeabi_memset": "memset"}
 # scenes that are timed, each in steps of 1 ms [s], so long that they take a tenth of a second or more; how often; and the least speed,
@@ -101,7 +103,8 @@ def called(objects):
     for line in run(["nm", "--format=posix", *objects]).stdout.splitlines():
         name, kind = (line.split() + ["", ""])[:2]
         (wanted if kind == "U" else defined).add(name)
-    return {ALIASES.get(name, name) for name in wanted - defined}
+    names = {ALIASES.get(name, name) for name in wanted - defined}
+    return {name for name in names if not name.startswith(OF_COMPILERS)}
 
 
 def run(command, **options):
