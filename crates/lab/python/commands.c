@@ -7,7 +7,8 @@
    x                       initialises
    d TIME SIZE             a step
    g                       reads all outputs, 8 bytes each
-   A call that fails ends the program. With MEMORY, in the sources, says at the end what memory instances took, in bytes. */
+   A call that fails ends the program. With MEMORY, in the sources, says at the end what memory instances took, in bytes, and how often
+   calls after the initialisation called the allocator; those that log a message do not count. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,8 +23,10 @@ static void look(const void *unit) {
     const unsigned long taken = (unsigned long)((const bd_unit *)unit)->machine.pages * BD_PAGE;
     if (taken > most) most = taken;
 }
+static unsigned long allocator_calls(void *unit) { return bd_source_allocator_calls_0(&((bd_unit *)unit)->machine); }
 #else
 #define look(unit) (void)0
+#define allocator_calls(unit) 0ul
 #endif
 
 enum { MOST = 1024 };
@@ -32,10 +35,13 @@ static fmi2Component unit;
 static fmi2ValueReference outputs[MOST];
 static fmi2Real values[MOST];
 static size_t n_outputs;
+static int is_running, has_spoken;
+static unsigned long allocated;
 
 static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category, fmi2String text, ...) {
     (void)environment;
     (void)name;
+    has_spoken = 1;
     fprintf(stderr, "%s %d: %s\n", category, (int)status, text);
 }
 
@@ -46,7 +52,7 @@ static void check(fmi2Status status, const char *line) {
     }
 }
 
-static void call(const char *line, const char *first, const char *second) {
+static void carry_out(const char *line, const char *first, const char *second) {
     static const fmi2CallbackFunctions callbacks = {say, NULL, NULL, NULL, NULL};
     const fmi2ValueReference reference = (fmi2ValueReference)atol(first);
     const fmi2Real number = strtod(second, NULL);
@@ -58,6 +64,7 @@ static void call(const char *line, const char *first, const char *second) {
             fmi2FreeInstance(unit);
         }
         n_outputs = 0;
+        is_running = 0;
         unit = fmi2Instantiate("commands", fmi2CoSimulation, first, "", &callbacks, fmi2False, fmi2False);
         if (!unit) exit(1);
         check(fmi2SetupExperiment(unit, fmi2False, 0.0, 0.0, fmi2False, 0.0), line);
@@ -77,6 +84,14 @@ static void call(const char *line, const char *first, const char *second) {
     }
 }
 
+static void call(const char *line, const char *first, const char *second) {
+    const unsigned long before = is_running ? allocator_calls(unit) : 0;
+    has_spoken = 0;
+    carry_out(line, first, second);
+    if (is_running && !has_spoken) allocated += allocator_calls(unit) - before;
+    is_running |= line[0] == 'x';
+}
+
 int main(int count, char **given) {
     char line[256], first[128], second[128];
     FILE *file = count == 2 ? fopen(given[1], "r") : NULL;
@@ -89,7 +104,7 @@ int main(int count, char **given) {
     fclose(file);
     look(unit);
 #ifdef MEMORY
-    fprintf(stderr, "memory %lu\n", most);
+    fprintf(stderr, "memory %lu\nallocated %lu\n", most, allocated);
 #endif
     return 0;
 }

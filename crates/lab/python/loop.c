@@ -3,7 +3,8 @@
 
    loop GUID SET DRIVE OUTPUT...
    SET: start values, lines "Real|Integer|Boolean REFERENCE VALUE". DRIVE: a line with the references of inputs; then a line for each
-   step: 1 if its instructions are to be counted, and the values of the inputs. OUTPUT: value references of Reals. Prints memory and stack in bytes, and a sum over the bits of all outputs. */
+   step: 1 if its instructions are to be counted, and the values of the inputs. OUTPUT: value references of Reals. Prints memory and stack
+   in bytes, and a sum over the bits of all outputs; fails if a step allocates. */
 
 #include <pthread.h>
 #include <stdio.h>
@@ -94,18 +95,22 @@ void one_communication_step(size_t k) { take_step(k); }
 
 static void *run(void *nothing) {
     unsigned long long sum = 0xcbf29ce484222325ull;
-    u32 pages;
+    bd *machine;
+    u32 pages, calls;
     size_t k, i;
     begin();
-    pages = ((bd_unit *)unit)->machine.pages;
+    machine = &((bd_unit *)unit)->machine;
+    pages = machine->pages;
+    calls = bd_source_allocator_calls_0(machine);
     for (k = 0; k < n_steps; ++k) {
         if (counted[k]) one_communication_step(k);
         else take_step(k);
         for (i = 0; i < n_outputs; ++i) sum = (sum ^ i64_reinterpret_f64(values[i])) * 0x100000001b3ull;
     }
     printf("%016llx\n", sum);
-    if (((bd_unit *)unit)->machine.pages != pages) {
-        fprintf(stderr, "steps took memory: %u pages, then %u\n", pages, ((bd_unit *)unit)->machine.pages);
+    calls = bd_source_allocator_calls_0(machine) - calls;
+    if (machine->pages != pages || calls) {
+        fprintf(stderr, "steps took memory: %u pages, then %u, and %u calls of the allocator\n", pages, machine->pages, calls);
         exit(1);
     }
     return nothing;

@@ -1,5 +1,5 @@
-/* Instances of the sources in C: as many as there may be, one of which stops by a trap; and processors that calculate otherwise.
-   Compiled with the sources; with ARITHMETIC=1 the runtime is one that fuses, and no instance is to be had. */
+/* Instances of the sources in C: as many as there may be, one of which stops by a trap; what they allocate; and processors that
+   calculate otherwise. Compiled with the sources; with ARITHMETIC=1 the runtime is one that fuses, and no instance is to be had. */
 
 #include <fenv.h>
 #include <stdio.h>
@@ -60,6 +60,26 @@ static fmi2Real stepped(fmi2Component c, int steps) {
     return value;
 }
 
+static u32 allocator_calls(fmi2Component c) { return bd_source_allocator_calls_0(&((bd_unit *)c)->machine); }
+
+/* After the initialisation nothing is allocated; what is would be noticed, as that for more values than any host asks for at once. */
+static void with_allocation(void) {
+    enum { MANY = 2000 };
+    static fmi2ValueReference references[MANY];
+    static fmi2Real values[MANY];
+    fmi2Component c = made(guid());
+    u32 before;
+    int k;
+    for (k = 0; k < MANY; ++k) references[k] = 200;
+    stepped(c, 1);
+    before = allocator_calls(c);
+    expect(before > 0, "an instance allocates as it begins");
+    expect(fmi2DoStep(c, 1e-3, 1e-3, fmi2True) == fmi2OK && fmi2GetReal(c, references, 100, values) == fmi2OK, "an instance goes on");
+    expect(allocator_calls(c) == before, "steps allocate nothing");
+    expect(fmi2GetReal(c, references, MANY, values) == fmi2OK && allocator_calls(c) > before, "an allocation is noticed");
+    fmi2FreeInstance(c);
+}
+
 static void with_traps(void) {
     fmi2Component all[BD_INSTANCES];
     fmi2FMUstate state = NULL;
@@ -105,6 +125,7 @@ int main(void) {
     expect(!made("") && strstr(last, "fused"), "fused operations are refused");
 #else
     guid();
+    with_allocation();
     with_traps();
     with_other_arithmetic();
 #endif

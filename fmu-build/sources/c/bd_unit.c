@@ -80,6 +80,45 @@ u32 bd_from_host(bd_unit *u, const void *pointer) {
     return at > memory && at - memory < BD_MEMORY ? (u32)(at - memory) : 1;
 }
 
+/* A pointer to a state, in the library's memory and then the host's. */
+static void put_state(bd_unit *u, u32 place, void *const *state) {
+    if (state) i32_store(&u->machine, place, 0, bd_from_host(u, *state));
+}
+static void get_state(bd_unit *u, u32 place, u32 status, void **state) {
+    if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(&u->machine, place, 0));
+}
+
+int bd_get_or_free_state(bd_unit *u, bd_state_call *call, void **state) {
+    const u32 room = bd_room(u, sizeof(u32));
+    u32 status;
+    put_state(u, room, state);
+    status = call(&u->machine, u->component, state ? room : 0);
+    get_state(u, room, status, state);
+    return bd_ended(u, status);
+}
+
+int bd_size_of_state(bd_unit *u, bd_size_call *call, const void *state, size_t *size) {
+    const u32 room = bd_room(u, sizeof(u32)), status = call(&u->machine, u->component, bd_from_host(u, state), size ? room : 0);
+    if (size && status <= BD_WARNING) *size = i32_load(&u->machine, room, 0);
+    return bd_ended(u, status);
+}
+
+int bd_serialize_state(bd_unit *u, bd_bytes_call *call, const void *state, void *bytes, size_t size) {
+    const u32 room = bd_room(u, size), status = call(&u->machine, u->component, bd_from_host(u, state), bytes ? room : 0, (u32)size);
+    if (status <= BD_WARNING) bd_get(u, room, bytes, size);
+    return bd_ended(u, status);
+}
+
+int bd_deserialize_state(bd_unit *u, bd_bytes_call *call, const void *bytes, size_t size, void **state) {
+    const u32 room = bd_room(u, sizeof(u64) + size);
+    u32 status;
+    bd_put(u, room + 8, bytes, size);
+    put_state(u, room, state);
+    status = call(&u->machine, u->component, bytes ? room + 8 : 0, (u32)size, state ? room : 0);
+    get_state(u, room, status, state);
+    return bd_ended(u, status);
+}
+
 int bd_ended(bd_unit *u, u32 status) {
     const u32 count = bd_room(u, sizeof(u32)), first = bd_source_messages_0(&u->machine, count);
     u32 bytes = i32_load(&u->machine, count, 0), at = first;

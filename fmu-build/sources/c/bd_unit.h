@@ -54,6 +54,16 @@ int bd_ended(bd_unit *u, u32 status);
 /* The same after a trap: the instance is dead. */
 int bd_died(bd_unit *u, int reason);
 
+/* States, which lie in the memory of the instance that they belong to: the host's pointers point there. `call` is the function of the
+   library, whose name depends on the version of FMI. Each returns the status of the call. */
+typedef u32 bd_state_call(bd *, u32, u32);
+typedef u32 bd_size_call(bd *, u32, u32, u32);
+typedef u32 bd_bytes_call(bd *, u32, u32, u32, u32);
+int bd_get_or_free_state(bd_unit *u, bd_state_call *call, void **state);
+int bd_size_of_state(bd_unit *u, bd_size_call *call, const void *state, size_t *size);
+int bd_serialize_state(bd_unit *u, bd_bytes_call *call, const void *state, void *bytes, size_t size);
+int bd_deserialize_state(bd_unit *u, bd_bytes_call *call, const void *bytes, size_t size, void **state);
+
 /* The begin of every call: `u` is the instance of the component `c`. A trap returns from the function that this stands in. */
 #define BD_BEGIN(c, status) \
     bd_unit *const u = (bd_unit *)(c); \

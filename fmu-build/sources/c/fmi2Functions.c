@@ -183,21 +183,16 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     }
 }
 
-/* States lie in the memory of the instance that they belong to: the host's pointers point there. */
-#define STATE(function) \
-    fmi2Status function(fmi2Component c, fmi2FMUstate *state) { \
-        BEGIN; \
-        { \
-            const u32 room = bd_room(u, sizeof(u32)); \
-            u32 status; \
-            if (state) i32_store(M, room, 0, bd_from_host(u, *state)); \
-            status = bd_##function##_0(M, u->component, state ? room : 0); \
-            if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(M, room, 0)); \
-            return (fmi2Status)bd_ended(u, status); \
-        } \
-    }
-STATE(fmi2GetFMUstate)
-STATE(fmi2FreeFMUstate)
+/* states */
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    BEGIN;
+    return (fmi2Status)bd_get_or_free_state(u, bd_fmi2GetFMUstate_0, state);
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
+    BEGIN;
+    return (fmi2Status)bd_get_or_free_state(u, bd_fmi2FreeFMUstate_0, state);
+}
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
     BEGIN;
@@ -206,31 +201,15 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, sizeof(u32)), status = bd_fmi2SerializedFMUstateSize_0(M, u->component, bd_from_host(u, state), size ? room : 0);
-        if (size && status <= BD_WARNING) *size = i32_load(M, room, 0);
-        return (fmi2Status)bd_ended(u, status);
-    }
+    return (fmi2Status)bd_size_of_state(u, bd_fmi2SerializedFMUstateSize_0, state, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, size), status = bd_fmi2SerializeFMUstate_0(M, u->component, bd_from_host(u, state), bytes ? room : 0, (u32)size);
-        if (status <= BD_WARNING) bd_get(u, room, bytes, size);
-        return (fmi2Status)bd_ended(u, status);
-    }
+    return (fmi2Status)bd_serialize_state(u, bd_fmi2SerializeFMUstate_0, state, bytes, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, sizeof(u64) + size);
-        u32 status;
-        bd_put(u, room + 8, bytes, size);
-        if (state) i32_store(M, room, 0, bd_from_host(u, *state));
-        status = bd_fmi2DeSerializeFMUstate_0(M, u->component, bytes ? room + 8 : 0, (u32)size, state ? room : 0);
-        if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(M, room, 0));
-        return (fmi2Status)bd_ended(u, status);
-    }
+    return (fmi2Status)bd_deserialize_state(u, bd_fmi2DeSerializeFMUstate_0, bytes, size, state);
 }

@@ -206,21 +206,16 @@ fmi3Status fmi3GetString(fmi3Instance c, const fmi3ValueReference vr[], size_t c
     }
 }
 
-/* States lie in the memory of the instance that they belong to: the host's pointers point there. */
-#define STATE(function) \
-    fmi3Status function(fmi3Instance c, fmi3FMUState *state) { \
-        BEGIN; \
-        { \
-            const u32 room = bd_room(u, sizeof(u32)); \
-            u32 status; \
-            if (state) i32_store(M, room, 0, bd_from_host(u, *state)); \
-            status = bd_##function##_0(M, u->component, state ? room : 0); \
-            if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(M, room, 0)); \
-            return (fmi3Status)bd_ended(u, status); \
-        } \
-    }
-STATE(fmi3GetFMUState)
-STATE(fmi3FreeFMUState)
+/* states */
+fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
+    BEGIN;
+    return (fmi3Status)bd_get_or_free_state(u, bd_fmi3GetFMUState_0, state);
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
+    BEGIN;
+    return (fmi3Status)bd_get_or_free_state(u, bd_fmi3FreeFMUState_0, state);
+}
 
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
     BEGIN;
@@ -229,33 +224,17 @@ fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, sizeof(u32)), status = bd_fmi3SerializedFMUStateSize_0(M, u->component, bd_from_host(u, state), size ? room : 0);
-        if (size && status <= BD_WARNING) *size = i32_load(M, room, 0);
-        return (fmi3Status)bd_ended(u, status);
-    }
+    return (fmi3Status)bd_size_of_state(u, bd_fmi3SerializedFMUStateSize_0, state, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, size), status = bd_fmi3SerializeFMUState_0(M, u->component, bd_from_host(u, state), bytes ? room : 0, (u32)size);
-        if (status <= BD_WARNING) bd_get(u, room, bytes, size);
-        return (fmi3Status)bd_ended(u, status);
-    }
+    return (fmi3Status)bd_serialize_state(u, bd_fmi3SerializeFMUState_0, state, bytes, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
     BEGIN;
-    {
-        const u32 room = bd_room(u, sizeof(u64) + size);
-        u32 status;
-        bd_put(u, room + 8, bytes, size);
-        if (state) i32_store(M, room, 0, bd_from_host(u, *state));
-        status = bd_fmi3DeserializeFMUState_0(M, u->component, bytes ? room + 8 : 0, (u32)size, state ? room : 0);
-        if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(M, room, 0));
-        return (fmi3Status)bd_ended(u, status);
-    }
+    return (fmi3Status)bd_deserialize_state(u, bd_fmi3DeserializeFMUState_0, bytes, size, state);
 }
 
 /* All the rest of FMI 3.0: there are no such variables, no clocks, no solver of the host's, no derivatives. */
