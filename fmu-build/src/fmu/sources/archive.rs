@@ -22,7 +22,7 @@ const INDEX: &str = "documentation/index.html";
 /// What of the FMU the sources do without: libraries, evidence of all that these can do, and the page that stands on one.
 const LEFT_OUT: [&str; 4] = ["binaries/", "extra/", "documentation/fmi-ls-ref", "documentation/BevelDifferential.html"];
 /// What the sources need.
-const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its library setjmp, string functions and roots. Co-simulation \
+const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its library setjmp, string functions, roots and rounding. Co-simulation \
                      with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
 
 /// Writes the archive with the sources next to `fmu`, and returns its path.
