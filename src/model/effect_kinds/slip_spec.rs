@@ -112,8 +112,11 @@ macro_rules! slip_rows {
             factor(concat!($effect, ".hot_factor"), "Friction at the hot point over that at the reference", |p| {
                 &mut p.$field.hot_factor
             }),
-            row(concat!($effect, ".pv_limit"), "Limit of pressure times speed, above which the log warns; 0 = none")
-                .real((units::W_PER_M2, units::W_PER_MM2), (0.0, 1e12), |p: &mut Self| &mut p.$field.pv_limit),
+            row(concat!($effect, ".pv_limit"), "Limit of pressure times speed; 0 = none").real(
+                (units::W_PER_M2, units::W_PER_MM2),
+                (0.0, 1e12),
+                |p: &mut Self| &mut p.$field.pv_limit,
+            ),
             row(concat!($effect, ".beyond_limit"), "Friction beyond pv_limit over that below it")
                 .when(concat!($effect, ".pv_limit > 0"))
                 .real(units::ONE, (0.0, 10.0), |p: &mut Self| &mut p.$field.beyond_limit),

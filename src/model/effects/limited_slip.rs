@@ -68,7 +68,7 @@ impl Declare for LimitedSlipSpec {
             ),
             row("limited_slip.stiffness", "Stiffness of a stuck clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-            row("limited_slip.mean_radius", "Mean radius of the plates, at which their sliding speed counts")
+            row("limited_slip.mean_radius", "Mean radius of the plates, for sliding speed")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
             row("limited_slip.friction_area", "Area of all faces of a pack").real(

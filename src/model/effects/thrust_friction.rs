@@ -96,13 +96,13 @@ impl Declare for ThrustFrictionSpec {
                  heel; false: as given",
             )
             .switch(|p| &mut p.radii_from_geometry),
-            row("thrust_friction.pin_radius", "Radius of the pins, if not from geometry")
+            row("thrust_friction.pin_radius", "Radius of the pins")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
-            row("thrust_friction.planet_washer_radius", "Mean radius of the planets' washers, if not from geometry")
+            row("thrust_friction.planet_washer_radius", "Mean radius of the planets' washers")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
-            row("thrust_friction.side_washer_radius", "Mean radius of the side gears' washers, if not from geometry")
+            row("thrust_friction.side_washer_radius", "Mean radius of the side gears' washers")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
             row(

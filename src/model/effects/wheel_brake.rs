@@ -63,7 +63,7 @@ impl Declare for WheelBrakeSpec {
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
             ),
-            row("wheel_brake.mean_radius", "Mean radius of the linings, at which their sliding speed counts")
+            row("wheel_brake.mean_radius", "Mean radius of the linings, for sliding speed")
                 .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
             row("wheel_brake.friction_area", "Area of the linings of a wheel").real(
