@@ -14,7 +14,7 @@ MASS, RADIUS, TRACK = 1600.0, 0.32, 1.55  # kg, m (rolling radius of the wheels)
 TURNING, ROLLING, DRAG = 1.05, 0.012, 0.65  # parts of the mass (wheels turn, too) and of the weight, m2 (area times coefficient)
 AIR, GRAVITY = 1.2, 9.81  # kg/m3, m/s2
 # N.m at the carrier: an automatic creeps up to a speed, and brakes with its engine from another one, m/s. Brakes at the wheels do the rest
-CREEP, CREEPS, ENGINE_BRAKING, BRAKES = 40.0, 3.0, -150.0, 6.0
+CREEP, CREEPS, ENGINE_BRAKING, BRAKES = 150.0, 3.0, -150.0, 6.0
 SMOOTHING = np.array([1.0, 2.0, 3.0, 2.0, 1.0]) / 9.0  # over seconds
 
 # time, s: speed, km/h

@@ -79,6 +79,8 @@ const AFTER_KINK_GROWTH: f64 = 4.0;
 /// Cuts at a switch after which each halves the step at least: where the distance from the switch jumps, as that of a held
 /// body whose speed turns round, a straight line through its ends does not find it.
 const CUTS_BY_LINE: u32 = 5;
+/// Rounding of the positions at the end of a step, relative to them.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
@@ -269,9 +271,9 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
-/// Whether positions change within `h` [s]: what stands on a kink as far as numbers resolve does not get past it.
+/// Whether positions change within `h` [s] by more than rounding: what stands on a kink does not get past it in steps to it.
 fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
-    point.q.iter().zip(&point.v).any(|(q, v)| q + h * v != *q)
+    point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > ROUNDING * q.abs())
 }
 
 /// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.
