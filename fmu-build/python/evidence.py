@@ -82,7 +82,7 @@ class Run:
         if points:
             write_table(folder / self.inputs, points)
             run.signals = table(name, folder / self.inputs, unit.variables, [])
-        self.usual, self.tight = (self._record(run, unit, values, tolerance) for tolerance in (usual, TIGHT))
+        self.usual, self.tight = (self._record(run, unit, values, tolerance) for tolerance in (values.get(SOLVER, usual), TIGHT))
 
     @property
     def outputs(self):
