@@ -26,8 +26,11 @@ pub struct ToothFriction {
 }
 
 impl ToothFriction {
-    /// The same with oil of another viscosity [Pa·s].
+    /// The same with the viscosity of the oil [Pa·s], where it is not given.
     pub fn with_viscosity(self, oil_viscosity: f64) -> Self {
+        if !self.spec.viscosity_from_oil {
+            return self;
+        }
         Self { spec: ToothFrictionSpec { oil_viscosity, ..self.spec }, ..self }
     }
 

@@ -156,6 +156,16 @@ def test_values_of_drag_outside_their_ranges_are_refused(drive, name, value):
         drive(ROLLING | {"bearing_drag.churning_from_geometry": True, f"bearing_drag.{name}": value})
 
 
+@pytest.mark.parametrize("follows", [False, True])
+def test_flanks_with_a_given_viscosity_do_not_follow_an_oil_that_others_follow(drive, follows):
+    values = TURN | {"effects.tooth_friction": True, "tooth_friction.law": "iso_14179", "tooth_friction.viscosity_from_oil": follows,
+                     "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.0,
+                     "bearing_drag.side_viscous": 1e-9}
+    heats = [drive(values | {"oil.temperature": oil}).to(0.1, 1e-3)["heat.tooth_friction"] for oil in [280.0, 380.0]]
+    # a thinner oil rubs more
+    assert heats[1] > 1.1 * heats[0] if follows else heats[1] == pytest.approx(heats[0], rel=1e-6)
+
+
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
     with pytest.raises(DifferentialError) as refused:
         drive({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True})
