@@ -136,7 +136,8 @@ impl CornerGap {
         // the power of two above the span ends the table
         let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
         let first = smallest.to_bits() >> SHIFT;
-        let mut cells = [Cell::default(); CELLS];
+        // on the heap from the beginning: it is large for a small stack
+        let mut cells = vec![Cell::default(); CELLS];
         let mut least_curvature = f64::INFINITY;
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
@@ -154,7 +155,7 @@ impl CornerGap {
             exact,
             first,
             spread: 1.0 / (0.9 * least_curvature),
-            cells: Arc::new(cells),
+            cells: Arc::<[Cell]>::from(cells).try_into().expect("a table of CELLS cells"),
         }
     }
 

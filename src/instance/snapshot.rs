@@ -12,7 +12,7 @@ use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 12;
+const VERSION: u32 = 13;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -65,8 +65,8 @@ impl Snapshot {
     }
 }
 
-/// What of a simulation is serialised behind its snapshot: all but what follows from the parameters.
-type Running = (Option<(State, Watched)>, Option<Accepted>);
+/// What of a simulation is serialised behind its snapshot: all but what follows from the parameters. It is large for a small stack.
+type Running = (Option<Box<(State, Watched)>>, Option<Box<Accepted>>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
@@ -90,10 +90,9 @@ impl Snapshot {
 
     /// The snapshot as bytes.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        let running: Running = self
-            .simulation
-            .as_ref()
-            .map_or((None, None), |s| (Some((*s.state(), *s.watched())), s.accepted().copied()));
+        let running: Running = self.simulation.as_ref().map_or((None, None), |s| {
+            (Some(Box::new((*s.state(), *s.watched()))), s.accepted().copied().map(Box::new))
+        });
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
@@ -108,18 +107,25 @@ impl Snapshot {
 
     /// The snapshot in `bytes`, or why they cannot be used.
     pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
-        let payload = open(bytes)?;
-        let read = postcard::take_from_bytes::<(Self, Running)>(payload);
-        let ((mut snapshot, running), rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
+        let (mut snapshot, running) = Self::read(open(bytes)?)?;
+        snapshot.check(&running)?;
+        if let (Some(state), accepted) = running {
+            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, *state, &given(cache));
+            let resumed = resumed.map_err(|p| problem::list(&p))?;
+            snapshot.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
+        }
+        Ok(*snapshot)
+    }
+
+    /// What a payload holds.
+    #[inline(never)]
+    fn read(payload: &[u8]) -> Result<(Box<Self>, Running), String> {
+        let read = postcard::take_from_bytes(payload);
+        let (found, rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
         if !rest.is_empty() {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
-        snapshot.check(&running)?;
-        if let (Some(state), accepted) = running {
-            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, state, &given(cache));
-            snapshot.simulation = Some(resumed.map_err(|p| problem::list(&p))?.from_accepted(accepted));
-        }
-        Ok(snapshot)
+        Ok(found)
     }
 
     /// Checks that the values are valid; the checksum cannot show that.
@@ -130,7 +136,7 @@ impl Snapshot {
             return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
         if !self.start_time.is_finite()
-            || state.as_ref().is_some_and(|(state, watched)| !state.is_valid() || !watched.is_valid())
+            || state.as_ref().is_some_and(|both| !both.0.is_valid() || !both.1.is_valid())
             || accepted.as_ref().is_some_and(|a| !a.is_valid())
             || self.input_derivatives.is_some_and(|c| !c.is_finite())
         {

@@ -66,7 +66,8 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
 
-/// Raises the readings of p·v to the largest of each effect's surfaces.
+/// Raises the readings of p·v to the largest of each effect's surfaces. Apart, for small stacks.
+#[inline(never)]
 fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Acted<N>, at: &Point<N>) {
     each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
         if let Some(place) = places_of(source.effect, Changes::Always).next() {

@@ -5,9 +5,8 @@ use super::Simulation;
 use crate::declaration::units::W_PER_MM2;
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::sizes::with_equations;
-use crate::model::dynamics::{Largest, each_pv};
-use crate::model::effect_kinds::Surface;
+use crate::model::dynamics::{IdealEquations, Largest, each_pv};
+use crate::model::effect_kinds::{FrictionSource, Surface};
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::problem::{Problem, told_apart};
 
@@ -55,6 +54,7 @@ impl Simulation {
     }
 
     /// The surface of `effect` that is the farthest above its limit of p·v, named `variable`, at this instant.
+    #[inline(never)]
     fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let sources = &model.body_effects().friction;
@@ -63,13 +63,17 @@ impl Simulation {
             return None;
         }
         let mut worst: Option<(Surface, f64)> = None;
-        with_equations!(model, state, inputs, |equations| {
-            each_pv(&equations, sources, &state.point(), |source, surface, pv| {
-                if source.effect == effect && pv > worst.map_or(limit, |(_, most)| most) {
-                    worst = Some((surface, pv));
-                }
-            });
-        });
+        let mut see = |source: &FrictionSource, surface: Surface, pv: f64| {
+            if source.effect == effect && pv > worst.map_or(limit, |(_, most)| most) {
+                worst = Some((surface, pv));
+            }
+        };
+        match &model.gears {
+            Gears::Teeth(teeth) => each_pv(&Largest::new(teeth, inputs, state), sources, &state.point(), &mut see),
+            Gears::Ideal(ideal) => {
+                each_pv(&IdealEquations::new(ideal, inputs, state), sources, &state.point(), &mut see)
+            }
+        }
         let (surface, pv) = worst?;
         let planet = |group: usize| format!("planet[{}]", model.ideal.plan.group(group).planet + 1);
         let side = |s: usize| ["left", "right"][s];

@@ -23,9 +23,11 @@ const START: &str = "scene.start";
 
 impl Simulation {
     /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
+    /// Apart, as other starts have no room for its simulations on a small stack.
+    #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(network) = self.model.thermal.clone() else { return Ok(()) };
-        let mut still = self.clone();
+        let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
         (model.thermal, model.watch) = (None, None);
         let felt: &[usize] =
@@ -46,8 +48,9 @@ impl Simulation {
     }
 
     /// Mean heats of a cycle with all nodes at the temperatures `at` [K]; its attempts at steps add to `attempts`.
+    #[inline(never)]
     fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<Cycle, Problem> {
-        let mut run = self.clone();
+        let mut run = Box::new(self.clone());
         run.state.thermal = Thermal::at(*at);
         let (begin, length) = (self.time(), self.model.parameters.specs.warm_up.cycle);
         let [from, to] = [1.0, 2.0].map(|part| -> Result<_, Problem> {
