@@ -16,7 +16,7 @@ from stand_in import manifest, related
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.command import main
-from bevel_differential.scene_file import find, shipped_scenes
+from bevel_differential.scene_file import find, read_scene, shipped_scenes
 from bevel_differential.verify import verify
 from bevel_differential.verify.evidence import FOLDER, MANIFEST
 
@@ -232,7 +232,8 @@ def test_the_repository_keeps_what_the_command_makes(made):
 @pytest.mark.parametrize("name", sorted(SCENES))
 def test_results_are_those_of_the_scenes(fmu_file, name):
     """The package's own way to simulate a scene, with its own reader of inputs, gives the results too."""
-    with Scene.load(SCENES[name], fmu=fmu_file) as scene:
+    # results are those of hosts, which hold inputs between communication points
+    with Scene(**(read_scene(SCENES[name]) | {"input_slopes": False}), fmu=fmu_file) as scene:
         record = scene.run()
     result = np.genfromtxt(KEPT / "results" / f"{name}.csv", delimiter=",", names=True, deletechars="", replace_space=" ")
     allowed = {row["variable"]: float(row["tolerance"]) for row in csv.DictReader((KEPT / "tolerances.csv").open()) if row["experiment"] == name}
