@@ -31,8 +31,7 @@ impl Engagement {
             return None;
         }
         if approach[0].min(approach[1]) <= 0.0 || position[0] * at(1.0)[0] < 0.0 {
-            let touching = approach[0] > 0.0;
-            return first_change(|t| (self.approach(at(t)[0]) > 0.0) != touching);
+            return self.kink_of_touch(position[0], change[0]);
         }
         let flank = if position[0] < 0.0 { Flank::Drive } else { Flank::Coast };
         let numbers = [self.numbers(flank, position[1], approach[0]), self.numbers(flank, at(1.0)[1], approach[1])];

@@ -126,6 +126,9 @@ macro_rules! units {
     };
 }
 
+/// Coldest and hottest temperatures of oil, gears and clutches [K]: −60 and 400 °C.
+pub const TEMPERATURES: (f64, f64) = (213.15, 673.15);
+
 units! {
     /// Dimensionless.
     ONE = "1", base(0, 0, 0, 0), [];

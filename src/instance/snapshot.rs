@@ -90,9 +90,9 @@ impl Snapshot {
 
     /// The snapshot as bytes.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        let running: Running = self.simulation.as_ref().map_or((None, None), |s| {
-            (Some(Box::new((*s.state(), *s.watched()))), s.accepted().copied().map(Box::new))
-        });
+        // as `Running` has it
+        let simulation = self.simulation.as_ref();
+        let running = (simulation.map(|s| (s.state(), s.watched())), simulation.and_then(Simulation::accepted));
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource};
+use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource, SurfaceTemperature};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan, Viscosity};
 use crate::model::setup::{Parameters, SceneEffects};
@@ -63,6 +63,17 @@ impl BodyEffects {
     /// Viscosity of the oil at the `temperatures` of all nodes [K], where an effect asks for it.
     pub fn oil_viscosity(&self, temperatures: &[f64; NODES]) -> Option<Viscosity> {
         self.oil.map(|oil| oil.viscosity(temperatures[OIL]))
+    }
+
+    /// Nodes whose temperatures friction feels.
+    pub fn felt_nodes(&self) -> Vec<usize> {
+        let is_felt = |node: &usize| {
+            let at_node = SurfaceTemperature::Node(*node);
+            let rubs_there =
+                |source: &FrictionSource| source.temperature == at_node && source.sliding.feels_temperature();
+            *node == OIL && self.oil.is_some() || self.friction.iter().any(rubs_there)
+        };
+        (0..NODES).filter(is_felt).collect()
     }
 
     /// Whether friction depends on temperature.

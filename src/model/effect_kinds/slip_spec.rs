@@ -73,7 +73,7 @@ macro_rules! slip_rows {
     ($effect:literal, $field:ident) => {{
         use $crate::declaration::{row, units};
         let temperature = |name, of, condition, at: fn(&mut Self) -> &mut f64| {
-            row(name, of).when(condition).real((units::KELVIN, units::DEG_C), (213.15, 673.15), at)
+            row(name, of).when(condition).real((units::KELVIN, units::DEG_C), units::TEMPERATURES, at)
         };
         let factor = |name, of, at: fn(&mut Self) -> &mut f64| row(name, of).real(units::ONE, (0.0, 10.0), at);
         [

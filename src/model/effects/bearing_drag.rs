@@ -117,7 +117,7 @@ impl Declare for BearingDragSpec {
                 .switch(|p| &mut p.viscosity_from_oil),
             row("bearing_drag.reference_temperature", "Oil temperature at which viscous drag is as given")
                 .when("bearing_drag.viscosity_from_oil = true")
-                .real((units::KELVIN, DEG_C), (213.15, 673.15), |p| &mut p.reference_temperature),
+                .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.reference_temperature),
             row("bearing_drag.churning_from_geometry", "Churning by size and oil (ISO/TR 14179-1); false: as given")
                 .switch(|p| &mut p.churning_from_geometry),
             row("bearing_drag.carrier_diameter", "Outside diameter of crown wheel and case")

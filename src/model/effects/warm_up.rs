@@ -9,7 +9,6 @@ use crate::declaration::units::{self, DEG_C};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Changes, Declare, Effect, Reading, Setting};
 use crate::model::thermal::network::Conductance;
-use crate::model::thermal::steady::RANGE;
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
 use crate::problem::Problem;
 
@@ -107,7 +106,7 @@ impl Declare for WarmUpSpec {
         vec![
             row("warm_up.ambient_temperature", "Temperature around the case").tunable().real(
                 (units::KELVIN, DEG_C),
-                (213.15, 673.15),
+                units::TEMPERATURES,
                 |p| &mut p.ambient,
             ),
             row("warm_up.sump_given", "Oil keeps oil.temperature, as with a cooler; false: it warms up")
@@ -155,7 +154,7 @@ impl Declare for WarmUpSpec {
 
 impl Effect for WarmUpSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
-        let [coldest, hottest] = RANGE;
+        let (coldest, hottest) = units::TEMPERATURES;
         for (name, above) in self.above_oil() {
             let temperature = setting.oil.temperature + above;
             if !(coldest..=hottest).contains(&temperature) {

@@ -7,8 +7,9 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use super::Simulation;
+use crate::declaration::units::TEMPERATURES;
 use crate::model::setup::HEATS;
-use crate::model::thermal::steady::{Cycle, RANGE, Steady};
+use crate::model::thermal::steady::{Cycle, Steady};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
 use crate::problem::Problem;
 
@@ -30,17 +31,18 @@ impl Simulation {
         let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
         (model.thermal, model.watch) = (None, None);
-        let felt: &[usize] =
-            if model.body_effects().feels_temperature() { &[OIL, GEARS, CLUTCH, WASHERS] } else { &[] };
+        let mut felt = model.body_effects().felt_nodes();
+        // a sump that is given stays as it is
+        felt.retain(|&node| node != OIL || network.sump.is_none());
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
         let cold = network.ambient.min(self.model.parameters.oil.temperature);
-        let temperatures = match network.steady(cold, felt, heats)? {
+        let temperatures = match network.steady(cold, &felt, heats)? {
             Steady::At(temperatures) => temperatures,
             none => return Err(problem!(START, "{}", no_steady_heat(none))),
         };
         if !felt.is_empty() {
-            let from_hot = network.steady(RANGE[1], felt, heats)?;
+            let from_hot = network.steady(TEMPERATURES.1, &felt, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
         }
         self.state.thermal = Thermal::at(temperatures);
@@ -56,11 +58,10 @@ impl Simulation {
         let [from, to] = [1.0, 2.0].map(|part| -> Result<_, Problem> {
             let moved = run.advance(begin + part * length);
             moved.map_err(|failure| problem!(START, "the cycle whose heat is to balance cannot be run: {failure}"))?;
-            Ok((network.entering(&run.ledger().heat), run.motion().carrier_angle))
+            Ok((run.ledger(), run.motion().carrier_angle))
         });
-        let (from, to) = (from?, to?);
-        let work = run.ledger();
-        attempts.set(attempts.get() + work.steps + work.rejected);
+        let ((from, begun_at), (to, ended_at)) = (from?, to?);
+        attempts.set(attempts.get() + to.steps + to.rejected);
         if attempts.get() > MOST_ATTEMPTS {
             return Err(problem!(
                 "warm_up.cycle",
@@ -68,9 +69,10 @@ impl Simulation {
                  begin by equilibrium"
             ));
         }
+        let entered = [from, to].map(|ledger| network.entering(&ledger.heat));
         Ok(Cycle {
-            power: std::array::from_fn(|i| (to.0[i] - from.0[i]) / length),
-            speed: (to.1 - from.1).abs() / length,
+            power: std::array::from_fn(|i| (entered[1][i] - entered[0][i]) / length),
+            speed: (ended_at - begun_at).abs() / length,
         })
     }
 }
@@ -90,8 +92,8 @@ fn no_steady_heat(end: Steady) -> String {
     format!(
         "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, the path of \
          their heat, or rub less",
-        RANGE[0] - ZERO,
-        RANGE[1] - ZERO,
+        TEMPERATURES.0 - ZERO,
+        TEMPERATURES.1 - ZERO,
         temperature - ZERO
     )
 }
@@ -108,14 +110,14 @@ fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
                     "there are several steady states: the oil warms up to {oil:.1} degC from cold, where this run begins, and \
                      cools down to {:.1} degC from {:.0} degC",
                     hot[OIL] - ZERO,
-                    RANGE[1] - ZERO
+                    TEMPERATURES.1 - ZERO
                 )
             })
         }
         _ => Some(problem!(
             START,
             "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not come back to it",
-            RANGE[1] - ZERO
+            TEMPERATURES.1 - ZERO
         )),
     }
 }

@@ -20,9 +20,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::network::GEARS_TO_CASE;
 use super::{CASE, NODES, Network, OIL};
+use crate::declaration::units::TEMPERATURES;
 
-/// Coldest and hottest steady temperatures [K]: −60 and 400 °C, as of all temperatures of the interface.
-pub const RANGE: [f64; 2] = [213.15, 673.15];
 /// First and longest steps [s], and their growth.
 const STEPS: [f64; 2] = [60.0, 1e9];
 const GROWTH: f64 = 8.0;
@@ -66,12 +65,15 @@ impl<const H: usize> Network<H> {
         at[OIL] = self.sump.unwrap_or(begin);
         let [first, longest] = STEPS;
         let mut h = if felt.is_empty() { longest } else { first };
+        let (coldest, hottest) = TEMPERATURES;
+        // far outside no law of an oil holds; the way may lead there, its end may not
+        let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(coldest, hottest)).into();
+        // heats that no temperature changes are told once
+        let constant = if felt.is_empty() { Some(heats(&within(&at))?) } else { None };
         for _ in 0..MOST_STEPS {
-            // far outside no law of an oil holds; the way may lead there, its end may not
-            let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(RANGE[0], RANGE[1])).into();
-            let cycle = heats(&within(&at))?;
+            let cycle = constant.map_or_else(|| heats(&within(&at)), Ok)?;
             let (mut matrix, flow) = self.conduction(cycle.speed);
-            let rest = SVector::from(cycle.power) + flow - matrix * at;
+            let mut rest = SVector::from(cycle.power) + flow - matrix * at;
             for i in 0..NODES {
                 matrix[(i, i)] += self.capacity[i] / h;
             }
@@ -83,7 +85,6 @@ impl<const H: usize> Network<H> {
                     matrix[(i, j)] -= (power[i] - cycle.power[i]) / DIFFERENCE;
                 }
             }
-            let mut rest = rest;
             if self.sump.is_some() {
                 (0..NODES).for_each(|j| matrix[(OIL, j)] = 0.0);
                 (matrix[(OIL, OIL)], rest[OIL]) = (1.0, 0.0);
@@ -93,7 +94,7 @@ impl<const H: usize> Network<H> {
             if h == longest && change.amax() < STEADY {
                 return Ok(Steady::At(at.into()));
             }
-            let out = |x: f64| (x - x.clamp(RANGE[0], RANGE[1])).abs();
+            let out = |x: f64| (x - x.clamp(coldest, hottest)).abs();
             if h == longest
                 && let Some(node) =
                     (0..NODES).filter(|&i| out(at[i]) > 0.0).max_by(|&a, &b| out(at[a]).total_cmp(&out(at[b])))

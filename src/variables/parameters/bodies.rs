@@ -40,7 +40,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             "Temperature of the oil and of all that rubs in it; with effects.warm_up that at the start, or of a given sump",
         )
         .tunable()
-        .real((units::KELVIN, DEG_C), (213.15, 673.15), |p| &mut p.oil.temperature),
+        .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.oil.temperature),
         row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
             .when(OILED)
             .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_40),

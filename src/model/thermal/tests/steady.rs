@@ -73,31 +73,24 @@ fn in_oil(power: f64) -> [f64; NODES] {
     all
 }
 
+/// From `begin` heat in the oil leads to its balance within `range` [K].
+fn assert_balances(begin: f64, range: [f64; 2], heat: impl Fn(f64) -> f64) {
+    let oil = balance(&heat, range);
+    let case = AMBIENT + heat(oil) / TO_AMBIENT;
+    assert_near(steady(&network(None), begin, &[OIL], |at| in_oil(heat(at[OIL]))), [oil, oil, oil, oil, case], 1e-6);
+}
+
 #[test]
 fn the_drag_of_a_thick_oil_has_one_steady_state() {
-    let drag = |oil: f64| 4e3 * (-(oil - 273.0) / 12.0).exp() + 100.0;
-    let oil = balance(drag, [AMBIENT, HOT]);
-    let case = AMBIENT + drag(oil) / TO_AMBIENT;
     for begin in [COLD, HOT] {
-        assert_near(
-            steady(&network(None), begin, &[OIL], |at| in_oil(drag(at[OIL]))),
-            [oil, oil, oil, oil, case],
-            1e-6,
-        );
+        assert_balances(begin, [AMBIENT, HOT], |oil| 4e3 * (-(oil - 273.0) / 12.0).exp() + 100.0);
     }
 }
 
 #[test]
 fn friction_that_grows_with_temperature_has_a_cold_and_a_hot_steady_state() {
-    let heat = |oil: f64| 200.0 + 1200.0 / (1.0 + (-(oil - 380.0) / 5.0).exp());
     for (begin, range) in [(COLD, [AMBIENT, 370.0]), (HOT, [390.0, 600.0])] {
-        let oil = balance(heat, range);
-        let case = AMBIENT + heat(oil) / TO_AMBIENT;
-        assert_near(
-            steady(&network(None), begin, &[OIL], |at| in_oil(heat(at[OIL]))),
-            [oil, oil, oil, oil, case],
-            1e-6,
-        );
+        assert_balances(begin, range, |oil| 200.0 + 1200.0 / (1.0 + (-(oil - 380.0) / 5.0).exp()));
     }
 }
 
