@@ -27,9 +27,9 @@ def text_of(number):
     return f"{number:.5g}"
 
 
-def shown_factor(variable):
-    """By which an SI value is multiplied where it is shown."""
-    return variable.shown(1.0)[1]
+def in_si(variable, text):
+    """What a reader types, read in the unit that the page shows."""
+    return variable.number((text, variable.shown(0.0)[0] or None))
 
 
 def another(variable, value):
@@ -44,11 +44,11 @@ def another(variable, value):
         number = value + 1 if high is None or value < high else value - 1
         return str(number), number
     candidates = [1.1 * value, 0.9 * value, *([low + 0.3 * (high - low), low + 0.6 * (high - low)] if low is not None else [1.0])]
-    factor = shown_factor(variable)
     for candidate in candidates:
-        number = float(text_of(candidate * factor)) / factor
+        text = text_of(variable.shown(candidate)[1])
+        number = in_si(variable, text)
         if number != value and (low is None or low <= number <= high):
-            return text_of(candidate * factor), number
+            return text, number
     raise AssertionError(f"{variable.name}: no other value")
 
 
@@ -61,11 +61,10 @@ def from_link(variable, word):
 
 def beyond(variable):
     """A value above the range, as a reader types it, and in SI."""
-    factor = shown_factor(variable)
     if variable.kind == "Integer":
         return str(variable.maximum + 1), variable.maximum + 1
-    text = text_of(2.0 * variable.maximum * factor if variable.maximum > 0.0 else 1.0)
-    return text, float(text) / factor
+    text = text_of(variable.shown(2.0 * variable.maximum if variable.maximum > 0.0 else 1.0)[1])
+    return text, in_si(variable, text)
 
 
 class Native:

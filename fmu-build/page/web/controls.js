@@ -1,6 +1,6 @@
 // Parameters and inputs in groups, effects as switches: made from the table of variables.
 import { element } from "./element.js";
-import { range, readable, unitText } from "./table.js";
+import { inUnit, range, readable, unitText } from "./table.js";
 import { readValue } from "./value.js";
 import { isThere } from "./wanted.js";
 
@@ -69,18 +69,23 @@ export class Controls {
     this.show();
   }
 
+  // A number as its field has it.
+  text(variable, value) {
+    return Number.isFinite(value) ? readable(inUnit(variable, value), 7).replaceAll("−", "-") : String(value);
+  }
+
   take(variable, input) {
-    const { name, kind, factor } = variable;
+    const { name, kind } = variable;
     if (kind === "Boolean") this.setup.set(name, input.checked);
     else if (kind === "Enumeration") this.setup.set(name, Number(input.value));
     else {
-      const { value, fault } = readValue(variable, input.value, factor);
+      const { value, fault } = readValue(variable, input.value);
       if (fault) {
         this.complain(name, fault);
         return;
       }
       // what is shown for the value of the scene is that value, not its rounded text
-      const same = readable(this.setup.valueInScene(name) * factor, 7) === readable(value * factor, 7);
+      const same = this.text(variable, this.setup.valueInScene(name)) === this.text(variable, value);
       this.setup.set(name, same ? this.setup.valueInScene(name) : value);
     }
     this.done(name);
@@ -97,8 +102,7 @@ export class Controls {
       const value = this.setup.value(name);
       if (variable.kind === "Boolean") input.checked = value;
       else if (variable.kind === "Enumeration") input.value = String(value);
-      else if (Number.isFinite(value)) input.value = readable(value * variable.factor, 7).replaceAll("−", "-");
-      else input.value = String(value);
+      else input.value = this.text(variable, value);
       frame.classList.toggle("own", this.setup.isOwn(name));
       frame.classList.toggle("driven", this.setup.isDriven(name) && !this.setup.isOwn(name));
       fault.hidden = true;

@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Setup } from "./setup.js";
-import { Table } from "./table.js";
-import { readValue } from "./value.js";
+import { Table, inUnit } from "./table.js";
+import { readValue, readValueInSI } from "./value.js";
 
 const table = new Table(JSON.parse(readFileSync(process.env.DATA, "utf8")));
 const settable = table.variables.filter(({ causality }) => ["parameter", "input"].includes(causality));
@@ -56,7 +56,14 @@ test("what is no value stays out with a message that names the variable, and wha
 
 test("what only the library can judge goes to it: NaN, and numbers out of range", () => {
   const module = table.find("geometry.module");
-  assert.ok(Number.isNaN(readValue(module, "NaN", 1).value));
-  assert.equal(readValue(module, "-1e3", module.factor).value, -1e3 / module.factor);
-  assert.equal(readValue(table.find("geometry.planet_teeth"), "4294967306", 1).fault.includes("32 bits"), true);
+  assert.ok(Number.isNaN(readValueInSI(module, "NaN").value));
+  assert.equal(readValue(module, "-1e3").value, -1e3 / module.factor);
+  assert.equal(readValue(table.find("geometry.planet_teeth"), "4294967306").fault.includes("32 bits"), true);
+});
+
+test("temperatures are shown and read in °C", () => {
+  const temperature = table.find("oil.temperature");
+  assert.ok(Math.abs(readValue(temperature, "60").value - 333.15) < 1e-12);
+  assert.ok(Math.abs(inUnit(temperature, 333.15) - 60) < 1e-12);
+  assert.equal(readValueInSI(temperature, "333.15").value, 333.15);
 });

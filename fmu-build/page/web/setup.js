@@ -2,7 +2,7 @@
 // holds all of it.
 import { MODES } from "./colouring.js";
 import { readable, SPEEDS } from "./table.js";
-import { readValue } from "./value.js";
+import { readValueInSI } from "./value.js";
 import { PRESETS } from "./view.js";
 
 const DURATION = "stop_time";
@@ -144,7 +144,7 @@ export class Setup {
     }
     const variable = this.table.find(word);
     if (!variable || !["parameter", "input"].includes(variable.causality)) return false;
-    const { value, fault } = readValue(variable, text, 1);
+    const { value, fault } = readValueInSI(variable, text);
     if (fault) faults.push({ name: word, text: fault });
     else this.set(word, value);
     return true;

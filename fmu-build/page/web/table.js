@@ -75,17 +75,21 @@ export function unitText(unit) {
   return read.replace(/([a-z)])2/g, "$1²");
 }
 
+// A value of the SI in the variable's shown unit, and back.
+export const inUnit = ({ factor, offset }, value) => factor * value + offset;
+export const inSI = ({ factor, offset }, number) => (number - offset) / factor;
+
 // A value of the SI with its shown unit.
 export function shown(variable, value, digits = 5) {
   if (variable.kind === "Boolean") return value ? "on" : "off";
   if (variable.kind === "Enumeration") return variable.literals.find((literal) => literal.value === value)?.name ?? "?";
   const unit = unitText(variable.shown);
-  return `${readable(value * variable.factor, digits)}${unit && ` ${unit}`}`;
+  return `${readable(inUnit(variable, value), digits)}${unit && ` ${unit}`}`;
 }
 
 // What a variable takes, with its shown unit; empty where it takes any number.
 export function range(variable) {
   if (variable.min === null) return "";
-  const end = (value) => readable(value * variable.factor, 4);
+  const end = (value) => readable(inUnit(variable, value), 4);
   return `${end(variable.min)} to ${shown({ ...variable, kind: "Real" }, variable.max, 4)}`;
 }

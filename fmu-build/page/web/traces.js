@@ -1,7 +1,7 @@
 // Outputs over time, a plot for each unit, scrolling with the picture; a press in a plot seeks. Or their spectra.
 import { colour, panel } from "./panel.js";
 import { HIGHEST, spectrum } from "./spectrum.js";
-import { shown } from "./table.js";
+import { inUnit, shown } from "./table.js";
 
 const COLOURS = ["--trace-1", "--trace-2", "--trace-3", "--trace-4", "--trace-5", "--trace-6"];
 const AHEAD = 0.2; // part of the window after now
@@ -68,8 +68,8 @@ export class Traces {
   refresh() {
     for (const { plot, series } of this.plots) {
       const columns = series.map(({ name }) => {
-        const { factor } = this.table.find(name);
-        return this.record.column(name).map((value) => factor * value);
+        const variable = this.table.find(name);
+        return this.record.column(name).map((value) => inUnit(variable, value));
       });
       plot.setData(this.isSpectral ? this.spectra(columns) : [this.record.times, ...columns]);
     }

@@ -1,15 +1,14 @@
 // A value from a text, of a field or of the address. What is a number of the right kind is for the library to judge, also NaN and
 // what is out of range: its messages are better than a second list of rules.
-import { range, unitText } from "./table.js";
+import { inSI, range, unitText } from "./table.js";
 
 const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity, "-infinity": -Infinity };
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 const INTEGERS = [-(2 ** 31), 2 ** 31 - 1];
 
-// {value} in SI or {fault}; the text has `factor` times the value.
-export function readValue(variable, text, factor) {
-  const { name, kind, literals, unit } = variable;
-  const seen = factor === 1 ? { ...variable, factor, shown: unit ?? "1" } : variable;
+// {value} in SI or {fault}, from a text in the variable's shown unit.
+export function readValue(variable, text) {
+  const { name, kind, literals } = variable;
   const plain = text.trim().replace("−", "-").replace(",", ".");
   if (kind === "Boolean") {
     if (plain === "true" || plain === "false") return { value: plain === "true" };
@@ -21,11 +20,14 @@ export function readValue(variable, text, factor) {
     return { fault: `${name}: “${text}” is none of ${literals.map((each) => each.name).join(", ")}` };
   }
   const number = NUMBER.test(plain) ? Number(plain) : SPECIAL[plain.toLowerCase()];
-  const inUnit = unitText(seen.shown) && ` in ${unitText(seen.shown)}`;
-  const takes = `it takes ${kind === "Integer" ? "a whole number" : `a number${inUnit}`}${range(seen) && `, ${range(seen)}`}`;
+  const inUnit = unitText(variable.shown) && ` in ${unitText(variable.shown)}`;
+  const takes = `it takes ${kind === "Integer" ? "a whole number" : `a number${inUnit}`}${range(variable) && `, ${range(variable)}`}`;
   if (number === undefined) return { fault: `${name}: “${text}” is not a number; ${takes}` };
   if (kind === "Integer" && !(Number.isInteger(number) && number >= INTEGERS[0] && number <= INTEGERS[1])) {
     return { fault: `${name}: ${text} is not a whole number of 32 bits; ${takes}` };
   }
-  return { value: number / factor };
+  return { value: inSI(variable, number) };
 }
+
+// The same from a text in SI, as in a link.
+export const readValueInSI = (variable, text) => readValue({ ...variable, shown: variable.unit ?? "1", factor: 1, offset: 0 }, text);

@@ -66,7 +66,7 @@ impl Simulation {
             return Err(problem!(
                 "warm_up.cycle",
                 "{length} s: the cycles that scene.start = steady_heat runs take more than {MOST_ATTEMPTS:e} steps; shorten it, or \
-                 begin by equilibrium"
+                 set scene.start = equilibrium"
             ));
         }
         let entered = [from, to].map(|ledger| network.entering(&ledger.heat));
@@ -80,7 +80,7 @@ impl Simulation {
 /// Why there are no steady temperatures.
 fn no_steady_heat(end: Steady) -> String {
     let Steady::Beyond(node, temperature) = end else {
-        return "there are no steady temperatures: the search for them has no end; begin at oil.temperature by equilibrium".into();
+        return "no steady temperatures were found; scene.start = equilibrium begins at oil.temperature instead".into();
     };
     let (name, path) = match node {
         GEARS => ("gears", "warm_up.gears_to_oil"),
@@ -90,8 +90,8 @@ fn no_steady_heat(end: Steady) -> String {
         _ => ("oil", "warm_up.oil_to_case"),
     };
     format!(
-        "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, the path of \
-         their heat, or rub less",
+        "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, by \
+         which their heat leaves, or lower the friction",
         TEMPERATURES.0 - ZERO,
         TEMPERATURES.1 - ZERO,
         temperature - ZERO
