@@ -148,6 +148,8 @@ const ADDED: &[&str] = &[
     "pv.washers",
     "pv.clutch",
     "pv.brake",
+    "warm_up.ambient_change",
+    "warm_up.sump_change",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

@@ -55,7 +55,8 @@ BANDS = {
     "bearing_drag.seal_torque_per_diameter": (1.0, 6.0), "bearing_drag.bearing_load": (0.0, 5000.0),
     "bearing_drag.bearing_coefficient": (2e-4, 1e-3), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
     "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
-    "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2),
+    "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2), "warm_up.ambient_change": (-20.0, 20.0),
+    "warm_up.sump_change": (-20.0, 20.0),
     **{f"warm_up.{node}_above_oil": (-20.0, 20.0) for node in ("gears", "clutch", "washers", "case")},
     # friction over speed and temperature, points of temperature in order
     **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {

@@ -104,7 +104,6 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
         driven = drive(rolling | {"oil.temperature": temperature}).to(1.0, 1e-2)
         heats.append(driven["heat.drag"])
     assert heats[0] == pytest.approx(0.01 * 30.0**2, rel=1e-9)
-
     assert heats[1] / heats[0] == pytest.approx(theory.viscosity(253.15) / theory.viscosity(353.15), rel=1e-9)
 
 
@@ -228,3 +227,40 @@ def test_a_drive_begins_with_nodes_above_the_oil(drive):
     # no friction: what is stored has come from ambient, and the nodes draw together
     assert driven["warm_up.stored"] == pytest.approx(-driven["warm_up.given_off"], rel=1e-9)
     assert abs(driven["temperature.clutch"] - driven["temperature.oil"]) < 0.5 * 40.0
+
+
+def test_a_cooler_and_the_weather_are_inputs(drive):
+    # no friction; the case alone follows ambient, by 10 W/K and 0.1 W·s/(K·rad), and the oil what a cooler commands
+    values = {"effects.warm_up": True, "scene.gear_contact": "ideal", "warm_up.sump_given": True, "warm_up.oil_to_case": 0.0,
+              "oil.temperature": 340.0, "warm_up.ambient_temperature": 300.0, "carrier.speed_command": 20.0}
+    driven = drive(values | {"warm_up.ambient_change": 10.0, "warm_up.sump_change": -5.0})
+    assert driven["temperature.oil"] == driven["temperature.case"] == 335.0
+    rate = (10.0 + 0.1 * 20.0) / 6000.0
+    # the midpoint rule is off by (rate h)² rate t/12 of the difference: a few microkelvins
+    driven.to(100.0, 1.0)
+    assert driven["temperature.oil"] == 335.0
+    case = 310.0 + 25.0 * exp(-rate * 100.0)
+    assert driven["temperature.case"] == pytest.approx(case, abs=1e-5)
+    driven.set({"warm_up.ambient_change": -60.0, "warm_up.sump_change": 20.0})
+    driven.to(200.0, 1.0)
+    assert driven["temperature.oil"] == 360.0
+    assert driven["temperature.case"] == pytest.approx(240.0 + (case - 240.0) * exp(-rate * 100.0), abs=1e-5)
+    kept = driven["warm_up.stored"] + driven["warm_up.given_off"]
+    assert abs(kept) < 1e-9 * abs(driven["warm_up.given_off"])
+
+
+def test_a_sump_follows_the_slope_of_its_input(drive):
+    driven = drive({"effects.warm_up": True, "scene.gear_contact": "lumped", "warm_up.sump_given": True, "oil.temperature": 340.0})
+    for k in range(1, 6):
+        driven.set({"warm_up.sump_change": 3.0 * (k - 1)})
+        driven.set_slopes({"warm_up.sump_change": 3.0})
+        driven.step(1.0)
+        assert driven["temperature.oil"] == pytest.approx(340.0 + 3.0 * k, rel=1e-12)
+
+
+def test_temperatures_outside_that_leave_the_range_are_kept_at_its_end_and_reported_once(drive):
+    values = {"effects.warm_up": True, "scene.gear_contact": "ideal", "warm_up.sump_given": True, "warm_up.sump_change": 400.0}
+    driven = drive(values).to(1.0, 0.1)
+    assert driven["temperature.oil"] == 673.15
+    [said] = [each for each in driven.messages if each.startswith("warm_up.sump_change: ")]
+    assert all(word in said for word in ["the sump", "753.15 K", "673.15 K"])

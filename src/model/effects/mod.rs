@@ -15,7 +15,7 @@ mod thrust_friction;
 mod tooth_errors;
 mod tooth_fault;
 mod tooth_friction;
-mod warm_up;
+pub mod warm_up;
 mod wheel_brake;
 
 use serde::{Deserialize, Serialize};

@@ -7,8 +7,8 @@
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units::{self, DEG_C};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::{Changes, Declare, Effect, Reading, Setting};
-use crate::model::thermal::network::Conductance;
+use crate::model::effect_kinds::{BUILT, Changes, Declare, Effect, InputField, Reading, Setting};
+use crate::model::thermal::network::{Around, Conductance};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
 use crate::problem::Problem;
 
@@ -150,7 +150,29 @@ impl Declare for WarmUpSpec {
                 .real(units::SECOND, (1e-3, 10.0), |p| &mut p.cycle),
         ]
     }
+
+    fn inputs() -> Vec<Row<InputField>> {
+        // a build without effects accepts no change
+        let most = if BUILT { MOST_CHANGE } else { 0.0 };
+        vec![
+            row(AMBIENT_CHANGE, "Change of the temperature around the case from warm_up.ambient_temperature").input(
+                units::KELVIN,
+                most,
+                |i| &mut i.ambient_change,
+            ),
+            row(SUMP_CHANGE, "Change of a given sump from oil.temperature, as by a cooler")
+                .when("warm_up.sump_given = true")
+                .input(units::KELVIN, most, |i| &mut i.sump_change),
+        ]
+    }
 }
+
+/// Inputs of the temperatures outside.
+pub const AMBIENT_CHANGE: &str = "warm_up.ambient_change";
+/// See [`AMBIENT_CHANGE`].
+pub const SUMP_CHANGE: &str = "warm_up.sump_change";
+/// Largest change of either [K].
+const MOST_CHANGE: f64 = 500.0;
 
 impl Effect for WarmUpSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
@@ -221,8 +243,7 @@ impl WarmUpSpec {
             ],
             to_oil: [Conductance::default(), gears, constant(clutch), constant(washers), constant(case)],
             to_ambient: Conductance { at_rest: self.case_to_ambient, per_speed: self.case_to_ambient_per_speed },
-            ambient: self.ambient,
-            sump: self.sump_given.then_some(oil),
+            around: Around { ambient: self.ambient, sump: self.sump_given.then_some(oil) },
             shares: outputs.map(|output| self.shares(output)),
         }
     }

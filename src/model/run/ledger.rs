@@ -9,7 +9,7 @@ use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::torque_means::TorqueMeans;
-use crate::model::dynamics::{Acted, Equations, IdealEquations, Watched};
+use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, Watched};
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
@@ -59,7 +59,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
             sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
         if WITH_EFFECTS {
-            warm_up(model, step, sums);
+            warm_up(model, &self.acting, step, sums);
         }
         if WITH_EFFECTS && self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
@@ -75,10 +75,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
 
 /// Lets the heat of a step warm the nodes, where the scene asks for it.
 #[inline]
-fn warm_up<const N: usize>(model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
+fn warm_up<const N: usize>(model: &Model, acting: &Acting, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
     if let Some(network) = &model.thermal {
+        let around = [step.time - 0.5 * step.h, step.time].map(|time| {
+            let later = acting.driven.then(|| acting.input_derivatives.after(time, &acting.inputs).0);
+            network.around.changed(later.unwrap_or(acting.inputs).changes_outside())
+        });
         let turned = (step.end.q[CARRIER] - step.start.q[CARRIER]).abs();
-        network.advance(sums.thermal, sums.heat, step.h, turned / step.h);
+        network.advance(sums.thermal, sums.heat, step.h, (turned / step.h, around));
     }
 }
 
@@ -89,7 +93,7 @@ impl LedgerEquations<MOST> for IdealEquations<'_> {
 
     fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
         add_to_ledger(step, sums.work, sums.heat, true);
-        warm_up(model, step, sums);
+        warm_up(model, self.acting(), step, sums);
     }
 }
 

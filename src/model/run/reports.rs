@@ -8,6 +8,7 @@ use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest, each_pv};
 use crate::model::effect_kinds::{FrictionSource, Surface};
 use crate::model::effects::strength::{Fatigue, Stressed};
+use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::problem::{Problem, told_apart};
 
 /// Limits of p·v, by the effects whose surfaces they are.
@@ -17,12 +18,16 @@ const PV_LIMITS: [(&str, &str); 3] = [
     ("wheel_brake", "wheel_brake.pv_limit"),
 ];
 
+/// Inputs that change temperatures outside, and what has these temperatures.
+const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "the sump")];
+
 /// What has been reported in a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reported {
     friction_law: bool,
     stress: [bool; Stressed::ALL.len()],
     pv: [bool; PV_LIMITS.len()],
+    outside: [bool; OUTSIDE.len()],
     start: bool,
 }
 
@@ -50,7 +55,26 @@ impl Simulation {
                 found.push(problem);
             }
         }
+        let outside = OUTSIDE.into_iter().zip(self.temperatures_outside()).zip(&mut reported.outside);
+        for (((variable, what), beyond), reported) in outside.filter(|(_, done)| !**done) {
+            if let Some([commanded, kept]) = beyond {
+                *reported = true;
+                found.push(problem!(
+                    variable,
+                    "with it {what} would be at {commanded:.2} K; it is kept at {kept:.2} K, the end of the range; reported once"
+                ));
+            }
+        }
         found
+    }
+
+    /// Temperatures of ambient and sump that inputs ask for and that are beyond the range, and what they are kept at [K].
+    fn temperatures_outside(&self) -> [Option<[f64; 2]>; 2] {
+        let Some(network) = &self.model.thermal else { return [None; 2] };
+        let changes = self.inputs.changes_outside();
+        let (commanded, kept) = (network.around.commanded(changes), network.around.changed(changes));
+        [(Some(commanded.ambient), Some(kept.ambient)), (commanded.sump, kept.sump)]
+            .map(|(commanded, kept)| Some([commanded?, kept?]).filter(|[commanded, kept]| commanded != kept))
     }
 
     /// The surface of `effect` that is the farthest above its limit of p·v, named `variable`, at this instant.

@@ -50,7 +50,10 @@ impl Simulation {
         let (model, state) = (&simulation.model, &mut simulation.state);
         let oil = parameters.oil.temperature;
         state.thermal = match &model.thermal {
-            Some(_) => Thermal::at(parameters.specs.warm_up.temperatures_at_start(oil)),
+            Some(network) => {
+                let sump = network.around.changed(inputs.changes_outside()).sump;
+                Thermal::at(parameters.specs.warm_up.temperatures_at_start(sump.unwrap_or(oil)))
+            }
             None => Thermal::uniform(oil),
         };
         start::speeds(model, inputs, state);

@@ -27,16 +27,17 @@ impl Simulation {
     /// Apart, as other starts have no room for its simulations on a small stack.
     #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
-        let Some(network) = self.model.thermal.clone() else { return Ok(()) };
+        let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
+        network.around = network.around.changed(self.inputs.changes_outside());
         let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
         (model.thermal, model.watch) = (None, None);
         let mut felt = model.body_effects().felt_nodes();
         // a sump that is given stays as it is
-        felt.retain(|&node| node != OIL || network.sump.is_none());
+        felt.retain(|&node| node != OIL || network.around.sump.is_none());
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
-        let cold = network.ambient.min(self.model.parameters.oil.temperature);
+        let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
         let temperatures = match network.steady(cold, &felt, heats)? {
             Steady::At(temperatures) => temperatures,
             none => return Err(problem!(START, "{}", no_steady_heat(none))),

@@ -100,9 +100,18 @@ inputs! {
     brake_torque: [f64; 2] = [0.0; 2], RESISTING;
     /// Triggers the tooth fault when it rises above one half.
     fault: f64 = 0.0, COMMAND;
+    /// Change of the ambient temperature from its parameter [K].
+    ambient_change: f64 = 0.0, FREE;
+    /// Change of a given sump from the temperature of the oil at the start [K].
+    sump_change: f64 = 0.0, FREE;
 }
 
 impl Inputs {
+    /// Changes of the temperatures outside: of ambient and of a given sump [K].
+    pub fn changes_outside(&self) -> [f64; 2] {
+        [self.ambient_change, self.sump_change]
+    }
+
     /// Whether all inputs are finite numbers.
     pub fn is_finite(&self) -> bool {
         let mut finite = true;

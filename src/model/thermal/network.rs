@@ -14,6 +14,7 @@
 //! Oviedo-Marlot, P. Velex, J. Mechanical Design 128 (2006), p. 1128).
 
 use super::{CASE, NODES, OIL, Thermal};
+use crate::declaration::units::TEMPERATURES;
 
 /// Part of the fastest node's time constant that a step of the midpoint rule may take.
 const PART: f64 = 0.25;
@@ -29,6 +30,15 @@ pub struct Conductance {
     pub per_speed: f64,
 }
 
+/// Temperatures outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Around {
+    /// Around the case [K].
+    pub ambient: f64,
+    /// Of the oil, where that is given [K].
+    pub sump: Option<f64>,
+}
+
 /// Nodes and what joins them; `H` is the number of heats in the ledger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network<const H: usize> {
@@ -38,12 +48,25 @@ pub struct Network<const H: usize> {
     pub to_oil: [Conductance; NODES],
     /// From the case to ambient.
     pub to_ambient: Conductance,
-    /// Ambient temperature [K].
-    pub ambient: f64,
-    /// Temperature of the oil, where it is given [K].
-    pub sump: Option<f64>,
+    /// Temperatures outside, without the changes that the host commands.
+    pub around: Around,
     /// Shares of each heat of the ledger that enter the nodes; what is left out stays outside.
     pub shares: [[f64; NODES]; H],
+}
+
+impl Around {
+    /// With ambient and sump changed by `changes` [K], without limits.
+    pub fn commanded(self, [ambient, sump]: [f64; 2]) -> Self {
+        Self { ambient: self.ambient + ambient, sump: self.sump.map(|given| given + sump) }
+    }
+
+    /// The same within the temperatures for which the laws of friction are made.
+    pub fn changed(self, changes: [f64; 2]) -> Self {
+        let (coldest, hottest) = TEMPERATURES;
+        let within = |temperature: f64| temperature.clamp(coldest, hottest);
+        let Self { ambient, sump } = self.commanded(changes);
+        Self { ambient: within(ambient), sump: sump.map(within) }
+    }
 }
 
 impl Conductance {
@@ -64,8 +87,8 @@ impl<const H: usize> Network<H> {
     }
 
     /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its
-    /// sign [rad/s].
-    pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, speed: f64) {
+    /// sign [rad/s], and the temperatures outside halfway and at the end.
+    pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, (speed, [halfway, end]): (f64, [Around; 2])) {
         let entering = self.entering(heat);
         let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);
         thermal.entered = entering;
@@ -78,7 +101,10 @@ impl<const H: usize> Network<H> {
             (0..NODES).map(|i| if i == OIL { all } else { leaving(i) } / self.capacity[i]).fold(0.0, f64::max);
         let parts = libm::ceil(h * fastest / PART).clamp(1.0, MOST_PARTS);
         for _ in 0..parts as usize {
-            self.midpoint(thermal, &power, h / parts, (&to_oil, to_ambient));
+            self.midpoint(thermal, &power, h / parts, (&to_oil, to_ambient, halfway));
+        }
+        if let Some(given) = end.sump {
+            self.give_sump(thermal, given - thermal.start);
         }
         thermal.note_rates(&begin, h);
     }
@@ -90,10 +116,10 @@ impl<const H: usize> Network<H> {
         thermal: &mut Thermal,
         power: &[f64; NODES],
         h: f64,
-        (to_oil, to_ambient): (&[f64; NODES], f64),
+        (to_oil, to_ambient, around): (&[f64; NODES], f64, Around),
     ) {
         let begin = thermal.rises;
-        let (ambient, sump) = (self.ambient - thermal.start, self.sump.map(|sump| sump - thermal.start));
+        let (ambient, sump) = (around.ambient - thermal.start, around.sump.map(|sump| sump - thermal.start));
         let inertia: [f64; NODES] = std::array::from_fn(|i| 2.0 * self.capacity[i] / h);
         // halfway a node has (known + conductance θ_oil)/sum
         let known: [f64; NODES] = std::array::from_fn(|i| {
@@ -120,10 +146,16 @@ impl<const H: usize> Network<H> {
         match sump {
             None => thermal.rises[OIL] = 2.0 * oil - begin[OIL],
             Some(given) => {
-                thermal.given_off += h * into_oil - self.capacity[OIL] * (given - begin[OIL]);
-                thermal.rises[OIL] = given;
+                thermal.given_off += h * into_oil;
+                self.give_sump(thermal, given);
             }
         }
+    }
+
+    /// Brings the oil to a `given` rise [K] by heat from outside.
+    fn give_sump(&self, thermal: &mut Thermal, given: f64) {
+        thermal.given_off -= self.capacity[OIL] * (given - thermal.rises[OIL]);
+        thermal.rises[OIL] = given;
     }
 }
 

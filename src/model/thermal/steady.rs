@@ -62,7 +62,7 @@ impl<const H: usize> Network<H> {
         mut heats: impl FnMut(&[f64; NODES]) -> Result<Cycle, E>,
     ) -> Result<Steady, E> {
         let mut at = SVector::<f64, NODES>::repeat(begin);
-        at[OIL] = self.sump.unwrap_or(begin);
+        at[OIL] = self.around.sump.unwrap_or(begin);
         let [first, longest] = STEPS;
         let mut h = if felt.is_empty() { longest } else { first };
         let (coldest, hottest) = TEMPERATURES;
@@ -85,7 +85,7 @@ impl<const H: usize> Network<H> {
                     matrix[(i, j)] -= (power[i] - cycle.power[i]) / DIFFERENCE;
                 }
             }
-            if self.sump.is_some() {
+            if self.around.sump.is_some() {
                 (0..NODES).for_each(|j| matrix[(OIL, j)] = 0.0);
                 (matrix[(OIL, OIL)], rest[OIL]) = (1.0, 0.0);
             }
@@ -118,7 +118,7 @@ impl<const H: usize> Network<H> {
         }
         let g = self.to_ambient.at(speed);
         matrix[(CASE, CASE)] += g;
-        flow[CASE] = g * self.ambient;
+        flow[CASE] = g * self.around.ambient;
         (matrix, flow)
     }
 }

@@ -302,6 +302,8 @@ fn inputs(d: &mut Draw, p: &Parameters) -> Inputs {
     i.side_speed = [i.carrier_speed + d.between(-10.0, 10.0), i.carrier_speed + d.between(-10.0, 10.0)];
     i.brake_torque = if d.chance(0.5) { [0.0; 2] } else { [load * d.unit(), 0.5 * load * d.unit()] };
     i.lock = if d.chance(0.15) { d.unit() } else { 0.0 };
+    // without draws of their own, so that the others stay what they were
+    (i.ambient_change, i.sump_change) = (i.side_speed[0] / 6.0, i.planet_spin / 3.0);
     i
 }
 

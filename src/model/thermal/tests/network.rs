@@ -2,10 +2,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::network::{Conductance, Network};
+use super::network::{Around, Conductance, Network};
 use super::{CASE, CLUTCH, GEARS, NODES, OIL, Thermal, WASHERS};
 
 const START: f64 = 300.0;
+const AROUND: Around = Around { ambient: 280.0, sump: None };
 
 fn network(conductances: [f64; NODES], to_ambient: f64) -> Network<2> {
     let mut shares = [[0.0; NODES]; 2];
@@ -15,8 +16,7 @@ fn network(conductances: [f64; NODES], to_ambient: f64) -> Network<2> {
         capacity: [1800.0, 1500.0, 300.0, 60.0, 5000.0],
         to_oil: conductances.map(|at_rest| Conductance { at_rest, per_speed: 0.0 }),
         to_ambient: Conductance { at_rest: to_ambient, per_speed: 0.0 },
-        ambient: 280.0,
-        sump: None,
+        around: AROUND,
         shares,
     }
 }
@@ -26,7 +26,7 @@ fn run(network: &Network<2>, power: [f64; 2], time: f64, h: f64) -> Thermal {
     let mut thermal = Thermal::uniform(START);
     for k in 1..=(time / h).round() as usize {
         let heat = power.map(|power| power * k as f64 * h);
-        network.advance(&mut thermal, &heat, h, 0.0);
+        network.advance(&mut thermal, &heat, h, (0.0, [network.around; 2]));
     }
     thermal
 }
@@ -67,7 +67,7 @@ fn a_long_run_ends_at_the_solution_of_the_linear_system() {
 #[test]
 fn no_heat_is_lost_whether_the_sump_is_free_or_given() {
     for sump in [None, Some(350.0)] {
-        let network = Network { sump, ..network([0.0, 20.0, 10.0, 5.0, 30.0], 12.0) };
+        let network = Network { around: Around { sump, ..AROUND }, ..network([0.0, 20.0, 10.0, 5.0, 30.0], 12.0) };
         let thermal = run(&network, [150.0, 400.0], 500.0, 0.37);
         let entered = thermal.entered.iter().sum::<f64>();
         let off = entered - network.stored(&thermal) - thermal.given_off;
@@ -77,11 +77,12 @@ fn no_heat_is_lost_whether_the_sump_is_free_or_given() {
 
 #[test]
 fn a_node_cools_exponentially_where_the_sump_is_given() {
-    let network = Network { sump: Some(START), ..network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0) };
+    let network =
+        Network { around: Around { sump: Some(START), ..AROUND }, ..network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0) };
     let mut thermal = Thermal::uniform(START);
     thermal.rises[CLUTCH] = 100.0;
     for _ in 0..600 {
-        network.advance(&mut thermal, &[0.0; 2], 0.1, 0.0);
+        network.advance(&mut thermal, &[0.0; 2], 0.1, (0.0, [network.around; 2]));
     }
     // 60 s at a time constant of 30 s
     let expected = START + 100.0 * (-2.0_f64).exp();
@@ -93,15 +94,56 @@ fn steps_that_a_burst_of_heat_has_shortened_grow_again() {
     let network = network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0);
     let mut thermal = Thermal::uniform(START);
     // a blow: 1 J within a microsecond, at which rate half a kelvin takes 0.5 K · 300 J/K / 1 MW
-    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, 0.0);
+    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
     assert!(thermal.is_to_be_felt());
     thermal.feel();
     assert!((thermal.longest / 150e-6 - 1.0).abs() < 1e-6, "{}", thermal.longest);
     // and no heat after it
-    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, 0.0);
+    network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
     assert!(!thermal.is_to_be_felt(), "a short step says nothing of a long one");
-    network.advance(&mut thermal, &[1.0, 0.0], 140e-6, 0.0);
+    network.advance(&mut thermal, &[1.0, 0.0], 140e-6, (0.0, [AROUND; 2]));
     assert!(thermal.is_to_be_felt());
     thermal.feel();
     assert!(thermal.longest > 100.0, "{}", thermal.longest);
+}
+
+#[test]
+fn temperatures_outside_that_change_are_followed_and_no_heat_is_lost() {
+    // a sump between two temperatures and an ambient that falls, with all nodes joined
+    let network =
+        Network { around: Around { sump: Some(320.0), ..AROUND }, ..network([0.0, 20.0, 10.0, 5.0, 30.0], 12.0) };
+    let mut thermal = Thermal::uniform(START);
+    for k in 1..=2000 {
+        let time = 0.37 * f64::from(k);
+        let around = network.around.changed([-0.01 * time, 30.0 * (0.05 * time).sin()]);
+        network.advance(&mut thermal, &[150.0 * time, 400.0 * time], 0.37, (0.0, [around; 2]));
+        assert!((thermal.temperatures()[OIL] - 320.0 - 30.0 * (0.05 * time).sin()).abs() < 1e-9);
+    }
+    let entered = thermal.entered.iter().sum::<f64>();
+    let off = entered - network.stored(&thermal) - thermal.given_off;
+    assert!((off / entered).abs() < 1e-10, "{off} J of {entered} J");
+}
+
+#[test]
+fn a_case_follows_an_ambient_that_swings_behind_it_and_by_less() {
+    // C θ̇ = G (θ_a − θ): amplitude 1/√(1 + (ω C/G)²), here with ω C/G = 1
+    let network = network([0.0; NODES], 10.0);
+    let (rate, amplitude, h) = (10.0 / 5000.0, 20.0, 5.0);
+    let mut thermal = Thermal::uniform(280.0);
+    let mut largest = 0.0_f64;
+    for k in 0..4000 {
+        let around = network.around.changed([amplitude * (rate * h * (f64::from(k) + 0.5)).sin(), 0.0]);
+        network.advance(&mut thermal, &[0.0; 2], h, (0.0, [around; 2]));
+        if k > 2000 {
+            largest = largest.max(thermal.temperatures()[CASE] - 280.0);
+        }
+    }
+    assert!((largest / (amplitude / 2.0_f64.sqrt()) - 1.0).abs() < 1e-4, "{largest}");
+}
+
+#[test]
+fn temperatures_outside_stay_within_those_for_which_friction_has_laws() {
+    let around = Around { ambient: 280.0, sump: Some(400.0) };
+    assert_eq!(around.changed([-500.0, 500.0]), Around { ambient: 213.15, sump: Some(673.15) });
+    assert_eq!(around.changed([0.0, 0.0]), around);
 }

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use super::network::{Conductance, Network};
+use super::network::{Around, Conductance, Network};
 use super::steady::{Cycle, Steady};
 use super::{CASE, CLUTCH, GEARS, NODES, OIL, WASHERS};
 
@@ -19,8 +19,7 @@ fn network(sump: Option<f64>) -> Network<0> {
         to_oil: TO_OIL.map(|at_rest| Conductance { at_rest, per_speed: 0.0 }),
         // grows to 12 W/K at 4 rad/s
         to_ambient: Conductance { at_rest: 8.0, per_speed: 1.0 },
-        ambient: AMBIENT,
-        sump,
+        around: Around { ambient: AMBIENT, sump },
         shares: [],
     }
 }
