@@ -116,7 +116,10 @@ fn own_names(effect: &EffectEntry) -> String {
     let all = inputs.iter().map(|row| row.name).chain(heat).chain(effect.readings.iter().map(|reading| reading.name));
     let of_right = |name: &&str| name.split('.').any(|part| part.starts_with("right"));
     let of_other_planets = |name: &&str| name.starts_with("planet[") && !name.starts_with("planet[1]");
-    let names: Vec<&str> = all.filter(|name| !of_right(name) && !of_other_planets(name)).collect();
+    let mut names: Vec<&str> = all.filter(|name| !of_right(name) && !of_other_planets(name)).collect();
+    // those of one group together, where its first one is
+    let groups: Vec<&str> = names.iter().map(|name| group(name)).collect();
+    names.sort_by_key(|name| groups.iter().position(|&other| other == group(name)));
     let shown = names.chunk_by(|a, b| group(a) == group(b)).map(|same| match same {
         [name] => format!("`{}`", name.replace("[1]", "[i]")),
         [first, ..] => format!("`{}.*`", group(first)),
