@@ -35,7 +35,8 @@ class LossMap:
     their difference with its sign, shape (points, 4); `found`: T_left, T_right and loss there; `errors`: those of the map there over the
     bound; shapes (points, 3).
     `estimate`: the error over the bound that leaving lines out tells. `restless`: points whose means do not stand still.
-    `seconds`, `new`: what the runs of this call took, without the start of workers, and how many there were."""
+    `seconds`, `new`: what the runs of this call took, without the start of workers, and how many there were. `model`: what `accuracy`
+    chose, in words; empty with the scene's own."""
 
     scene: Scene
     lines: tuple[np.ndarray, ...]
@@ -49,6 +50,7 @@ class LossMap:
     restless: int
     seconds: float
     new: int
+    model: str = ""
 
     def at(self, points: np.ndarray) -> np.ndarray:
         """Torques left and right and loss at points of slip, shape (points, 3)."""
@@ -82,12 +84,13 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     by `seed`. `most`: most points of the map that slip, in one direction. `out`: a Parquet file of all runs; see `designs.store.Store`.
     `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
-    lines = [starting(levels[name]) for name in VARIABLES]
+    lines, model = [starting(levels[name]) for name in VARIABLES], ""
     if lines[2][0] <= 0.0:
         raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
     if within is not None:
         chosen = _chosen(scene, lines, within)
-        tell(f"model: {chosen.run.setting}")
+        model = chosen.run.setting
+        tell(f"model: {model}")
         scene.set(chosen.set)
     task, begin = PointTask(scene), time.perf_counter()
     with ExitStack() as opened:
@@ -116,7 +119,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         if store is not None and store.finished is None:
             store.finish()
     made = LossMap(scene, tuple(lines), slipping, stuck, drawn, found, np.empty((0, MAPPED)), bound, estimate, runs.restless,
-                   time.perf_counter() - begin, runs.new)
+                   time.perf_counter() - begin, runs.new, model)
     errors = np.abs(made.at(drawn) - found) / bound.of_figures(found, drawn)
     return LossMap(**{**made.__dict__, "errors": errors})
 

@@ -27,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--force", action="store_true", help="overwrite existing runs")
     add_files(parser, "the map", "bias, loss and measured error")
     parser.add_argument("--simulink", metavar="FILE", help="write the map for blocks of Simulink (a MATLAB script)")
+    parser.add_argument("--report", metavar="FILE", help="write a page with figures, tables and the measured error (HTML)")
     add_farm(parser)
     add_fmu(parser)
 
@@ -34,15 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Makes the map, says how good it is and writes files. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..output_file import checked, checked_picture
+    from ..report.write import need
     from ..scene import Scene
     from . import losses
     from .grid import GOAL
     from .picture import draw
+    from .report import write as write_report
     from .tables import save, save_for_simulink
 
-    for file in (arguments.csv, arguments.simulink):
+    for file in (arguments.csv, arguments.simulink, arguments.report):
         checked(file)
     checked_picture(arguments.plot)
+    if arguments.report:
+        need()
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
         levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
@@ -55,7 +60,8 @@ def run(arguments: argparse.Namespace) -> int:
     if made.restless:
         print(f"{made.restless} points do not stand still: they have the means of their last times")
     print(f"{made.new} runs in {made.seconds:.1f} s")
-    for file, write in ((arguments.csv, save), (arguments.simulink, save_for_simulink), (arguments.plot, draw)):
+    for file, write in ((arguments.csv, save), (arguments.simulink, save_for_simulink), (arguments.plot, draw),
+                        (arguments.report, write_report)):
         if file:
             print(f"written: {write(made, file)}")
     return 0

@@ -7,11 +7,11 @@ import numpy as np
 from ..extras import require
 from ..values import FileName
 from . import SIGNS, LossMap
+from .cuts import ZERO_CELSIUS, along, some
 from .tables import bias
 
-# curves for at most so many temperatures; points of a curve
-MOST_CURVES, POINTS = 4, 60
-ZERO_CELSIUS = 273.15
+# curves for at most so many temperatures
+MOST_CURVES = 4
 NAMES = ["left torque", "right torque", "loss"]
 
 
@@ -23,14 +23,14 @@ def draw(made: LossMap, file: FileName) -> Path:
     with style.styled():
         figure, (ratio, loss, error) = style.panels(1, 3, 5.6)
         middle = [0.5 * (line[0] + line[-1]) for line in made.lines]
-        temperatures = made.lines[3][np.unique(np.linspace(0, len(made.lines[3]) - 1, MOST_CURVES).round().astype(int))]
-        for temperature in temperatures:
+        for temperature in made.lines[3][some(made.lines[3], MOST_CURVES)]:
+            fixed = [*middle[:3], temperature]
             label = f"{temperature - ZERO_CELSIUS:.3g} °C"
-            curve = [_along(made, 0, middle, temperature, sign) for sign in SIGNS]
+            curve = [along(made, 0, fixed, sign) for sign in SIGNS]
             line, = ratio.plot(curve[0][0], [bias(*values[:2])[0] or np.nan for values in curve[0][1]], label=label)
             ratio.plot(curve[1][0], [bias(*values[:2])[0] or np.nan for values in curve[1][1]], "--", color=line.get_color())
             for sign in SIGNS:
-                at, values = _along(made, 2, middle, temperature, sign)
+                at, values = along(made, 2, fixed, sign)
                 loss.plot(sign * at, values[:, 2] / 1e3, color=line.get_color(), label=label if sign > 0.0 else None)
         ratio.set(yscale="log", xlabel="carrier torque, N·m", ylabel="torque bias ratio T_high/T_low",
                   title=f"Bias at {middle[1]:.3g} rad/s, difference {middle[2]:.3g} rad/s")
@@ -46,12 +46,3 @@ def draw(made: LossMap, file: FileName) -> Path:
                       f"is symmetric. Middle: the loss is lowest where nothing slips. Right: {made.says()}.")
         style.save(figure, file)
     return Path(file)
-
-
-def _along(made, axis, middle, temperature, sign):
-    """Values of an axis, and torques and loss there, in the middle of the others."""
-    at = np.linspace(made.lines[axis][0], made.lines[axis][-1], POINTS)
-    points = np.tile([*middle[:3], temperature], (POINTS, 1))
-    points[:, axis] = at
-    points[:, 2] *= sign
-    return at, made.at(points)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..instance import Instance
+from ..instance import UNFELT, Instance
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Want
@@ -77,6 +77,13 @@ class PointTask:
             row.message = str(error)
         row.seconds = time.perf_counter() - begun
         return row
+
+    def warnings(self, values: Mapping[str, Number]) -> list[str]:
+        """Warnings of the FMU in the run of a point, but for what the bench itself sets."""
+        self.evaluate(0, values)
+        own = {*AXES[:-1], *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
+        said = self._instance.messages if self._instance is not None else []
+        return [text for text in said if not (UNFELT in text and text.partition(": ")[0] in own)]
 
     def _begun(self, values):
         if self._instance is None:

@@ -11,9 +11,23 @@ from ..values import FileName
 from . import MAPPED, SIGNS, LossMap
 from .grid import places, torques_of
 
-HEAD = ["kind", "carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]",
-        "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
-        "left.shaft_torque_max [N.m]", "torque_bias_ratio [1]", "locking_effect [%]"]
+MEANINGS = {
+    "kind": "map: a point of the map, which slips; stuck: a point without a difference of speeds; unseen: a random point that measured the error",
+    "carrier.torque [N.m]": "torque that drives the carrier",
+    "carrier.speed [rad/s]": "speed of the carrier, the mean of the wheels' speeds",
+    "speed_difference [rad/s]": "speed of the left wheel less that of the right wheel",
+    "oil.temperature [K]": "temperature of the oil and of all surfaces; 0 °C are 273.15 K",
+    "left.shaft_torque [N.m]": "torque of the left half-shaft, a mean over mesh cycles",
+    "right.shaft_torque [N.m]": "torque of the right half-shaft, a mean over mesh cycles",
+    "power.loss [W]": "power that becomes heat, a mean over mesh cycles",
+    "left.shaft_torque_min [N.m]": "map: the least left torque of a mesh cycle; stuck: that at which the left wheel breaks loose ahead",
+    "left.shaft_torque_max [N.m]": "map: the greatest left torque of a mesh cycle; stuck: that at which the right wheel breaks loose ahead",
+    "torque_bias_ratio [1]": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques oppose each other",
+    "locking_effect [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum",
+}
+HEAD = list(MEANINGS)
+BETWEEN = ("between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
+           "and speed, s speed_difference, TL, TR, P torques and loss")
 # least efficiency that a block is given
 LEAST = 0.01
 
@@ -29,9 +43,7 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
 def save(made: LossMap, file: FileName) -> Path:
     """Writes points of the map, stuck points and unseen points. Where it is stuck, ratio and effect are those at which it breaks
     loose."""
-    return write(file, HEAD, _rows(made), made.says(), made.scene.name,
-                 "between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
-                 "and speed, s speed_difference, TL, TR, P torques and loss")
+    return write(file, HEAD, _rows(made), made.says(), made.scene.name, BETWEEN)
 
 
 def _rows(made: LossMap) -> Iterator[list[object]]:

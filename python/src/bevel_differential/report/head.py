@@ -1,8 +1,12 @@
 """The head of a report: what was run with what, how long it took, whether it can be trusted, and what the scene sets up."""
 
+from collections.abc import Container
+
 import numpy as np
 
 from ..extras import version
+from ..fmu import Fmu
+from ..scene import Scene
 from . import strength, svg_style, words
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
@@ -57,18 +61,22 @@ def _split(run):
     return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {course}."
 
 
+def program(fmu: Fmu) -> list[tuple[str, str]]:
+    """Package and FMU, by their names and versions."""
+    return [("package", f"bevel-differential {version() or '(from sources)'}"),
+            ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
+            ("SHA-256 of the FMU", fmu.sha256)]
+
+
 def _facts(run):
-    fmu = run.scene.fmu
     last = run.record[-1]
     real = run.scene.stop / run.seconds
     counts = [("solver.steps", "steps"), ("solver.rejected", "rejected"), ("solver.rhs_calls", "evaluations of the tooth forces")]
     steps = ", ".join(f"{int(last[name])} {what}" for name, what in counts)
-    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.shown(fmu.variable(name), run.value(name))}"
+    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.shown(run.scene.fmu.variable(name), run.value(name))}"
                        for name in SOLVER if name != "solver.fixed_step" or run.literal("solver.method") == "fixed_step")
     rows = [
-        ("package", f"bevel-differential {version() or '(from sources)'}"),
-        ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
-        ("SHA-256 of the FMU", fmu.sha256),
+        *program(run.scene.fmu),
         ("solver", f"{solver}; {steps}"),
         ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of "
                            f"{words.quantity(1e3 * run.scene.step, 'ms')}"),
@@ -90,7 +98,7 @@ def setup(run: Simulated) -> Section:
     if not run.scene.values:
         found.say("All values are the start values of the FMU.")
     else:
-        found.add(_values(run))
+        found.add(values(run.scene))
     changing = [name for name, variable in run.scene.fmu.variables.items()
                 if variable.causality == "input" and np.ptp(run.series(name)) > 0.0]
     if changing:
@@ -105,15 +113,18 @@ def setup(run: Simulated) -> Section:
     return found
 
 
-def _values(run):
-    fmu = run.scene.fmu
+def values(scene: Scene, without: Container[str] = ()) -> Table:
+    """Values that a scene sets, beside those that the FMU starts with; `without` names that something else sets."""
+    fmu = scene.fmu
     rows = []
-    for name, value in run.scene.values.items():
+    for name, value in scene.values.items():
+        if name in without:
+            continue
         variable = fmu.variable(name)
         start = "" if variable.start is None else words.shown(variable, variable.start)
         rows.append((name, variable.description or "", words.shown(variable, value),
                      start if variable.start != value else "the same"))
-    driven = ", ".join(dict.fromkeys(name for name, *_ in run.scene.tables))
+    driven = ", ".join(dict.fromkeys(name for name, *_ in scene.tables))
     return Table(("name", "meaning", "scene", "start value of the FMU"), rows,
                  f"{len(rows)} values that the scene sets; all others have the start values of the FMU."
                  + (f" {driven}: by a table over time." if driven else ""), left=2)

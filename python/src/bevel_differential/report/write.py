@@ -25,8 +25,7 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
 
     `quick` leaves out the run-up and the effects that are off, which need other runs. Raises `DifferentialError` with the FMU's
     message where it refuses the scene."""
-    for module in ("matplotlib", "jinja2"):
-        require(module, "report")
+    need()
     progress(0.0, "the scene")
     run = Simulated.of(scene)
     progress(PICTURES, "pictures")
@@ -37,12 +36,18 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     sections += [section(run) for section in LAST]
     if not quick:
         sections.append(worth.section(run, part(progress, EFFECTS, 1.0)))
-    write_whole(file, page(run, sections))
+    write_whole(file, page(scene.name, scene.description, sections))
     progress(1.0, "done")
     return Path(file)
 
 
-def page(run: Simulated, sections: Sequence[Section]) -> str:
+def need() -> None:
+    """Refuses to begin a report without the packages that write it."""
+    for module in ("matplotlib", "jinja2"):
+        require(module, "report")
+
+
+def page(title: str, description: str, sections: Sequence[Section]) -> str:
     """The page as text."""
     jinja2 = require("jinja2", "report")
     # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
@@ -50,4 +55,4 @@ def page(run: Simulated, sections: Sequence[Section]) -> str:
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests.update(text=lambda block: isinstance(block, Text), table=lambda block: isinstance(block, Table),
                              picture=lambda block: isinstance(block, Picture))
-    return environment.get_template("template.html").render(scene=run.scene, sections=sections) + "\n"
+    return environment.get_template("template.html").render(title=title, description=description, sections=sections) + "\n"

@@ -1,0 +1,287 @@
+"""The figures of a map's report, each with a caption that says what to see."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..report import svg_style, words
+from ..report.blocks import Picture
+from . import MAPPED, SIGNS, LossMap
+from .cuts import POINTS, ZERO_CELSIUS, along, some, stuck_at
+from .tables import bias
+
+# most temperatures, and most panels of other axes
+TEMPERATURES, PANELS = 4, 3
+# lines of equal loss; a loss below this part of the largest is none
+LEVELS, NOTHING = 10, 1e-9
+# temperatures whose figures differ by less than this part of the largest are alike
+SAME = 1e-6
+# a ratio with a greater range than this has a logarithmic axis
+DECADE = 4.0
+SIDES = ("left wheel faster", "right wheel faster")
+TORQUE, SPEED, SLIP = "carrier torque, N·m", "carrier speed, rad/s", "difference of speeds (left − right), rad/s"
+TORQUE_AXIS, SPEED_AXIS, SLIP_AXIS, TEMPERATURE_AXIS = range(4)
+
+
+def celsius(temperature: float) -> str:
+    """A temperature, K, as it is read."""
+    return words.quantity(temperature - ZERO_CELSIUS, "°C", 3)
+
+
+def label(made: LossMap, place: int) -> str:
+    """The temperature of a line; both ends where all lines are alike."""
+    line = made.lines[TEMPERATURE_AXIS]
+    return celsius(line[place]) if len(line) == 1 or not alike(made) else f"{words.number(line[0] - ZERO_CELSIUS, 3)} to {celsius(line[-1])}"
+
+
+def alike(made: LossMap) -> bool:
+    """Whether temperature changes nothing."""
+    return all(np.all(np.ptp(values, axis=-2) <= SAME * np.abs(values).max(axis=tuple(range(values.ndim - 1))))
+               for values in (made.slipping[..., :MAPPED], made.stuck))
+
+
+def largest(line: np.ndarray) -> int:
+    """Position of the line farthest from 0."""
+    return int(np.argmax(np.abs(line)))
+
+
+def temperatures(made: LossMap) -> np.ndarray:
+    """Positions of the temperatures that are shown: the first where all are alike."""
+    return np.zeros(1, int) if alike(made) else some(made.lines[TEMPERATURE_AXIS], TEMPERATURES)
+
+
+def loss_map(made: LossMap) -> Picture | None:
+    """Loss over torque and speed at each temperature; None where one of the two has a single value."""
+    if min(len(made.lines[TORQUE_AXIS]), len(made.lines[SPEED_AXIS])) < 2:
+        return None
+    sheets = list(_sheets(made))
+    top = f"{words.quantity(made.lines[SLIP_AXIS][-1], 'rad/s')}, left wheel faster"
+    rest = ("Lower row: without a difference, where only drag is lost." if len(sheets) > 1 else
+            "Without a difference nothing is lost: the scene has no drag.")
+    most = [f"{words.quantity(float(loss.max()), 'W')} at {label(made, place)}"
+            for place, loss in zip(temperatures(made), sheets[0][1])]
+    return Picture("loss_map", _loss_map(made, sheets), f"Power loss over carrier torque and speed, a panel for each oil temperature, with lines "
+                   f"of equal loss. {'Upper row: at' if len(sheets) > 1 else 'At'} a difference of {top}; at most "
+                   f"{words.listed(most)}. {rest} Where lines are level, the loss does not depend on the speed; "
+                   "where they are upright, not on the torque.")
+
+
+def _sheets(made) -> Iterator[tuple[str, list[np.ndarray]]]:
+    """Rows of panels: a title, and the loss in each panel over (speed, torque)."""
+    torque, speed = _grid(made)
+    slip = made.lines[SLIP_AXIS][-1]
+    slipping, stuck = [], []
+    for temperature in made.lines[TEMPERATURE_AXIS][temperatures(made)]:
+        points = np.stack(np.broadcast_arrays(torque, speed[:, None], slip, temperature), axis=-1).reshape(-1, 4)
+        slipping.append(made.at(points)[:, 2].reshape(POINTS, POINTS))
+        stuck.append(stuck_at(made, points * [1.0, 1.0, 0.0, 1.0])[:, 2].reshape(POINTS, POINTS))
+    yield f"difference {words.quantity(slip, 'rad/s')}", slipping
+    if np.max(stuck) > NOTHING * np.max(slipping):
+        yield "no difference", stuck
+
+
+def _grid(made):
+    return (np.linspace(made.lines[axis][0], made.lines[axis][-1], POINTS) for axis in (TORQUE_AXIS, SPEED_AXIS))
+
+
+@svg_style.drawn("loss_map")
+def _loss_map(picture, made, sheets):
+    from matplotlib.colors import LinearSegmentedColormap, to_rgba
+
+    colours = LinearSegmentedColormap.from_list("loss", [to_rgba(svg_style.RED, 0.03), to_rgba(svg_style.RED, 0.75)])
+    picture.set_figheight(3.1 * len(sheets) + 0.4)
+    shown, (torque, speed) = temperatures(made), _grid(made)
+    rows = picture.subplots(len(sheets), len(shown), sharex=True, sharey=True, squeeze=False)
+    for row, (title, losses) in zip(rows, sheets):
+        factor, kilo = svg_style.unit_prefix(losses)
+        low, top = (float(end(losses)) / factor for end in (np.min, np.max))
+        for panel, place, loss in zip(row, shown, losses):
+            drawn = panel.imshow(loss.T / factor, extent=(speed[0], speed[-1], torque[0], torque[-1]), origin="lower", aspect="auto",
+                                 interpolation="bilinear", cmap=colours, vmin=low, vmax=top)
+            curves = panel.contour(speed, torque, loss.T / factor, levels=_round_levels(low, top), colors=svg_style.TEXT_COLOUR, linewidths=0.8)
+            panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_places(curves, speed, torque))
+            panel.set_title(label(made, place))
+            panel.grid(False)
+        row[0].set_ylabel(f"{title}\n{TORQUE}")
+        picture.colorbar(drawn, ax=row, pad=0.01, aspect=25).set_label(f"power loss, {kilo}W")
+    for panel in rows[-1]:
+        panel.set_xlabel(SPEED)
+
+
+def _round_levels(low, top):
+    """About LEVELS round levels in a range, none at its ends, where there is no room for a label."""
+    from matplotlib.ticker import MaxNLocator
+
+    edge = 0.02 * (top - low)
+    return [level for level in MaxNLocator(LEVELS).tick_values(low, top) if low + edge < level < top - edge]
+
+
+def _label_places(curves, speed, torque):
+    """A place for each level's label: where its line crosses the diagonal, away from the borders."""
+    start, size = np.array([speed[0], torque[0]]), np.array([np.ptp(speed), np.ptp(torque)])
+    for pieces in curves.allsegs:
+        points = np.concatenate([np.empty((0, 2)), *pieces])
+        if len(points):
+            across = (points - start) / size - 0.5
+            off = np.abs(across[:, 0] - 0.8 * across[:, 1]) + 10.0 * np.maximum(np.abs(across) - 0.38, 0.0).sum(axis=1)
+            yield points[np.argmin(off)]
+
+
+def over_difference(made: LossMap) -> Picture:
+    """Loss and locking torque over the signed difference, with the stuck interval at 0."""
+    slip = made.lines[SLIP_AXIS]
+    at = [_level(made, place) for place in range(4)]
+    first, last = (made.slipping[0][at[0], at[1], place, -1, :2] for place in (0, -1))
+    falls = [abs(float(left - right)) for left, right in (first, last)]
+    return Picture("over_difference", _over_difference(made),
+                   f"Above: power loss; circles are the loss without a difference. Below: T_left − T_right, which locks the wheels; the bar "
+                   "at 0 is the interval in which the differential stays stuck. A torque that falls with the difference may judder: with "
+                   f"the left wheel faster it is {words.number(falls[0])} N·m at {words.quantity(slip[0], 'rad/s')} and "
+                   f"{words.quantity(falls[1], 'N·m')} at {words.quantity(slip[-1], 'rad/s')} ({_point(made)}, "
+                   f"{celsius(made.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.")
+
+
+def _level(made, axis):
+    """The line of an axis that stands for it where others vary: the largest torque, the middle of the others."""
+    line = made.lines[axis]
+    return largest(line) if axis == TORQUE_AXIS else len(line) // 2
+
+
+def _point(made):
+    torque, speed = (made.lines[axis][_level(made, axis)] for axis in (TORQUE_AXIS, SPEED_AXIS))
+    return f"{words.quantity(torque, 'N·m')} and {words.quantity(speed, 'rad/s')}"
+
+
+@svg_style.drawn("over_difference", 5.4)
+def _over_difference(picture, made):
+    varied = SPEED_AXIS if len(made.lines[TORQUE_AXIS]) == 1 else TORQUE_AXIS
+    shown = some(made.lines[varied], PANELS)
+    rows = picture.subplots(2, len(shown), sharex=True, squeeze=False)
+    for place, (loss, locking) in zip(shown, rows.T):
+        at = [_level(made, axis) for axis in range(4)]
+        at[varied] = place
+        for number, warmth in enumerate(temperatures(made)):
+            at[TEMPERATURE_AXIS], colour = warmth, svg_style.CYCLE[number]
+            name = label(made, warmth)
+            for sign, values in zip(SIGNS, made.slipping):
+                slip, figures = along(made, SLIP_AXIS, [line[k] for line, k in zip(made.lines, at)], sign)
+                dots = values[at[0], at[1], :, at[3]]
+                for panel, curve, marks in ((loss, figures[:, 2], dots[:, 2]), (locking, figures[:, 0] - figures[:, 1], dots[:, 0] - dots[:, 1])):
+                    panel.plot(sign * slip, curve, color=colour, label=name if sign > 0.0 else None)
+                    panel.plot(sign * made.lines[SLIP_AXIS], marks, ".", color=colour, ms=4)
+            stuck = made.stuck[at[0], at[1], 0, at[3]]
+            loss.plot(0.0, stuck[2], "o", mfc="none", color=colour)
+            total = stuck[0] + stuck[1]
+            locking.plot([0.0, 0.0], 2.0 * stuck[3:5] - total, "_-", color=colour, lw=4.0 - 0.8 * number, solid_capstyle="butt")
+        torque, speed = (made.lines[axis][at[axis]] for axis in (TORQUE_AXIS, SPEED_AXIS))
+        loss.set_title(f"{words.quantity(torque, 'N·m')}, {words.quantity(speed, 'rad/s')}")
+        locking.set_xlabel(SLIP.replace(" (", "\n("))
+    rows[0][0].set_ylabel("power loss, W")
+    rows[1][0].set_ylabel("T_left − T_right, N·m")
+    rows[0][-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def ratio(made: LossMap) -> Picture:
+    """Torque bias ratio over torque for both signs of the difference, sliding and where it breaks loose."""
+    slip = made.lines[SLIP_AXIS]
+    ends = []
+    for sign, side in zip(SIGNS, SIDES):
+        found = [one for one in (_ratio(made.slipping[SIGNS.index(sign)][k, _level(made, SPEED_AXIS), -1, warmth, :2])
+                                 for k in range(len(made.lines[TORQUE_AXIS])) for warmth in temperatures(made)) if np.isfinite(one)]
+        ends.append(f"{side} {words.number(min(found))} to {words.number(max(found))}" if found else
+                    f"{side} none, as the torques oppose each other")
+    return Picture("ratio", _drawn_ratio(made),
+                   f"Torque bias ratio T_high/T_low at {words.quantity(made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)], 'rad/s')}. Solid: at the "
+                   f"largest difference, {words.quantity(slip[-1], 'rad/s')} ({'; '.join(ends)}); dashed: at the smallest, "
+                   f"{words.quantity(slip[0], 'rad/s')}; dotted with crosses: where the stuck differential breaks loose. Where a curve ends, "
+                   "the torques of the wheels oppose each other, and there is no ratio.")
+
+
+def _ratio(torques):
+    return bias(*torques)[0] or np.nan
+
+
+@svg_style.drawn("ratio", 3.8)
+def _drawn_ratio(picture, made):
+    panels = picture.subplots(1, 2, sharey=True)
+    speed, torque = _level(made, SPEED_AXIS), made.lines[TORQUE_AXIS]
+    seen = []
+    for panel, sign, values, side, loose in zip(panels, SIGNS, made.slipping, SIDES, (3, 4)):
+        for number, warmth in enumerate(temperatures(made)):
+            colour, name = svg_style.CYCLE[number], label(made, warmth)
+            for slip, style in ((-1, "-"), (0, "--")):
+                fixed = [torque[0], made.lines[SPEED_AXIS][speed], made.lines[SLIP_AXIS][slip], made.lines[TEMPERATURE_AXIS][warmth]]
+                at, figures = along(made, TORQUE_AXIS, fixed, sign)
+                panel.plot(at, [_ratio(each[:2]) for each in figures], style, color=colour, label=name if slip else None)
+                dots = [_ratio(each) for each in values[:, speed, slip, warmth, :2]]
+                panel.plot(torque, dots, ".", color=colour, ms=4)
+                seen += dots
+            stuck = made.stuck[:, speed, 0, warmth]
+            dots = [_ratio((each[loose], each[0] + each[1] - each[loose])) for each in stuck]
+            panel.plot(torque, dots, "x:", color=colour, ms=4, lw=1.0)
+            seen += dots
+        panel.set(title=side, xlabel=TORQUE)
+    if np.any(np.isfinite(seen)) and np.nanmax(seen) > DECADE * np.nanmin(seen):
+        from matplotlib.ticker import LogLocator, NullFormatter
+
+        panels[0].set_yscale("log")
+        panels[0].yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        panels[0].yaxis.set_major_formatter(lambda value, _: words.number(value))
+        panels[0].yaxis.set_minor_formatter(NullFormatter())
+    panels[0].set_ylabel("torque bias ratio T_high/T_low")
+    panels[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def stuck(made: LossMap) -> Picture:
+    """The interval in which the differential stays stuck, over torque or speed."""
+    at = [_level(made, axis) for axis in range(4)]
+    ends = [f"{words.number(low)} to {words.quantity(high, 'N·m')} at {label(made, warmth)}"
+            for warmth in temperatures(made) for low, high in [made.stuck[at[0], at[1], 0, warmth, 3:5]]]
+    return Picture("stuck", _drawn_stuck(made),
+                   f"Shaded: differences of the wheels' torques at which both wheels keep the same speed. At {_point(made)} the left torque is "
+                   f"then {words.listed(ends)}. Below the band the left wheel breaks loose ahead, above it the right wheel. Lines: "
+                   f"T_left − T_right at a slip of {words.quantity(made.lines[SLIP_AXIS][0], 'rad/s')}; a line within the band: less torque "
+                   "holds this slip than starts it.")
+
+
+@svg_style.drawn("stuck", 3.6)
+def _drawn_stuck(picture, made):
+    axis = SPEED_AXIS if len(made.lines[TORQUE_AXIS]) == 1 < len(made.lines[SPEED_AXIS]) else TORQUE_AXIS
+    over, shown = made.lines[axis], temperatures(made)
+    panels = picture.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+    for panel, warmth in zip(panels, shown):
+        at = [slice(None) if place == axis else _level(made, place) for place in (TORQUE_AXIS, SPEED_AXIS)]
+        left, right, _, *ends = made.stuck[(*at, 0, warmth)].T
+        low, high = (2.0 * end - left - right for end in ends)
+        panel.fill_between(over, low, high, color=svg_style.GREY, alpha=0.3, lw=0, label="stuck")
+        panel.vlines(over, low, high, color=svg_style.GREY, lw=0.8)
+        for values, colour, side in zip(made.slipping, (svg_style.BLUE, svg_style.RED), SIDES):
+            panel.plot(over, values[(*at, 0, warmth)][:, 0] - values[(*at, 0, warmth)][:, 1], ".-", color=colour, ms=5, label=side)
+        panel.set(title=label(made, warmth), xlabel=SPEED if axis == SPEED_AXIS else TORQUE)
+    panels[0].set_ylabel("T_left − T_right, N·m")
+    handles, labels = panels[0].get_legend_handles_labels()
+    picture.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+
+
+def error(made: LossMap) -> Picture:
+    """The error of the unseen points: how many have how much, and where."""
+    worst = made.errors.max(axis=1)
+    place = int(np.argmax(worst))
+    return Picture("error", _error(made),
+                   f"Errors at {len(made.unseen)} random points that the map has not seen, over the bound; beyond the red line they are larger "
+                   f"than it. Left: share of the points whose error is at most so large; half have {words.number(float(np.median(worst)), 2)} "
+                   f"or less. Right: the largest error of each point over its difference of speeds; the worst, "
+                   f"{words.number(float(worst[place]), 2)}, is at {words.quantity(made.unseen[place, SLIP_AXIS], 'rad/s', 3)}.")
+
+
+@svg_style.drawn("error", 3.4)
+def _error(picture, made):
+    share, where = picture.subplots(1, 2)
+    for column, name in zip(made.errors.T, ("left torque", "right torque", "loss")):
+        share.step(np.sort(column), np.arange(1, len(column) + 1) / len(column), where="post", label=name)
+    share.axvline(1.0, color=svg_style.RED, ls="--")
+    share.set(xscale="log", xlabel=f"error over {str(made.bound).replace('.m', '·m')}", ylabel="share of the points")
+    share.legend(loc="upper left")
+    where.plot(made.unseen[:, SLIP_AXIS], made.errors.max(axis=1), ".", color=svg_style.BLUE)
+    where.axhline(1.0, color=svg_style.RED, ls="--")
+    where.set(ylim=(0.0, None), xlabel=SLIP, ylabel="largest error over the bound")

@@ -1,0 +1,180 @@
+"""The report of a map: one HTML file with the map, what its error is, and what the columns of its tables mean."""
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+
+from ..output_file import write_whole
+from ..report import head, words
+from ..report.blocks import Section, Table, Text
+from ..report.write import need, page
+from ..values import FileName
+from . import MAPPED, SIGNS, LossMap, figures, inputs
+from .figures import celsius, largest
+from .grid import GOAL, share_beyond
+from .point import AXES as DRIVEN, PointTask
+from .tables import BETWEEN, MEANINGS, bias
+
+# unseen points that are listed
+WORST = 10
+AXES = ("carrier torque", "carrier speed", "difference of the wheels' speeds", "temperature of oil and surfaces")
+UNITS = ("N.m", "rad/s", "rad/s", "°C")
+ERRED = ("left torque", "right torque", "loss")
+
+
+def write(made: LossMap, file: FileName) -> Path:
+    """Writes the report of a map whole, or not at all; returns its path. It runs the corners of the map again for the FMU's warnings."""
+    need()
+    sections = [_head(made), _loss(made), _bias(made), _error(made), _setup(made), _columns()]
+    write_whole(file, page(f"Loss map of {made.scene.name}", made.scene.description, sections))
+    return Path(file)
+
+
+def says(made: LossMap) -> str:
+    """What the unseen points measure, as a sentence of the report."""
+    return f"{made.says().replace('N.m', 'N·m')}."
+
+
+def _head(made):
+    found = Section("head", "The map and its error")
+    verdict = says(made)
+    if len(made.unseen):
+        share = words.percent(share_beyond(len(made.unseen), made.beyond), 2)
+        verdict += (f" In words: had all points between the ends of the axes been run, at most {share} of them would miss the map by more than "
+                    "the bound; such a sentence is true in 95 of 100 cases.")
+    found.add(Text(verdict, "verdict", made.beyond == 0 if len(made.unseen) else None))
+    found.say(f"The bound is {words.percent(made.bound.part)} of the value and {words.quantity(made.bound.torque, 'N.m')} on top, for the torque of "
+              "each wheel. For the loss this torque acts at the speed of the carrier and half the difference.")
+    if made.estimate > GOAL:
+        found.add(Text(f"The map stops at as many points as it may have: leaving lines out tells of errors of {words.number(made.estimate, 2)} "
+                       "times the bound. Allow more by --most.", "warning"))
+    if made.restless:
+        found.add(Text(f"{made.restless} points do not stand still: they have the means of their last times.", "warning"))
+    found.add(*(Text(f"The FMU warns: {text}", "warning") for text in _warnings(made)))
+    size = made.slipping[0, ..., 0].size
+    runs = f"{made.new} new runs in {words.quantity(made.seconds, 's', 3)}" if made.new else "no new runs: all were kept from before"
+    found.add(Table(("", ""), [
+        *head.program(made.scene.fmu),
+        ("model", f"{made.model}: chosen by accuracy in the middle of the map" if made.model else "the scene's own"),
+        ("points", f"{words.number(size)} in each direction of the difference, {made.stuck[..., 0].size} without one, {len(made.unseen)} unseen"),
+        ("took", runs)], "Program, model and work. Times were measured on the machine that made the map."))
+    rows = [(name, *(_shown(axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
+             ", ".join(words.number(_value(axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
+    found.add(Table(("axis", "from", "to", "lines", "at"), rows,
+                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines lie closer where the map bends.",
+                    left=5))
+    return found
+
+
+def _value(axis, at):
+    return at - figures.ZERO_CELSIUS if axis == 3 else at
+
+
+def _shown(axis, at, digits=4):
+    return words.quantity(_value(axis, at), UNITS[axis], digits)
+
+
+def _warnings(made):
+    """The FMU's warnings at the corners of the map, where torques, speeds and temperatures are extreme: the first of each variable."""
+    corners = list(itertools.product(*({line[0], line[-1]} for line in made.lines)))
+    task, found, count = PointTask(made.scene), {}, {}
+    for torque, speed, difference, temperature in corners:
+        for sign in SIGNS:
+            told = {text.partition(": ")[0]: text for text in task.warnings(inputs((torque, speed, sign * difference, temperature)))}
+            for name, text in told.items():
+                found.setdefault(name, text)
+                count[name] = count.get(name, 0) + 1
+    task.close()
+    total = len(corners) * len(SIGNS)
+    return [f"{text} (at {'all' if count[name] == total else count[name]} of the {total} corners of the map)" for name, text in found.items()]
+
+
+def _loss(made):
+    found = Section("loss", "Power loss")
+    if figures.alike(made) and len(made.lines[3]) > 1:
+        found.say("Temperature changes nothing: the scene has no friction and no drag that depend on it. Pictures show one temperature for all.")
+    picture = figures.loss_map(made)
+    if picture is None:
+        found.say("Torque or speed has a single value, so that there is no map over both.")
+    else:
+        found.add(picture)
+    found.add(figures.over_difference(made), _loss_table(made))
+    return found
+
+
+def _loss_table(made):
+    at, where = _far_end(made)
+    rows = []
+    for temperature, left, right, stuck in at:
+        # what rounding leaves of nothing
+        rest = stuck[2] if abs(stuck[2]) > figures.NOTHING * abs(left[2]) else 0.0
+        rows.append((celsius(temperature), *(words.number(loss) for loss in (left[2], right[2], rest))))
+    return Table(("oil", "left wheel faster, W", "right wheel faster, W", "no difference, W"), rows, f"Power loss at {where}.")
+
+
+def _bias_table(made):
+    at, where = _far_end(made)
+    rows = []
+    for temperature, left, right, stuck in at:
+        total = stuck[0] + stuck[1]
+        rows.append((celsius(temperature), *(_ratio(*each[:2]) for each in (left, right)), *(_ratio(end, total - end) for end in stuck[3:5]),
+                     *(words.number(end) for end in stuck[3:5])))
+    return Table(("oil", "TBR, left faster", "right faster", "left breaks loose", "right breaks loose", "stuck from T_left, N·m", "to, N·m"), rows,
+                 f"Torque bias ratios at {where}; ratios at which the stuck differential breaks loose at the same torque and speed, and the left "
+                 "torques between which it stays stuck.")
+
+
+def _far_end(made):
+    """By temperature the rows of the map at the far end of torque, speed and difference, and where that is."""
+    torque, speed = (largest(made.lines[axis]) for axis in (0, 1))
+    where = ", ".join(_shown(axis, made.lines[axis][place]) for axis, place in ((0, torque), (1, speed), (2, -1)))
+    return [(temperature, *(values[torque, speed, -1, warmth] for values in made.slipping), made.stuck[torque, speed, 0, warmth])
+            for warmth, temperature in enumerate(made.lines[3])], f"{where} of difference (rows of the map's table)"
+
+
+def _ratio(left, right):
+    found = bias(left, right)[0]
+    return "none" if found is None else words.number(found)
+
+
+def _bias(made):
+    found = Section("bias", "Torque bias")
+    found.add(figures.ratio(made), figures.stuck(made), _bias_table(made))
+    return found
+
+
+def _error(made):
+    found = Section("error", "Measured error")
+    found.say(says(made))
+    if not len(made.unseen):
+        return found
+    found.add(figures.error(made))
+    at, rows = made.at(made.unseen), []
+    for place in np.argsort(-made.errors.max(axis=1), kind="stable")[:WORST]:
+        point, errors = made.unseen[place], made.errors[place]
+        pairs = [f"{words.number(made.found[place, k])} / {words.number(at[place, k])}" for k in range(MAPPED)]
+        rows.append((ERRED[int(np.argmax(errors))], words.number(errors.max(), 3), *(words.number(_value(axis, value)) for axis, value in enumerate(point)),
+                     *pairs))
+    found.add(Table(("worst in", "error", "torque, N·m", "speed, rad/s", "difference, rad/s", "oil, °C", "T_left, N·m", "T_right, N·m", "loss, W"), rows,
+                    f"The {len(rows)} worst of {len(made.unseen)} unseen points: the largest error over the bound, the point, and what its run gave / what the map says. "
+                    "A positive difference: the left wheel is faster.", left=1))
+    return found
+
+
+def _setup(made):
+    found = Section("setup", "Scene on the bench")
+    middle = inputs([line[len(line) // 2] for line in made.lines])
+    found.say("The bench drives the carrier by torque and both wheels by speed, without the scene's changes over time; half-shafts are damped, "
+              "which leaves their mean torques as they are, and all surfaces have the temperature of the oil. A point runs until its means "
+              "over whole mesh cycles stand still.")
+    found.say(f"The FMU says that it simulates: {made.scene.says(middle)}.")
+    found.add(head.values(made.scene, DRIVEN))
+    return found
+
+
+def _columns():
+    found = Section("columns", "Columns of the table")
+    found.add(Table(("column", "meaning"), list(MEANINGS.items()), "Columns that --csv writes, as CSV or Parquet, in SI.", left=2))
+    found.say(f"Tables are linear in torques, not in powers: {BETWEEN}.")
+    return found

@@ -1,0 +1,205 @@
+"""The report of a loss map: figures with captions, the sentence of the bound, numbers of the table, and no half file."""
+
+import re
+from html.parser import HTMLParser
+from types import SimpleNamespace
+
+import pytest
+from bevel_differential import DifferentialError, Scene, extras
+from bevel_differential.command import main
+from bevel_differential.csv_table import CsvTable, Quantity, Text
+from bevel_differential.losses import VARIABLES, losses
+from bevel_differential.losses.grid import Bound
+from bevel_differential.losses.report import write
+from bevel_differential.losses.tables import HEAD, save
+from report_page import ReportPage
+
+RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
+        "limited_slip.static_ratio": 1.25, "limited_slip.stribeck_speed": 0.3, "limited_slip.cold_factor": 1.3, "limited_slip.hot_factor": 0.8,
+        "effects.bearing_drag": True, "bearing_drag.carrier_torque": 2.0, "bearing_drag.carrier_viscous": 0.02}
+PLAIN = {name: RICH[name] for name in list(RICH)[:4]}
+LEVELS = dict(zip(VARIABLES, ([90.0, 900.0], [5.0, 40.0], [0.5, 20.0], [273.15, 353.15])))
+FIGURES = {"loss_map", "over_difference", "ratio", "stuck", "error"}
+SECTIONS = {"head", "loss", "bias", "error", "setup", "columns"}
+ZERO_CELSIUS = 273.15
+
+
+class Tables(HTMLParser):
+    """Cells of all tables, each a list of rows."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tables, self._cell = [], None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "table":
+            self.tables.append([])
+        elif tag == "tr":
+            self.tables[-1].append([])
+        elif tag in ("td", "th"):
+            self._cell = ""
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            self.tables[-1][-1].append(self._cell)
+            self._cell = None
+
+    def handle_data(self, data):
+        if self._cell is not None:
+            self._cell += data
+
+    def of(self, head):
+        """Rows of the tables whose first column has this head."""
+        return [table[1:] for table in self.tables if table[0][0] == head]
+
+
+def made_map(fmu_file, values, levels, unseen=40, most=400):
+    with Scene("<rich>", description="clutch & drag", set=values, fmu=fmu_file) as scene:
+        return losses(scene, levels, bound=Bound(0.02, 0.1), unseen=unseen, most=most, workers=0)
+
+
+@pytest.fixture(scope="module")
+def mapped(fmu_file):
+    return made_map(fmu_file, RICH, LEVELS)
+
+
+@pytest.fixture(scope="module")
+def text(mapped, tmp_path_factory):
+    return write(mapped, tmp_path_factory.mktemp("report") / "map.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def rows(mapped, tmp_path_factory):
+    units = {"N.m": 1.0, "rad/s": 1.0, "K": 1.0, "W": 1.0, "1": 1.0, "%": 1.0}
+    file = save(mapped, tmp_path_factory.mktemp("table") / "map.csv")
+    return [values for _, values in CsvTable(file, lambda name: Text(name) if name == "kind" else Quantity(name, units)).rows]
+
+
+def number(cell):
+    return float(re.match(r"[−\d.e]+", cell)[0].replace("−", "-"))
+
+
+def test_it_is_one_page_whose_figures_show_something(text):
+    page = ReportPage(text)
+    assert set(page.figures) == FIGURES and set(page.sections) == SECTIONS
+    for figure, marks in page.figures.items():
+        assert marks and max(marks.values()) >= 1, f"{figure} is empty"
+        assert re.search(r"\d", page.captions[figure]) and not re.search(r"\bnan\b|\binf\b", page.captions[figure]), figure
+    assert all(reference.startswith(("#", "data:")) for reference in page.references)
+    assert not re.search(r"https?:|@import|<script", text)
+    assert "Loss map of &lt;rich&gt;" in text and "clutch &amp; drag" in text
+
+
+def test_it_has_the_sentence_of_the_bound_and_the_meaning_of_every_column(text, mapped):
+    page = ReportPage(text)
+    says = mapped.says().replace("N.m", "N·m")
+    assert says in page.sections["head"] and says in page.sections["error"] and "40 unseen points" in says
+    assert all(f"{name}\n" in page.sections["columns"] for name in HEAD)
+    assert str(mapped.slipping[0, ..., 0].size) in page.sections["head"]
+
+
+def test_its_numbers_are_those_of_the_table(text, rows):
+    far = {"carrier.torque": 900.0, "carrier.speed": 40.0}
+
+    def row(kind, difference, temperature):
+        found, = (one for one in rows if one["kind"] == kind and one["speed_difference"] == difference
+                  and one["oil.temperature"] == pytest.approx(temperature) and all(one[name] == value for name, value in far.items()))
+        return found
+
+    loss, ratio = Tables(text).of("oil")
+    assert len(loss) == len(ratio) >= 3
+    for (oil, *lost), (_, *ratios) in zip(loss, ratio):
+        temperature = number(oil) + ZERO_CELSIUS
+        left, right, stuck = (row(kind, sign * 20.0, temperature) for kind, sign in (("map", 1.0), ("map", -1.0), ("stuck", 0.0)))
+        assert [number(cell) for cell in lost] == pytest.approx([one["power.loss"] for one in (left, right, stuck)], rel=1e-3)
+        assert [number(cell) for cell in ratios[:2]] == pytest.approx([one["torque_bias_ratio"] for one in (left, right)], rel=1e-3)
+        assert number(ratios[3]) == pytest.approx(stuck["torque_bias_ratio"], rel=1e-3)
+        assert [number(cell) for cell in ratios[4:]] == pytest.approx([stuck[f"left.shaft_torque_{end}"] for end in ("min", "max")], rel=1e-3)
+
+
+def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
+    listed, = Tables(text).of("worst in")
+    unseen = [one for one in rows if one["kind"] == "unseen"]
+    names = ("carrier.torque", "carrier.speed", "speed_difference", "oil.temperature")
+    assert len(listed) == 10 and number(listed[0][1]) == pytest.approx(mapped.errors.max(), rel=5e-3)
+    for _, error, *point in listed:
+        place = [*(number(cell) for cell in point[:3]), number(point[3]) + ZERO_CELSIUS]
+        near = min(unseen, key=lambda one: sum(abs(one[name] - at) for name, at in zip(names, place)))
+        assert [near[name] for name in names] == pytest.approx(place, rel=1e-3)
+        for cell, name in zip(point[4:], ("left.shaft_torque", "right.shaft_torque", "power.loss")):
+            assert number(cell) == pytest.approx(near[name], rel=1e-3)
+        assert number(error) <= number(listed[0][1])
+
+
+def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
+    made = made_map(fmu_file, PLAIN, LEVELS, unseen=5)
+    page = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8"))
+    assert "Temperature changes nothing" in page.sections["loss"]
+    assert "the scene has no drag" in page.captions["loss_map"]
+
+
+@pytest.mark.parametrize("axis", range(4))
+def test_an_axis_of_a_single_value_has_its_report(axis, fmu_file, tmp_path):
+    levels = {name: values[:1] if axis == place else values for place, (name, values) in enumerate(LEVELS.items())}
+    page = ReportPage(write(made_map(fmu_file, RICH, levels, unseen=3, most=100), tmp_path / "map.html").read_text(encoding="utf-8"))
+    assert set(page.figures) == (FIGURES if axis > 1 else FIGURES - {"loss_map"})
+    assert all(marks and max(marks.values()) >= 1 for marks in page.figures.values())
+
+
+def test_a_single_point_without_unseen_ones_has_its_report(fmu_file, tmp_path):
+    levels = {name: values[:1] for name, values in LEVELS.items()}
+    page = ReportPage(write(made_map(fmu_file, RICH, levels, unseen=0), tmp_path / "map.html").read_text(encoding="utf-8"))
+    assert "the error of the map is not measured" in page.sections["error"]
+    assert set(page.figures) == FIGURES - {"loss_map", "error"}
+
+
+def test_warnings_of_runs_and_of_the_map_stand_on_the_page(fmu_file, tmp_path):
+    made = made_map(fmu_file, RICH | {"limited_slip.friction_area": 1e-4, "limited_slip.pv_limit": 1e5}, LEVELS, unseen=3, most=81)
+    head = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
+    assert re.search(r"The FMU warns: .*pv.*corners of the map", head), head
+    assert "carrier.speed_command" not in head
+    assert ("Allow more by --most" in head) == (made.estimate > 1.0)
+
+
+def test_the_command_writes_it_beside_the_table(fmu_file, tmp_path, capsys):
+    file = tmp_path / "map.html"
+    given = [f"--set={name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in PLAIN.items()]
+    assert main(["losses", "torque_bias", *given, "--set", "effects.tooth_friction=false", "--set", "effects.thrust_friction=false",
+                 "--torque", "300 N.m", "--speed", "20", "--difference", "1, 5", "--temperature", "350", "--unseen", "3", "--workers", "0",
+                 "--fmu", fmu_file, "--report", str(file)]) == 0
+    assert f"written: {file}" in capsys.readouterr().out
+    assert "3 unseen points" in ReportPage(file.read_text(encoding="utf-8")).sections["head"]
+
+
+def test_what_accuracy_chose_is_the_model(mapped, tmp_path):
+    made = type(mapped)(**{**mapped.__dict__, "model": "lumped, 1e-3"})
+    assert "lumped, 1e-3: chosen by accuracy" in ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
+
+
+@pytest.mark.parametrize("file, words", [("nowhere/map.html", "there is no folder"), (".", "it is a folder")])
+def test_a_file_that_cannot_be_written_is_said_before_the_work(file, words, capsys, fmu_file):
+    assert main(["losses", "torque_bias", "--report", file, "--fmu", fmu_file]) == 1
+    said = capsys.readouterr()
+    assert said.err.count("\n") == 1 and words in said.err and not said.out
+
+
+def test_a_missing_package_is_said_before_the_work(monkeypatch, capsys, fmu_file, tmp_path):
+    def missing(name):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    monkeypatch.setattr(extras, "importlib", SimpleNamespace(import_module=missing))
+    assert main(["losses", "torque_bias", "--report", str(tmp_path / "map.html"), "--fmu", fmu_file]) == 1
+    said = capsys.readouterr()
+    assert "extra report" in said.err and not said.out
+
+
+def test_a_full_disk_leaves_no_half_report(mapped, tmp_path, monkeypatch):
+    def full(self, *_, **__):
+        self.touch()
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(type(tmp_path), "write_text", full)
+    with pytest.raises(DifferentialError, match="map.html: No space left on device; nothing is written"):
+        write(mapped, tmp_path / "map.html")
+    assert not list(tmp_path.iterdir())
