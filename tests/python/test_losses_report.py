@@ -15,8 +15,9 @@ from bevel_differential.losses.tables import HEAD, save
 from report_page import ReportPage
 
 RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
-        "limited_slip.static_ratio": 1.25, "limited_slip.stribeck_speed": 0.3, "limited_slip.cold_factor": 1.3, "limited_slip.hot_factor": 0.8,
-        "effects.bearing_drag": True, "bearing_drag.carrier_torque": 2.0, "bearing_drag.carrier_viscous": 0.02}
+        "limited_slip.static_ratio": 1.25, "limited_slip.stribeck_speed": 0.3, "limited_slip.cold_factor": 1.3,
+        "limited_slip.hot_factor": 0.8, "effects.bearing_drag": True, "bearing_drag.carrier_torque": 2.0,
+        "bearing_drag.carrier_viscous": 0.02}
 PLAIN = {name: RICH[name] for name in list(RICH)[:4]}
 LEVELS = dict(zip(VARIABLES, ([90.0, 900.0], [5.0, 40.0], [0.5, 20.0], [273.15, 353.15])))
 FIGURES = {"loss_map", "over_difference", "ratio", "stuck", "error"}
@@ -115,7 +116,8 @@ def test_its_numbers_are_those_of_the_table(text, rows):
         assert [number(cell) for cell in lost] == pytest.approx([one["power.loss"] for one in (left, right, stuck)], rel=1e-3)
         assert [number(cell) for cell in ratios[:2]] == pytest.approx([one["torque_bias_ratio"] for one in (left, right)], rel=1e-3)
         assert number(ratios[3]) == pytest.approx(stuck["torque_bias_ratio"], rel=1e-3)
-        assert [number(cell) for cell in ratios[4:]] == pytest.approx([stuck[f"left.shaft_torque_{end}"] for end in ("min", "max")], rel=1e-3)
+        ends = [stuck[f"left.shaft_torque_{end}"] for end in ("min", "max")]
+        assert [number(cell) for cell in ratios[4:]] == pytest.approx(ends, rel=1e-3)
 
 
 def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):

@@ -31,7 +31,9 @@ def celsius(temperature: float) -> str:
 def label(made: LossMap, place: int) -> str:
     """The temperature of a line; both ends where all lines are alike."""
     line = made.lines[TEMPERATURE_AXIS]
-    return celsius(line[place]) if len(line) == 1 or not alike(made) else f"{words.number(line[0] - ZERO_CELSIUS, 3)} to {celsius(line[-1])}"
+    if len(line) == 1 or not alike(made):
+        return celsius(line[place])
+    return f"{words.number(line[0] - ZERO_CELSIUS, 3)} to {celsius(line[-1])}"
 
 
 def alike(made: LossMap) -> bool:
@@ -60,7 +62,8 @@ def loss_map(made: LossMap) -> Picture | None:
             "Without a difference nothing is lost: the scene has no drag.")
     most = [f"{words.quantity(float(loss.max()), 'W')} at {label(made, place)}"
             for place, loss in zip(temperatures(made), sheets[0][1])]
-    return Picture("loss_map", _loss_map(made, sheets), f"Power loss over carrier torque and speed, a panel for each oil temperature, with lines "
+    return Picture("loss_map", _loss_map(made, sheets),
+                   "Power loss over carrier torque and speed, a panel for each oil temperature, with lines "
                    f"of equal loss. {'Upper row: at' if len(sheets) > 1 else 'At'} a difference of {top}; at most "
                    f"{words.listed(most)}. {rest} Where lines are level, the loss does not depend on the speed; "
                    "where they are upright, not on the torque.")
@@ -98,7 +101,8 @@ def _loss_map(picture, made, sheets):
         for panel, place, loss in zip(row, shown, losses):
             drawn = panel.imshow(loss.T / factor, extent=(speed[0], speed[-1], torque[0], torque[-1]), origin="lower", aspect="auto",
                                  interpolation="bilinear", cmap=colours, vmin=low, vmax=top)
-            curves = panel.contour(speed, torque, loss.T / factor, levels=_round_levels(low, top), colors=svg_style.TEXT_COLOUR, linewidths=0.8)
+            curves = panel.contour(speed, torque, loss.T / factor, levels=_round_levels(low, top), colors=svg_style.TEXT_COLOUR,
+                                   linewidths=0.8)
             panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_places(curves, speed, torque))
             panel.set_title(label(made, place))
             panel.grid(False)
@@ -134,9 +138,9 @@ def over_difference(made: LossMap) -> Picture:
     first, last = (made.slipping[0][at[0], at[1], place, -1, :2] for place in (0, -1))
     falls = [abs(float(left - right)) for left, right in (first, last)]
     return Picture("over_difference", _over_difference(made),
-                   f"Above: power loss; circles are the loss without a difference. Below: T_left − T_right, which locks the wheels; the bar "
-                   "at 0 is the interval in which the differential stays stuck. A torque that falls with the difference may judder: with "
-                   f"the left wheel faster it is {words.number(falls[0])} N·m at {words.quantity(slip[0], 'rad/s')} and "
+                   "Above: power loss; circles are the loss without a difference. Below: T_left − T_right, which locks the wheels; the "
+                   "bar at 0 is the interval in which the differential stays stuck. A torque that falls with the difference may judder: "
+                   f"with the left wheel faster it is {words.number(falls[0])} N·m at {words.quantity(slip[0], 'rad/s')} and "
                    f"{words.quantity(falls[1], 'N·m')} at {words.quantity(slip[-1], 'rad/s')} ({_point(made)}, "
                    f"{celsius(made.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.")
 
@@ -166,7 +170,8 @@ def _over_difference(picture, made):
             for sign, values in zip(SIGNS, made.slipping):
                 slip, figures = along(made, SLIP_AXIS, [line[k] for line, k in zip(made.lines, at)], sign)
                 dots = values[at[0], at[1], :, at[3]]
-                for panel, curve, marks in ((loss, figures[:, 2], dots[:, 2]), (locking, figures[:, 0] - figures[:, 1], dots[:, 0] - dots[:, 1])):
+                for panel, curve, marks in ((loss, figures[:, 2], dots[:, 2]),
+                                            (locking, figures[:, 0] - figures[:, 1], dots[:, 0] - dots[:, 1])):
                     panel.plot(sign * slip, curve, color=colour, label=name if sign > 0.0 else None)
                     panel.plot(sign * made.lines[SLIP_AXIS], marks, ".", color=colour, ms=4)
             stuck = made.stuck[at[0], at[1], 0, at[3]]
@@ -183,7 +188,7 @@ def _over_difference(picture, made):
 
 def ratio(made: LossMap) -> Picture:
     """Torque bias ratio over torque for both signs of the difference, sliding and where it breaks loose."""
-    slip = made.lines[SLIP_AXIS]
+    slip, speed = made.lines[SLIP_AXIS], made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)]
     ends = []
     for sign, side in zip(SIGNS, SIDES):
         found = [one for one in (_ratio(made.slipping[SIGNS.index(sign)][k, _level(made, SPEED_AXIS), -1, warmth, :2])
@@ -191,10 +196,10 @@ def ratio(made: LossMap) -> Picture:
         ends.append(f"{side} {words.number(min(found))} to {words.number(max(found))}" if found else
                     f"{side} none, as the torques oppose each other")
     return Picture("ratio", _drawn_ratio(made),
-                   f"Torque bias ratio T_high/T_low at {words.quantity(made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)], 'rad/s')}. Solid: at the "
+                   f"Torque bias ratio T_high/T_low at {words.quantity(speed, 'rad/s')}. Solid: at the "
                    f"largest difference, {words.quantity(slip[-1], 'rad/s')} ({'; '.join(ends)}); dashed: at the smallest, "
-                   f"{words.quantity(slip[0], 'rad/s')}; dotted with crosses: where the stuck differential breaks loose. Where a curve ends, "
-                   "the torques of the wheels oppose each other, and there is no ratio.")
+                   f"{words.quantity(slip[0], 'rad/s')}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
+                   "ends, the torques of the wheels oppose each other, and there is no ratio.")
 
 
 def _ratio(torques):
@@ -238,10 +243,10 @@ def stuck(made: LossMap) -> Picture:
     ends = [f"{words.number(low)} to {words.quantity(high, 'N·m')} at {label(made, warmth)}"
             for warmth in temperatures(made) for low, high in [made.stuck[at[0], at[1], 0, warmth, 3:5]]]
     return Picture("stuck", _drawn_stuck(made),
-                   f"Shaded: differences of the wheels' torques at which both wheels keep the same speed. At {_point(made)} the left torque is "
-                   f"then {words.listed(ends)}. Below the band the left wheel breaks loose ahead, above it the right wheel. Lines: "
-                   f"T_left − T_right at a slip of {words.quantity(made.lines[SLIP_AXIS][0], 'rad/s')}; a line within the band: less torque "
-                   "holds this slip than starts it.")
+                   f"Shaded: differences of the wheels' torques at which both wheels keep the same speed. At {_point(made)} the left "
+                   f"torque is then {words.listed(ends)}. Below the band the left wheel breaks loose ahead, above it the right wheel. "
+                   f"Lines: T_left − T_right at a slip of {words.quantity(made.lines[SLIP_AXIS][0], 'rad/s')}; a line within the band: "
+                   "less torque holds this slip than starts it.")
 
 
 @svg_style.drawn("stuck", 3.6)
@@ -266,11 +271,11 @@ def _drawn_stuck(picture, made):
 def error(made: LossMap) -> Picture:
     """The error of the unseen points: how many have how much, and where."""
     worst = made.errors.max(axis=1)
-    place = int(np.argmax(worst))
+    place, half = int(np.argmax(worst)), float(np.median(worst))
     return Picture("error", _error(made),
-                   f"Errors at {len(made.unseen)} random points that the map has not seen, over the bound; beyond the red line they are larger "
-                   f"than it. Left: share of the points whose error is at most so large; half have {words.number(float(np.median(worst)), 2)} "
-                   f"or less. Right: the largest error of each point over its difference of speeds; the worst, "
+                   f"Errors at {len(made.unseen)} random points that the map has not seen, over the bound; beyond the red line they are "
+                   f"larger than it. Left: share of the points whose error is at most so large; half have "
+                   f"{words.number(half, 2)} or less. Right: the largest error of each point over its difference of speeds; the worst, "
                    f"{words.number(float(worst[place]), 2)}, is at {words.quantity(made.unseen[place, SLIP_AXIS], 'rad/s', 3)}.")
 
 

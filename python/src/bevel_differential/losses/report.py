@@ -41,14 +41,14 @@ def _head(made):
     verdict = says(made)
     if len(made.unseen):
         share = words.percent(share_beyond(len(made.unseen), made.beyond), 2)
-        verdict += (f" In words: had all points between the ends of the axes been run, at most {share} of them would miss the map by more than "
-                    "the bound; such a sentence is true in 95 of 100 cases.")
+        verdict += (f" In words: had all points between the ends of the axes been run, at most {share} of them would miss the map by "
+                    "more than the bound; such a sentence is true in 95 of 100 cases.")
     found.add(Text(verdict, "verdict", made.beyond == 0 if len(made.unseen) else None))
-    found.say(f"The bound is {words.percent(made.bound.part)} of the value and {words.quantity(made.bound.torque, 'N.m')} on top, for the torque of "
-              "each wheel. For the loss this torque acts at the speed of the carrier and half the difference.")
+    found.say(f"The bound is {words.percent(made.bound.part)} of the value and {words.quantity(made.bound.torque, 'N.m')} on top, "
+              "for the torque of each wheel. For the loss this torque acts at the speed of the carrier and half the difference.")
     if made.estimate > GOAL:
-        found.add(Text(f"The map stops at as many points as it may have: leaving lines out tells of errors of {words.number(made.estimate, 2)} "
-                       "times the bound. Allow more by --most.", "warning"))
+        found.add(Text(f"The map stops at as many points as it may have: leaving lines out tells of errors of "
+                       f"{words.number(made.estimate, 2)} times the bound. Allow more by --most.", "warning"))
     if made.restless:
         found.add(Text(f"{made.restless} points do not stand still: they have the means of their last times.", "warning"))
     found.add(*(Text(f"The FMU warns: {text}", "warning") for text in _warnings(made)))
@@ -57,12 +57,14 @@ def _head(made):
     found.add(Table(("", ""), [
         *head.program(made.scene.fmu),
         ("model", f"{made.model}: chosen by accuracy in the middle of the map" if made.model else "the scene's own"),
-        ("points", f"{words.number(size)} in each direction of the difference, {made.stuck[..., 0].size} without one, {len(made.unseen)} unseen"),
+        ("points", f"{words.number(size)} in each direction of the difference, {made.stuck[..., 0].size} without one, "
+                   f"{len(made.unseen)} unseen"),
         ("took", runs)], "Program, model and work. Times were measured on the machine that made the map."))
     rows = [(name, *(_shown(axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
              ", ".join(words.number(_value(axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
     found.add(Table(("axis", "from", "to", "lines", "at"), rows,
-                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines lie closer where the map bends.",
+                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines lie closer where the map "
+                    "bends.",
                     left=5))
     return found
 
@@ -87,13 +89,15 @@ def _warnings(made):
                 count[name] = count.get(name, 0) + 1
     task.close()
     total = len(corners) * len(SIGNS)
-    return [f"{text} (at {'all' if count[name] == total else count[name]} of the {total} corners of the map)" for name, text in found.items()]
+    return [f"{text} (at {'all' if count[name] == total else count[name]} of the {total} corners of the map)"
+            for name, text in found.items()]
 
 
 def _loss(made):
     found = Section("loss", "Power loss")
     if figures.alike(made) and len(made.lines[3]) > 1:
-        found.say("Temperature changes nothing: the scene has no friction and no drag that depend on it. Pictures show one temperature for all.")
+        found.say("Temperature changes nothing: the scene has no friction and no drag that depend on it. Pictures show one temperature "
+                  "for all.")
     picture = figures.loss_map(made)
     if picture is None:
         found.say("Torque or speed has a single value, so that there is no map over both.")
@@ -118,11 +122,12 @@ def _bias_table(made):
     rows = []
     for temperature, left, right, stuck in at:
         total = stuck[0] + stuck[1]
-        rows.append((celsius(temperature), *(_ratio(*each[:2]) for each in (left, right)), *(_ratio(end, total - end) for end in stuck[3:5]),
-                     *(words.number(end) for end in stuck[3:5])))
-    return Table(("oil", "TBR, left faster", "right faster", "left breaks loose", "right breaks loose", "stuck from T_left, N·m", "to, N·m"), rows,
-                 f"Torque bias ratios at {where}; ratios at which the stuck differential breaks loose at the same torque and speed, and the left "
-                 "torques between which it stays stuck.")
+        rows.append((celsius(temperature), *(_ratio(*each[:2]) for each in (left, right)),
+                     *(_ratio(end, total - end) for end in stuck[3:5]), *(words.number(end) for end in stuck[3:5])))
+    return Table(("oil", "TBR, left faster", "right faster", "left breaks loose", "right breaks loose", "stuck from T_left, N·m",
+                  "to, N·m"), rows,
+                 f"Torque bias ratios at {where}; ratios at which the stuck differential breaks loose at the same torque and speed, and "
+                 "the left torques between which it stays stuck.")
 
 
 def _far_end(made):
@@ -154,10 +159,12 @@ def _error(made):
     for place in np.argsort(-made.errors.max(axis=1), kind="stable")[:WORST]:
         point, errors = made.unseen[place], made.errors[place]
         pairs = [f"{words.number(made.found[place, k])} / {words.number(at[place, k])}" for k in range(MAPPED)]
-        rows.append((ERRED[int(np.argmax(errors))], words.number(errors.max(), 3), *(words.number(_value(axis, value)) for axis, value in enumerate(point)),
-                     *pairs))
-    found.add(Table(("worst in", "error", "torque, N·m", "speed, rad/s", "difference, rad/s", "oil, °C", "T_left, N·m", "T_right, N·m", "loss, W"), rows,
-                    f"The {len(rows)} worst of {len(made.unseen)} unseen points: the largest error over the bound, the point, and what its run gave / what the map says. "
+        rows.append((ERRED[int(np.argmax(errors))], words.number(errors.max(), 3),
+                     *(words.number(_value(axis, value)) for axis, value in enumerate(point)), *pairs))
+    found.add(Table(("worst in", "error", "torque, N·m", "speed, rad/s", "difference, rad/s", "oil, °C", "T_left, N·m", "T_right, N·m",
+                     "loss, W"), rows,
+                    f"The {len(rows)} worst of {len(made.unseen)} unseen points: the largest error over the bound, the point, and what "
+                    "its run gave / what the map says. "
                     "A positive difference: the left wheel is faster.", left=1))
     return found
 
@@ -165,9 +172,9 @@ def _error(made):
 def _setup(made):
     found = Section("setup", "Scene on the bench")
     middle = inputs([line[len(line) // 2] for line in made.lines])
-    found.say("The bench drives the carrier by torque and both wheels by speed, without the scene's changes over time; half-shafts are damped, "
-              "which leaves their mean torques as they are, and all surfaces have the temperature of the oil. A point runs until its means "
-              "over whole mesh cycles stand still.")
+    found.say("The bench drives the carrier by torque and both wheels by speed, without the scene's changes over time; half-shafts are "
+              "damped, which leaves their mean torques as they are, and all surfaces have the temperature of the oil. A point runs until "
+              "its means over whole mesh cycles stand still.")
     found.say(f"The FMU says that it simulates: {made.scene.says(middle)}.")
     found.add(head.values(made.scene, DRIVEN))
     return found

@@ -12,7 +12,8 @@ from . import MAPPED, SIGNS, LossMap
 from .grid import places, torques_of
 
 MEANINGS = {
-    "kind": "map: a point of the map, which slips; stuck: a point without a difference of speeds; unseen: a random point that measured the error",
+    "kind": "map: a point of the map, which slips; stuck: a point without a difference of speeds; unseen: a random point that "
+            "measured the error",
     "carrier.torque [N.m]": "torque that drives the carrier",
     "carrier.speed [rad/s]": "speed of the carrier, the mean of the wheels' speeds",
     "speed_difference [rad/s]": "speed of the left wheel less that of the right wheel",
@@ -22,7 +23,8 @@ MEANINGS = {
     "power.loss [W]": "power that becomes heat, a mean over mesh cycles",
     "left.shaft_torque_min [N.m]": "map: the least left torque of a mesh cycle; stuck: that at which the left wheel breaks loose ahead",
     "left.shaft_torque_max [N.m]": "map: the greatest left torque of a mesh cycle; stuck: that at which the right wheel breaks loose ahead",
-    "torque_bias_ratio [1]": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques oppose each other",
+    "torque_bias_ratio [1]": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques "
+                             "oppose each other",
     "locking_effect [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum",
 }
 HEAD = list(MEANINGS)
