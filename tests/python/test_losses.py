@@ -271,3 +271,19 @@ def test_accuracy_chooses_the_model(scene, monkeypatch):
     assert values["left.speed_command"] - values["right.speed_command"] == 0.5
     assert made.scene.values["scene.gear_contact"] == scene.fmu.variable("scene.gear_contact").literals["ideal"]
     assert "not measured" in made.says()
+
+
+def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
+    """In its middle teeth may come into contact by jumps; cold and slow they would stall there."""
+    said = []
+    with Scene.load("torque_bias", fmu=fmu_file) as scene:
+        levels = dict(zip(VARIABLES, ([167.0, 1670.0], [5.0, 50.0], [0.5, 20.0], [253.15, 393.15])))
+        made = losses(scene, levels, within="1%", unseen=3, most=16, workers=0, tell=said.append)
+        assert said[0].startswith("model: tooth") and said[0].endswith(", corner contact"), said[0]
+        assert made.restless == 0
+        # what would stall says what to do
+        stalled = PointTask(benched(scene).set({"effects.corner_contact": False, "solver.relative_tolerance": 1e-4}))
+        row = stalled.evaluate(0, {"carrier.torque_command": 167.0, "carrier.speed_command": 5.0, "left.speed_command": 4.75,
+                                   "right.speed_command": 5.25, "oil.temperature": 253.15})
+        stalled.close()
+    assert "effects.corner_contact = true" in row.message, row.message

@@ -27,6 +27,14 @@ pub fn more_damping(p: &Parameters) -> &'static str {
     }
 }
 
+/// What makes steps fewer where too many were attempted.
+pub fn fewer_steps(p: &Parameters) -> &'static str {
+    if p.scene.gear_contact == GearContact::Tooth && !p.effects.corner_contact {
+        return "take effects.corner_contact = true: without it loaded teeth come into contact by a jump, at which slow gears stall";
+    }
+    more_damping(p)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -37,5 +45,8 @@ mod tests {
         assert!(more_damping(&p).contains("contact.damping"));
         p.contact.damping_model = DampingModel::Restitution;
         assert!(more_damping(&p).contains("contact.restitution"));
+        assert_eq!(fewer_steps(&p), more_damping(&p));
+        p.effects.corner_contact = false;
+        assert!(fewer_steps(&p).contains("effects.corner_contact = true"));
     }
 }

@@ -286,7 +286,7 @@ fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> S
             "{} attempts at steps were not enough for one communication step; shorten it, \
              loosen solver.relative_tolerance = {tolerance:e}, or {}",
             budget(model),
-            hints::more_damping(&model.parameters)
+            hints::fewer_steps(&model.parameters)
         ),
     };
     StepFailure { time, message }

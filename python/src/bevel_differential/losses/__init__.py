@@ -21,6 +21,8 @@ from .point import AXES, FIGURES, PointTask, benched
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
 SIGNS = (1.0, -1.0)
+# whether teeth come into contact at their corners as well, and the level of detail
+CORNERS, LEVEL = "effects.corner_contact", "scene.gear_contact"
 # figures that the map holds where the differential slips: torques left and right, loss
 MAPPED = 3
 
@@ -89,9 +91,13 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
     if within is not None:
         chosen = _chosen(scene, lines, within)
-        model = chosen.run.setting
-        tell(f"model: {model}")
+        model, corners = chosen.run.setting, _own(scene, CORNERS)
         scene.set(chosen.set)
+        # jumps, which the middle of the map may do with, stall slow gears at its edge
+        if corners and not _own(scene, CORNERS) and _own(scene, LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
+            scene.set({CORNERS: True})
+            model += ", corner contact"
+        tell(f"model: {model}")
     task, begin = PointTask(scene), time.perf_counter()
     with ExitStack() as opened:
         store = None
@@ -177,6 +183,11 @@ def _drawn(lines, count, seed):
     points = low + draws[:, :-1] * (high - low)
     points[:, 2] *= np.where(draws[:, -1] < 0.5, *SIGNS)
     return points
+
+
+def _own(scene, name):
+    """A value of the scene, by itself or at the start."""
+    return scene.values.get(name, scene.fmu.variable(name).start)
 
 
 def _chosen(scene, lines, within):
