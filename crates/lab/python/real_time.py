@@ -1,6 +1,6 @@
 """The costliest communication step of the fixed-step method compared with the median one, in instructions.
 
-usage: real_time.py FOLDER BUILD    FOLDER is emptied; the program is built in BUILD"""
+usage: real_time.py FOLDER BUILD [--quick]    FOLDER is emptied; the program is built in BUILD; quick leaves out the shortest steps"""
 
 import shutil
 import statistics
@@ -21,14 +21,15 @@ MOST = 2.0
 
 
 def main():
-    folder, build = map(Path, sys.argv[1:])
+    folder, build = map(Path, sys.argv[1:3])
+    sizes = SIZES[:-1] if sys.argv[3:] else SIZES
     build.mkdir(parents=True, exist_ok=True)
     program, worst = stepping(build, True, "full"), 0.0
     rows = [["scene", "`solver.fixed_step`, s", "median", "costliest", "costliest / median"]]
     for scene, *options in SCENES:
-        for size in SIZES:
+        for size in sizes:
             name = ", ".join([scene, *options])
-            say((len(rows) - 1) / (len(SCENES) * len(SIZES)), f"counting {name}, steps of {size} s")
+            say((len(rows) - 1) / (len(SCENES) * len(sizes)), f"counting {name}, steps of {size} s")
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
             callgrind(program, NARROW, [scene, STEPS, "unread", f"fixed_step={size}", *options],

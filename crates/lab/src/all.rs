@@ -19,7 +19,7 @@ const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 const COMMANDS: [&[&str]; 22] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
-    &["real-time"],
+    &["real-time", "--quick"],
     &["zero-cost", "--quick"],
     &["stiffness"],
     &["patterns"],

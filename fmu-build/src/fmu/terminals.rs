@@ -43,7 +43,7 @@ struct Terminal {
 
 use Kind::{Inflow, Outflow, Signal};
 
-const TERMINALS: [Terminal; 11] = [
+const TERMINALS: [Terminal; 13] = [
     Terminal {
         name: "carrier_torque_driven",
         kind: TORQUE_DRIVEN,
@@ -130,6 +130,18 @@ const TERMINALS: [Terminal; 11] = [
         kind: COMMAND,
         description: "Tooth fault with effects.tooth_fault: the tooth breaks when the command rises above 0.5",
         members: &[("command", "fault.trigger", Signal)],
+    },
+    Terminal {
+        name: "ambient",
+        kind: COMMAND,
+        description: "Surroundings of the case with effects.warm_up: the command changes their temperature; the case has its own",
+        members: &[("command", "warm_up.ambient_change", Signal), ("temperature", "temperature.case", Signal)],
+    },
+    Terminal {
+        name: "sump",
+        kind: COMMAND,
+        description: "Oil with effects.warm_up and warm_up.sump_given, as from a cooler: the command changes its temperature",
+        members: &[("command", "warm_up.sump_change", Signal), ("temperature", "temperature.oil", Signal)],
     },
 ];
 

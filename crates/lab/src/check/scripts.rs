@@ -79,10 +79,15 @@ fn effects_on(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
 pub const REAL_TIME: Script = Script {
     name: "real-time",
     about: "Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)",
-    options: || vec![flag("write", "Also renew the table in docs/cost.md")],
+    options: || {
+        vec![
+            flag("quick", "Leave out steps of 10 µs").conflicts_with("write"),
+            flag("write", "Also renew the table in docs/cost.md"),
+        ]
+    },
     file: "crates/lab/python/real_time.py",
     doing: "counting",
-    given: &[Given::Target("real-time"), Given::Target(BUILD)],
+    given: &[Given::Target("real-time"), Given::Target(BUILD), Given::Named("quick")],
     sections: &[("docs/cost.md", "real-time", "")],
     ..DEFAULTS
 };
