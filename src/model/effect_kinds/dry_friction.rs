@@ -26,6 +26,8 @@ pub const PARTS: usize = 3;
 pub struct DryFriction {
     parts: [FrictionPart; PARTS],
     count: usize,
+    /// Whether friction of any part changes with its slip.
+    feels_slip: bool,
     /// Stiffness of all sources together [N·m/rad].
     pub stiffness: f64,
     damping_time: f64,
@@ -40,6 +42,7 @@ impl DryFriction {
     pub const NONE: Self = Self {
         parts: [FrictionPart::NONE; PARTS],
         count: 0,
+        feels_slip: false,
         stiffness: 0.0,
         damping_time: 0.0,
         commanded: false,
@@ -61,6 +64,7 @@ impl DryFriction {
         if stiffness > 0.0 && self.count + parts.len() <= PARTS {
             self.parts[self.count..self.count + parts.len()].copy_from_slice(parts);
             self.count += parts.len();
+            self.feels_slip |= parts.iter().any(FrictionPart::feels_slip);
             self.stiffness += stiffness;
         }
     }
@@ -85,7 +89,11 @@ impl DryFriction {
     }
 
     /// Limit torque of a body that slides at `speed` in its direction [N·m], and its slope by speed.
+    #[inline]
     pub fn sliding_limit(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        if !self.feels_slip {
+            return [self.limit(by), 0.0];
+        }
         self.parts().iter().fold([0.0; 2], |[torque, slope], p| {
             let [value, by_speed] = p.sliding(speed, by);
             [torque + value, slope + by_speed]
@@ -93,7 +101,11 @@ impl DryFriction {
     }
 
     /// Slopes of the same by thrust and load.
+    #[inline]
     pub fn limit_slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        if !self.feels_slip {
+            return self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load]);
+        }
         self.parts().iter().fold([0.0; 2], |[t, l], p| {
             let [by_thrust, by_load] = p.slopes(speed, by);
             [t + by_thrust, l + by_load]
@@ -130,7 +142,7 @@ impl DryFriction {
         let (direction, mut limit) = (state.mode.direction(), 0.0);
         let sliding = count * direction * slip.speed;
         for part in self.parts() {
-            let [torque, _] = part.sliding(direction * slip.speed, by);
+            let torque = if self.feels_slip { part.sliding(direction * slip.speed, by)[0] } else { part.at(by) };
             limit += torque;
             heat[part.heat_index] += sliding * torque;
         }

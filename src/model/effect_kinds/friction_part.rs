@@ -40,13 +40,18 @@ impl FrictionPart {
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load, ..self }
     }
 
+    /// Whether friction changes with slip.
+    pub(super) fn feels_slip(&self) -> bool {
+        !self.law.is_constant() || self.pv_limit.is_some()
+    }
+
     /// Kinetic limit torque [N·m].
     pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
     /// Limit torque while the body slides at `speed` in its direction [N·m], and its slope by speed.
-    #[inline]
+    #[inline(never)]
     pub(super) fn sliding(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         let ([value, slope], kinetic) = (self.law.factor(speed), self.at(by));
         let [torque, by_speed] = [value * kinetic, slope * kinetic];
@@ -57,7 +62,7 @@ impl FrictionPart {
     }
 
     /// Slopes of the same by thrust and load.
-    #[inline]
+    #[inline(never)]
     pub(super) fn slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         let [value, _] = self.law.factor(speed);
         let [by_thrust, by_load] = [value * self.per_thrust, value * self.per_load];
