@@ -51,6 +51,7 @@ impl FrictionPart {
     }
 
     /// Limit torque while the body slides at `speed` in its direction [N·m], and its slope by speed.
+    /// Apart: friction that does not change with slip has no need of it.
     #[inline(never)]
     pub(super) fn sliding(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         let ([value, slope], kinetic) = (self.law.factor(speed), self.at(by));

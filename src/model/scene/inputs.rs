@@ -102,7 +102,7 @@ inputs! {
     fault: f64 = 0.0, COMMAND;
     /// Change of the ambient temperature from its parameter [K].
     ambient_change: f64 = 0.0, FREE;
-    /// Change of a given sump from the temperature of the oil at the start [K].
+    /// Change of a given sump from the temperature of the oil that the parameters give [K].
     sump_change: f64 = 0.0, FREE;
 }
 

@@ -16,7 +16,7 @@ from ..designs.sweep import going_on_later, hashed
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
 from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
-from .point import AXES, FIGURES, PointTask, benched
+from .point import AXES, FIGURES, PointTask, benched, own
 
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
@@ -91,10 +91,10 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
     if within is not None:
         chosen = _chosen(scene, lines, within)
-        model, corners = chosen.run.setting, _own(scene, CORNERS)
+        model, corners = chosen.run.setting, own(scene, CORNERS)
         scene.set(chosen.set)
         # jumps, which the middle of the map may do with, stall slow gears at its edge
-        if corners and not _own(scene, CORNERS) and _own(scene, LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
+        if corners and not own(scene, CORNERS) and own(scene, LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
             scene.set({CORNERS: True})
             model += ", corner contact"
         tell(f"model: {model}")
@@ -183,11 +183,6 @@ def _drawn(lines, count, seed):
     points = low + draws[:, :-1] * (high - low)
     points[:, 2] *= np.where(draws[:, -1] < 0.5, *SIGNS)
     return points
-
-
-def _own(scene, name):
-    """A value of the scene, by itself or at the start."""
-    return scene.values.get(name, scene.fmu.variable(name).start)
 
 
 def _chosen(scene, lines, within):

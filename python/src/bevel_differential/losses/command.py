@@ -70,12 +70,13 @@ def run(arguments: argparse.Namespace) -> int:
 def _axes(scene, arguments):
     from ..designs import Dimension
     from . import VARIABLES
+    from .point import own
 
-    def own(name):
-        return abs(float(scene.values.get(name, scene.fmu.variable(name).start)))
+    def size(name):
+        return abs(float(own(scene, name)))
 
-    torque = own("carrier.torque_command") or own("left.load_torque") + own("right.load_torque")
-    speed = own("carrier.speed_command") or own("left.speed_command")
+    torque = size("carrier.torque_command") or size("left.load_torque") + size("right.load_torque")
+    speed = size("carrier.speed_command") or size("left.speed_command")
     usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
     for name, variable in zip(OPTIONS, VARIABLES):
         text = getattr(arguments, name) or usual[name]
