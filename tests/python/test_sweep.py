@@ -187,6 +187,41 @@ def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, m
     assert rest.new == RUNS - 600 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
 
 
+class Freed:
+    """Its end is interrupted, where an exception is lost."""
+
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        # Python runs handlers between its own instructions
+        time.sleep(0.0)
+
+
+@pytest.mark.parametrize("at", ["submit", "result"])
+def test_an_interrupt_while_dask_frees_something_is_not_lost(scene, tmp_path, monkeypatch, at):
+    from distributed import Future
+    from distributed.client import Client
+
+    lost, calls = [], []
+    of = Client if at == "submit" else Future
+    plain = getattr(of, at)
+
+    def interrupted(self, *given, **named):
+        calls.append(at)
+        if len(calls) == 3:
+            Freed()
+        return plain(self, *given, **named)
+
+    monkeypatch.setattr(of, at, interrupted)
+    monkeypatch.setattr(sys, "unraisablehook", lost.append)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(Stopped, match=f"of {RUNS} runs are kept"):
+            sweep(scene, **PLAN, workers=1, processes=False, out=tmp_path / "found.parquet")
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert not lost and len(calls) == 3
+
+
 def command(scene, out, wants, *more):
     vary = [part for name, values in VARY.items() for part in ("--vary", f"{name}={values}")]
     wants = [part for want in wants for part in ("--want", want)]

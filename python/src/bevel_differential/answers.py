@@ -5,10 +5,7 @@ Each question is a dict with the key "ask"; crates/answers/src/ask of the reposi
 import ctypes
 import json
 import os
-import signal
-import threading
 from collections.abc import Callable, Mapping
-from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from . import machine
+from .interrupts import held_back
 from .values import DifferentialError
 
 # told the part of the work that is done, from 0 to 1, and what is being done
@@ -30,25 +28,22 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     Raises `DifferentialError`; its `problems` are dicts with `message` and, where they are known, `variable`, `value`, `unit`,
     `range` and `hint`; its `kind` is "use" if the question makes no sense, otherwise "failed"."""
     library = _library()
-    raised: list[BaseException] = []
-
-    def on_progress(_context, done, what):
-        try:
-            if progress is not None and not raised:
-                progress(done, what.decode())
-        except BaseException as stopped:
-            raised.append(stopped)
-        return len(raised)
-
-    callback = _PROGRESS(on_progress)
     values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
     text = json.dumps(question, default=_plain).encode()
-    with _interrupts(raised):
+    with held_back() as raised:
+
+        def on_progress(_context, done, what):
+            try:
+                if progress is not None and not raised:
+                    progress(done, what.decode())
+            except BaseException as stopped:
+                raised.append(stopped)
+            return len(raised)
+
+        callback = _PROGRESS(on_progress)
         reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
-    found = json.loads(ctypes.string_at(reply))
-    library.bd_free(reply)
-    if raised:
-        raise raised[0]
+        found = json.loads(ctypes.string_at(reply))
+        library.bd_free(reply)
     if "answer" not in found:
         message = "\n".join(problem["message"] for problem in found["problems"])
         raise DifferentialError(message, kind=found["kind"], problems=found["problems"])
@@ -73,19 +68,6 @@ def scenes() -> Path:
         return Path(folder)
     shipped = Path(__file__).with_name("scenes")
     return shipped if shipped.is_dir() else shipped.parents[3] / "scenes"
-
-
-@contextmanager
-def _interrupts(raised):
-    """Ctrl-C becomes an entry of `raised`, so that it is not lost between calls of the library."""
-    own = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if own:
-        signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
-    try:
-        yield
-    finally:
-        if own:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @cache

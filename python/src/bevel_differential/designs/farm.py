@@ -12,6 +12,7 @@ from contextlib import closing
 from typing import Any, Self
 
 from ..extras import require
+from ..interrupts import held_back
 from ..values import DifferentialError, Number
 from . import cluster
 from .task import Row, Task
@@ -22,6 +23,8 @@ SHORTEST, LONGEST = 0.1, 1.0
 LAST_CHUNKS = 4
 # chunks that a worker has in its queue, so that it never waits
 AT_HAND = 2
+# time after which an interrupt is seen, s
+LOOK = 0.2
 # time without any worker after which none will come any more, s
 NO_WORKER_TIMEOUT = 60.0
 
@@ -78,22 +81,33 @@ class _TaskRun:
 
     def rows(self):
         try:
-            self._fill()
-            while self.under_way:
-                future = self._next()
-                yield from self._taken(self.under_way.pop(future), future)
+            # an interrupt inside dask may be lost: it waits until dask has done its part
+            with held_back():
                 self._fill()
+            while self.under_way:
+                with held_back() as interrupts:
+                    rows = self._ended(interrupts)
+                yield from rows
         except (CancelledError, OSError):
             raise DifferentialError("the scheduler is gone; start it again and go on") from None
         finally:
             self.client.cancel(list(self.under_way))
 
-    def _next(self):
-        """A future that has ended."""
+    def _ended(self, interrupts):
+        """Rows of a chunk that has ended; none at an interrupt."""
+        future = self._next(interrupts)
+        if future is None:
+            return []
+        rows = self._taken(self.under_way.pop(future), future)
+        self._fill()
+        return rows
+
+    def _next(self, interrupts):
+        """A future that has ended; None at an interrupt."""
         seen = time.monotonic()
-        while True:
+        while not interrupts:
             try:
-                return self.ended.get(timeout=1.0)
+                return self.ended.get(timeout=LOOK)
             except queue.Empty:
                 now = time.monotonic()
                 seen = now if self.client.nthreads() else seen
