@@ -8,7 +8,7 @@ use super::{Jacobian, State};
 use crate::integrate::Point;
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, Slip, SurfaceLoad};
+use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,
 };
@@ -80,6 +80,8 @@ pub trait Acted<const N: usize> {
     fn acting(&self) -> &Acting;
     /// The same, to be changed.
     fn acting_mut(&mut self) -> &mut Acting;
+    /// Sources of its dry friction.
+    fn friction_sources(&self) -> &[FrictionSource];
     /// Scene plan.
     fn plan(&self) -> &Plan;
     /// Index of each degree of freedom.
@@ -182,10 +184,11 @@ pub trait Acted<const N: usize> {
     }
 
     /// Friction on body `i` with its state, and how many bodies it stands for.
-    fn friction_on(&self, i: usize) -> (&DryFriction, &FrictionState, f64) {
+    fn friction_on(&self, i: usize) -> (DryFriction<'_>, &FrictionState, f64) {
         let planets = FRICTION_PLANETS..FRICTION_WHEELS;
         let count = if planets.contains(&i) { self.sticking()[i - FRICTION_PLANETS] } else { 1.0 };
-        (self.acting().friction().on(i), &self.acting().friction_state[i], count)
+        let acting = self.acting();
+        (DryFriction::new(acting.friction().on(i), self.friction_sources()), &acting.friction_state[i], count)
     }
 
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
@@ -333,10 +336,10 @@ pub trait Acted<const N: usize> {
     fn settle_friction(&mut self, at: &Point<N>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
         let surface_loads = self.surface_loads(at, time);
         for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
-            let ((friction, _, count), slip) = (self.friction_on(i), self.slip(at, i));
+            let (friction, &(mut state), count) = self.friction_on(i);
             if friction.is_on() {
-                let friction = *friction;
-                friction.settle(&mut self.acting_mut().friction_state[i], &slip, &surface_loads[i], count, heat);
+                friction.settle(&mut state, &self.slip(at, i), &surface_loads[i], count, heat);
+                self.acting_mut().friction_state[i] = state;
             }
         }
     }
@@ -347,8 +350,9 @@ pub trait Acted<const N: usize> {
         Self: Sized,
     {
         for i in self.bodies_that_stick() {
-            let ((&friction, _, count), slip) = (self.friction_on(i), self.slip(at, i));
-            friction.adapt(&mut self.acting_mut().friction_state[i], &slip, heat, count);
+            let (friction, &(mut state), count) = self.friction_on(i);
+            friction.adapt(&mut state, &self.slip(at, i), heat, count);
+            self.acting_mut().friction_state[i] = state;
         }
     }
 }

@@ -19,7 +19,7 @@ use crate::contact::Law;
 use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{SIGMA, Teeth};
-use crate::model::effect_kinds::SurfaceLoad;
+use crate::model::effect_kinds::{FrictionSource, SurfaceLoad};
 use crate::model::scene::attached::ENDS;
 use crate::model::scene::layout::{LEFT, over_groups};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, PLANET, Plan};
@@ -344,6 +344,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     #[inline]
     fn acting_mut(&mut self) -> &mut Acting {
         &mut self.acting
+    }
+
+    #[inline]
+    fn friction_sources(&self) -> &[FrictionSource] {
+        if WITH_EFFECTS { &self.teeth.effect_terms.body_effects.friction } else { &[] }
     }
 
     #[inline]

@@ -7,7 +7,7 @@ use super::{Acted, Acting, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, MOST};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
+use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, PLANET, Plan};
 
 /// Torques that follow from the constraint.
@@ -129,6 +129,10 @@ impl Acted<MOST> for IdealEquations<'_> {
 
     fn acting_mut(&mut self) -> &mut Acting {
         &mut self.acting
+    }
+
+    fn friction_sources(&self) -> &[FrictionSource] {
+        &self.ideal.body_effects.friction
     }
 
     fn plan(&self) -> &Plan {

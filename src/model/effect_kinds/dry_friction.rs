@@ -6,7 +6,8 @@
 //! along, step by step, so that a body stops with the torque that the spring has then, never with more. The integrator
 //! ends a step at each transition; the energy that the spring loses there is heat.
 
-use super::{FrictionPart, FrictionState, Mode, Slip, SurfaceLoad};
+use super::body_friction::BodyFriction;
+use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 
 /// Damping of the spring over its stiffness τ, where the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
@@ -18,84 +19,42 @@ pub const SPEED_TOLERANCE: f64 = 1e-6;
 const NOTHING: f64 = 1e-9;
 /// Parts of a step within which a switch is looked for.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
-/// Most parts of the friction on one body.
-pub const PARTS: usize = 3;
-
-/// Friction on one kind of body from all its sources.
+/// Friction on a body: its parts, and the sources that know how they slide.
 #[derive(Clone, Copy, Debug)]
-pub struct DryFriction {
-    parts: [FrictionPart; PARTS],
-    count: usize,
-    /// Whether friction of any part changes with its slip.
-    feels_slip: bool,
-    /// Stiffness of all sources together [N·m/rad].
-    pub stiffness: f64,
-    damping_time: f64,
-    /// Whether the limit torque is a command, which may fall while a body is held.
-    commanded: bool,
-    /// Index of the heat that the spring becomes when the last source is switched off.
-    released_heat_index: usize,
+pub struct DryFriction<'a> {
+    of: &'a BodyFriction,
+    sources: &'a [FrictionSource],
 }
 
-impl DryFriction {
-    /// No source.
-    pub const NONE: Self = Self {
-        parts: [FrictionPart::NONE; PARTS],
-        count: 0,
-        feels_slip: false,
-        stiffness: 0.0,
-        damping_time: 0.0,
-        commanded: false,
-        released_heat_index: 0,
-    };
-
-    /// No source yet; the energy that the spring loses when the last is switched off is heat `released_heat_index`.
-    pub fn new(damping_time: f64, released_heat_index: usize) -> Self {
-        Self { damping_time, released_heat_index, ..Self::NONE }
-    }
-
-    /// The same with a limit torque that is a command.
-    pub fn commanded(damping_time: f64, released_heat_index: usize) -> Self {
-        Self { commanded: true, ..Self::new(damping_time, released_heat_index) }
-    }
-
-    /// Adds a source, whose parts share a spring.
-    pub fn push(&mut self, parts: &[FrictionPart], stiffness: f64) {
-        if stiffness > 0.0 && self.count + parts.len() <= PARTS {
-            self.parts[self.count..self.count + parts.len()].copy_from_slice(parts);
-            self.count += parts.len();
-            self.feels_slip |= parts.iter().any(FrictionPart::feels_slip);
-            self.stiffness += stiffness;
-        }
-    }
-
-    fn parts(&self) -> &[FrictionPart] {
-        &self.parts[..self.count]
+impl<'a> DryFriction<'a> {
+    /// Friction `of` a body from `sources`.
+    #[inline]
+    pub fn new(of: &'a BodyFriction, sources: &'a [FrictionSource]) -> Self {
+        Self { of, sources }
     }
 
     /// Whether there is any source.
+    #[inline]
     pub fn is_on(&self) -> bool {
-        self.count > 0
+        self.of.is_on()
     }
 
-    /// Whether the limit torque depends on loads.
-    pub fn depends_on_load(&self) -> bool {
-        self.parts().iter().any(|p| p.per_thrust != 0.0 || p.per_load != 0.0)
-    }
-
-    /// Kinetic limit torque, as of a curve that does not depend on speed [N·m].
-    pub fn limit(&self, by: &SurfaceLoad) -> f64 {
-        self.parts().iter().map(|p| p.at(by)).sum()
+    fn parts(&self) -> impl Iterator<Item = (&'a FrictionPart, &'a FrictionSource)> + use<'a> {
+        let sources = self.sources;
+        self.of.parts().iter().map(move |part| (part, &sources[usize::from(part.source)]))
     }
 
     /// Limit torque of a body that slides at `speed` in its direction [N·m], and its slope by speed.
     #[inline]
     pub fn sliding_limit(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        if !self.feels_slip {
-            return [self.limit(by), 0.0];
-        }
-        self.parts().iter().fold([0.0; 2], |[torque, slope], p| {
-            let [value, by_speed] = p.sliding(speed, by);
+        if self.of.feels_slip { self.limit_at(speed, by) } else { [self.of.limit(by), 0.0] }
+    }
+
+    /// The same of friction that changes with slip: apart, as other friction has no need of it.
+    #[inline(never)]
+    fn limit_at(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        self.parts().fold([0.0; 2], |[torque, slope], (part, source)| {
+            let [value, by_speed] = part.sliding(source, speed, by);
             [torque + value, slope + by_speed]
         })
     }
@@ -103,23 +62,25 @@ impl DryFriction {
     /// Slopes of the same by thrust and load.
     #[inline]
     pub fn limit_slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        if !self.feels_slip {
-            return self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load]);
-        }
-        self.parts().iter().fold([0.0; 2], |[t, l], p| {
-            let [by_thrust, by_load] = p.slopes(speed, by);
+        if self.of.feels_slip { self.limit_slopes_at(speed, by) } else { self.of.limit_slopes() }
+    }
+
+    #[inline(never)]
+    fn limit_slopes_at(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        self.parts().fold([0.0; 2], |[t, l], (part, source)| {
+            let [by_thrust, by_load] = part.slopes(source, speed, by);
             [t + by_thrust, l + by_load]
         })
     }
 
     fn breakaway(&self, by: &SurfaceLoad) -> f64 {
-        self.parts().iter().map(|p| p.static_ratio * p.at(by)).sum()
+        self.parts().map(|(part, source)| source.static_ratio * part.at(by)).sum()
     }
 
     /// Torque against the motion.
     pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
-            Mode::Stuck => state.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
+            Mode::Stuck => state.stiffness * (slip.position - state.anchor + self.of.damping_time * slip.speed),
             mode => mode.direction() * self.sliding_limit(mode.direction() * slip.speed, by)[0],
         }
     }
@@ -127,7 +88,7 @@ impl DryFriction {
     /// Slopes of the torque by position and speed; those by loads are [`Self::limit_slopes`].
     pub fn torque_slopes(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> [f64; 2] {
         match state.mode {
-            Mode::Stuck => [state.stiffness, self.damping_time * state.stiffness],
+            Mode::Stuck => [state.stiffness, self.of.damping_time * state.stiffness],
             mode => [0.0, self.sliding_limit(mode.direction() * slip.speed, by)[1]],
         }
     }
@@ -135,18 +96,23 @@ impl DryFriction {
     /// Torque against the motion; adds its heat to the causes, `count` bodies alike.
     pub fn act(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) -> f64 {
         if state.mode == Mode::Stuck {
-            let power = state.stiffness * self.damping_time * slip.speed * slip.speed;
+            let power = state.stiffness * self.of.damping_time * slip.speed * slip.speed;
             self.add_heat(count * power, by, heat);
             return self.torque(state, slip, by);
         }
-        let (direction, mut limit) = (state.mode.direction(), 0.0);
-        let sliding = count * direction * slip.speed;
-        for part in self.parts() {
-            let torque = if self.feels_slip { part.sliding(direction * slip.speed, by)[0] } else { part.at(by) };
-            limit += torque;
+        let direction = state.mode.direction();
+        let slides = (direction * slip.speed, count * direction * slip.speed);
+        direction * if self.of.feels_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
+    }
+
+    /// Limit torque of a body that slides at `speed`; adds its heat, `sliding` times the torque of each part, to the causes.
+    #[inline(never)]
+    fn rub_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
+        self.parts().fold(0.0, |limit, (part, source)| {
+            let [torque, _] = part.sliding(source, speed, by);
             heat[part.heat_index] += sliding * torque;
-        }
-        direction * limit
+            limit + torque
+        })
     }
 
     /// Whether loads decide if a switch is due: of a body that slides, its speed does.
@@ -156,9 +122,9 @@ impl DryFriction {
 
     /// Shares `amount` out to the causes in proportion to their limit torques.
     fn add_heat(&self, amount: f64, by: &SurfaceLoad, heat: &mut [f64]) {
-        let whole = self.limit(by);
-        for part in self.parts() {
-            let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
+        let whole = self.of.limit(by);
+        for part in self.of.parts() {
+            let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.of.parts().len() as f64 };
             heat[part.heat_index] += amount * share;
         }
     }
@@ -174,7 +140,7 @@ impl DryFriction {
         let torque = self.torque(state, slip, by);
         // a spring past its limit that is being unwound is cut back, it does not slide; a body that stands still when
         // its limit is lowered slides to where it is driven
-        let stands = self.commanded && slip.speed.abs() < SPEED_TOLERANCE;
+        let stands = self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE;
         let sense = if stands { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
     }
@@ -200,11 +166,11 @@ impl DryFriction {
         start: (&Slip, &SurfaceLoad),
         end: (&Slip, &SurfaceLoad),
     ) -> Option<f64> {
-        if self.commanded && state.mode == Mode::Stuck {
+        if self.of.commanded && state.mode == Mode::Stuck {
             return self.crossing_of_command(state, start, end);
         }
         let after = self.overshoot(state, end.0, end.1);
-        if after <= 1.0 || self.limit(end.1) <= NOTHING {
+        if after <= 1.0 || self.of.limit(end.1) <= NOTHING {
             return None;
         }
         // aim at the middle of the tolerance
@@ -234,13 +200,13 @@ impl DryFriction {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {
                 let z = slip.position - state.anchor;
-                let most = self.breakaway(by) / self.stiffness;
-                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + NOTHING / self.stiffness {
+                let most = self.breakaway(by) / self.of.stiffness;
+                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + NOTHING / self.of.stiffness {
                     after.anchor = slip.position - most * z.signum();
                 }
             }
             // a command of no torque holds nothing
-            mode if due && self.commanded && self.breakaway(by) <= NOTHING => after.mode = mode.reversed(),
+            mode if due && self.of.commanded && self.breakaway(by) <= NOTHING => after.mode = mode.reversed(),
             _ if due => after.mode = Mode::Stuck,
             _ => {}
         }
@@ -264,7 +230,7 @@ impl DryFriction {
     /// Anchor of a body that has slid to `position` [rad]: the spring, wound to the limit torque [N·m], drags it along.
     /// Where the limit rises faster than the motion winds the spring, the torque of the spring stays below it.
     pub fn drag(&self, anchor: f64, position: f64, limit: f64) -> f64 {
-        let most = limit / self.stiffness;
+        let most = limit / self.of.stiffness;
         position - (position - anchor).max(-most).min(most)
     }
 
@@ -278,12 +244,12 @@ impl DryFriction {
 
     /// Adapts the state to this stiffness; on a body without friction before, it starts here.
     pub fn adapt(&self, state: &mut FrictionState, slip: &Slip, heat: &mut [f64], count: f64) {
-        if state.stiffness == self.stiffness {
+        if state.stiffness == self.of.stiffness {
             return;
         }
         let wound = slip.position - state.anchor;
         let before = if state.mode == Mode::Stuck { 0.5 * state.stiffness * wound * wound } else { 0.0 };
-        if self.stiffness > 0.0 {
+        if self.of.stiffness > 0.0 {
             if state.stiffness == 0.0 {
                 state.mode = match slip.speed {
                     v if v > SPEED_TOLERANCE => Mode::Forward,
@@ -292,12 +258,12 @@ impl DryFriction {
                 };
             }
             // a spring that becomes stiffer keeps its torque, one that becomes softer its twist: neither gains energy
-            state.anchor = slip.position - wound * (state.stiffness / self.stiffness).min(1.0);
+            state.anchor = slip.position - wound * (state.stiffness / self.of.stiffness).min(1.0);
         } else {
             *state = FrictionState::default();
         }
-        state.stiffness = self.stiffness;
-        let cause = self.parts().first().map_or(self.released_heat_index, |p| p.heat_index);
+        state.stiffness = self.of.stiffness;
+        let cause = self.of.parts().first().map_or(self.of.released_heat_index, |part| part.heat_index);
         heat[cause] += count * (before - self.energy(state, slip.position));
     }
 }

@@ -1,7 +1,8 @@
 //! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels in their brakes.
 
-use super::dry_friction::{DAMPING_TIME, DryFriction};
-use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceLoad, WheelFriction};
+use super::body_friction::BodyFriction;
+use super::dry_friction::DAMPING_TIME;
+use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceKind, SurfaceLoad, WheelFriction};
 use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs};
 use crate::model::thermal::NODES;
 
@@ -9,18 +10,22 @@ use crate::model::thermal::NODES;
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
     /// On each side gear.
-    pub side: DryFriction,
+    pub side: BodyFriction,
     /// On each planet.
-    pub planet: DryFriction,
+    pub planet: BodyFriction,
     /// On left and right wheel.
-    pub wheel: [DryFriction; 2],
+    pub wheel: [BodyFriction; 2],
     wheel_limit: Option<fn(&Inputs) -> [f64; 2]>,
 }
 
 impl Friction {
     /// No friction.
-    pub const NONE: Self =
-        Self { side: DryFriction::NONE, planet: DryFriction::NONE, wheel: [DryFriction::NONE; 2], wheel_limit: None };
+    pub const NONE: Self = Self {
+        side: BodyFriction::NONE,
+        planet: BodyFriction::NONE,
+        wheel: [BodyFriction::NONE; 2],
+        wheel_limit: None,
+    };
 
     /// Friction of `sources` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their derivatives.
     /// Brakes that are off add none.
@@ -33,60 +38,58 @@ impl Friction {
         let mut all = Self::NONE;
         let heat_index_of =
             |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat_index);
-        all.side = DryFriction::new(DAMPING_TIME, heat_index_of(|s| s.by_lock));
-        all.planet = DryFriction::new(DAMPING_TIME, 0);
-        for source in sources {
-            if source.by_lock {
-                if lock > 0.0 {
-                    all.add(&source.scaled(lock), 1.0);
-                }
-            } else {
-                all.add(source, source.factor(temperatures));
+        all.side = BodyFriction::new(DAMPING_TIME, heat_index_of(|s| s.by_lock));
+        all.planet = BodyFriction::new(DAMPING_TIME, 0);
+        for (index, source) in (0..).zip(sources) {
+            if !source.by_lock {
+                all.add((index, source), 1.0, source.factor(temperatures));
+            } else if lock > 0.0 {
+                all.add((index, source), lock, 1.0);
             }
             if let Some(wheel) = &source.wheel {
-                all.brake(wheel, source, source.factor(temperatures), (inputs, input_derivatives));
+                all.brake(wheel, (index, source), source.factor(temperatures), (inputs, input_derivatives));
             }
         }
         all
     }
 
-    fn add(&mut self, source: &FrictionSource, factor: f64) {
-        let &FrictionSource { heat_index, static_ratio, .. } = source;
-        let SideFriction { constant, per_thrust, per_torque, stiffness, radius, pressed } = source.side;
-        let (law, pv_limit) = (source.law(radius), source.pv_limit(pressed));
-        let side = FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, law, pv_limit, heat_index };
-        self.side.push(&[side.times(factor)], stiffness);
-        let PlanetFriction { per_pin_force, per_thrust, stiffness, radius, pressed } = source.planet;
-        let none = FrictionPart { static_ratio, heat_index, ..FrictionPart::NONE };
-        let [pin, washer] = radius.map(|radius| source.law(radius));
-        let [pin_limit, washer_limit] = pressed.map(|pressed| source.pv_limit(pressed));
-        if pin.is_constant() && pin_limit.is_none() {
-            self.planet.push(&[FrictionPart { per_thrust, per_load: per_pin_force, ..none }.times(factor)], stiffness);
+    /// Adds source number `index`, pressed by `part` of its force, with `factor` times the friction.
+    fn add(&mut self, (index, source): (u16, &FrictionSource), part: f64, factor: f64) {
+        let feels_slip = source.feels_slip();
+        let none = FrictionPart { heat_index: source.heat_index, source: index, ..FrictionPart::NONE };
+        let SideFriction { constant, per_thrust, per_torque, stiffness, .. } = source.side;
+        let side = FrictionPart { constant, per_thrust, per_load: per_torque, ..none };
+        self.side.push(&[side.times(part * factor)], part * stiffness, feels_slip);
+        let PlanetFriction { per_pin_force: per_load, per_thrust, stiffness, .. } = source.planet;
+        let pin = FrictionPart { per_load, surface: SurfaceKind::Pin, ..none };
+        let washer = FrictionPart { per_thrust, surface: SurfaceKind::PlanetWasher, ..none };
+        if feels_slip {
+            self.planet.push(&[pin, washer].map(|of| of.times(part * factor)), part * stiffness, true);
         } else {
-            let pin = FrictionPart { per_load: per_pin_force, law: pin, pv_limit: pin_limit, ..none };
-            let washer = FrictionPart { per_thrust, law: washer, pv_limit: washer_limit, ..none };
-            self.planet.push(&[pin.times(factor), washer.times(factor)], stiffness);
+            self.planet.push(&[FrictionPart { per_thrust, ..pin }.times(part * factor)], part * stiffness, false);
         }
     }
 
     fn brake(
         &mut self,
         wheel: &WheelFriction,
-        source: &FrictionSource,
+        (index, source): (u16, &FrictionSource),
         factor: f64,
         (inputs, input_derivatives): (&Inputs, &InputDerivatives),
     ) {
         let [first, second] = &input_derivatives.rates;
         let limits = [inputs, first, second].map(wheel.limit);
         for s in 0..2 {
-            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat_index);
+            self.wheel[s] = BodyFriction::commanded(wheel.damping_time[s], source.heat_index);
             if limits.iter().any(|limit| limit[s] != 0.0) {
-                let (static_ratio, law, heat_index) =
-                    (source.static_ratio, source.law(wheel.radius), source.heat_index);
-                let pv_limit = source.pv_limit(wheel.pressed);
-                let part =
-                    FrictionPart { per_load: 1.0, static_ratio, law, pv_limit, heat_index, ..FrictionPart::NONE };
-                self.wheel[s].push(&[part.times(factor)], wheel.stiffness);
+                let part = FrictionPart {
+                    per_load: 1.0,
+                    heat_index: source.heat_index,
+                    source: index,
+                    surface: SurfaceKind::Wheel,
+                    ..FrictionPart::NONE
+                };
+                self.wheel[s].push(&[part.times(factor)], wheel.stiffness, source.feels_slip());
             }
         }
         self.wheel_limit = Some(wheel.limit);
@@ -94,7 +97,7 @@ impl Friction {
 
     /// Friction on body `i`, counted among those that may stick.
     #[inline]
-    pub fn on(&self, i: usize) -> &DryFriction {
+    pub fn on(&self, i: usize) -> &BodyFriction {
         match i {
             0..FRICTION_PLANETS => &self.side,
             FRICTION_PLANETS..FRICTION_WHEELS => &self.planet,

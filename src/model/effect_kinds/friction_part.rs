@@ -1,9 +1,9 @@
-//! Part of the dry friction on a body that one source contributes, and what it depends on: the load on the surface, and how the
+//! Part of the dry friction on a body that one surface contributes, and what it depends on: the load on the surface, and how the
 //! body moves against it.
 
-use super::{Pressed, PvLimit, SlipLaw};
+use super::{FrictionSource, SurfaceKind};
 
-/// Limit torque of one source, and its heat.
+/// Limit torque of one surface. How it slides is known to its source.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionPart {
     /// Constant part [N·m].
@@ -12,27 +12,18 @@ pub struct FrictionPart {
     pub per_thrust: f64,
     /// Per load.
     pub per_load: f64,
-    /// Limit while stuck over limit while sliding.
-    pub static_ratio: f64,
-    /// What the limit while sliding becomes at speed.
-    pub law: SlipLaw,
-    /// Limit of p·v of its surface, where friction changes at one.
-    pub pv_limit: Option<(Pressed, PvLimit)>,
     /// Index of its heat.
     pub heat_index: usize,
+    /// Number of its source.
+    pub source: u16,
+    /// Which surface of it.
+    pub surface: SurfaceKind,
 }
 
 impl FrictionPart {
     /// No friction.
-    pub const NONE: Self = Self {
-        constant: 0.0,
-        per_thrust: 0.0,
-        per_load: 0.0,
-        static_ratio: 1.0,
-        law: SlipLaw::CONSTANT,
-        pv_limit: None,
-        heat_index: 0,
-    };
+    pub const NONE: Self =
+        Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, heat_index: 0, source: 0, surface: SurfaceKind::Side };
 
     /// The same with `factor` times the friction.
     pub fn times(self, factor: f64) -> Self {
@@ -40,34 +31,30 @@ impl FrictionPart {
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load, ..self }
     }
 
-    /// Whether friction changes with slip.
-    pub(super) fn feels_slip(&self) -> bool {
-        !self.law.is_constant() || self.pv_limit.is_some()
-    }
-
     /// Kinetic limit torque [N·m].
     pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
-    /// Limit torque while the body slides at `speed` in its direction [N·m], and its slope by speed.
+    /// Limit torque of a surface of `source` while the body slides at `speed` in its direction [N·m], and its slope by speed.
     /// Apart: friction that does not change with slip has no need of it.
     #[inline(never)]
-    pub(super) fn sliding(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        let ([value, slope], kinetic) = (self.law.factor(speed), self.at(by));
+    pub(super) fn sliding(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        let ([value, slope], kinetic) = (source.law(self.surface).factor(speed), self.at(by));
         let [torque, by_speed] = [value * kinetic, slope * kinetic];
-        let Some((pressed, limit)) = &self.pv_limit else { return [torque, by_speed] };
-        let pressure = pressed.at(by);
+        let Some(limit) = source.pv_limit() else { return [torque, by_speed] };
+        let pressure = source.pressed(self.surface).at(by);
         let [factor, by_pv] = limit.factor(pressure * speed);
         [factor * torque, factor * by_speed + by_pv * pressure * torque]
     }
 
     /// Slopes of the same by thrust and load.
     #[inline(never)]
-    pub(super) fn slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        let [value, _] = self.law.factor(speed);
+    pub(super) fn slopes(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        let [value, _] = source.law(self.surface).factor(speed);
         let [by_thrust, by_load] = [value * self.per_thrust, value * self.per_load];
-        let Some((pressed, limit)) = &self.pv_limit else { return [by_thrust, by_load] };
+        let Some(limit) = source.pv_limit() else { return [by_thrust, by_load] };
+        let pressed = source.pressed(self.surface);
         let [factor, by_pv] = limit.factor(pressed.at(by) * speed);
         let by_pressure = by_pv * speed * value * self.at(by);
         [factor * by_thrust + by_pressure * pressed.per_thrust, factor * by_load + by_pressure * pressed.per_load]

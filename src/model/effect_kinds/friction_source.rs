@@ -51,6 +51,19 @@ pub struct WheelFriction {
     pub pressed: Pressed,
 }
 
+/// The surfaces that a source may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceKind {
+    /// Between side gear and carrier.
+    Side,
+    /// Pin of a planet.
+    Pin,
+    /// Washer of a planet.
+    PlanetWasher,
+    /// Brake of a wheel.
+    Wheel,
+}
+
 /// Where the temperature of a surface is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SurfaceTemperature {
@@ -108,41 +121,42 @@ impl FrictionSource {
         })
     }
 
-    /// Its friction by speed on a surface of the mean radius `radius` [m].
-    pub fn law(&self, radius: f64) -> SlipLaw {
-        let SlipSpec { stribeck_speed, slip_slope, .. } = self.sliding;
-        SlipLaw { radius, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
+    /// Mean radius of a surface [m], and what presses it.
+    fn surface(&self, kind: SurfaceKind) -> (f64, Pressed) {
+        let PlanetFriction { radius: [pin, washer], pressed: [on_pin, on_washer], .. } = self.planet;
+        match kind {
+            SurfaceKind::Side => (self.side.radius, self.side.pressed),
+            SurfaceKind::Pin => (pin, on_pin),
+            SurfaceKind::PlanetWasher => (washer, on_washer),
+            SurfaceKind::Wheel => self.wheel.map_or((0.0, Pressed::NONE), |wheel| (wheel.radius, wheel.pressed)),
+        }
     }
 
-    /// The limit of p·v of a surface that is `pressed`, where friction changes at one.
-    pub fn pv_limit(&self, pressed: Pressed) -> Option<(Pressed, PvLimit)> {
+    /// Friction by speed on a surface.
+    pub fn law(&self, kind: SurfaceKind) -> SlipLaw {
+        let SlipSpec { stribeck_speed, slip_slope, .. } = self.sliding;
+        SlipLaw { radius: self.surface(kind).0, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
+    }
+
+    /// What presses a surface.
+    pub fn pressed(&self, kind: SurfaceKind) -> Pressed {
+        self.surface(kind).1
+    }
+
+    /// The limit of p·v, where friction changes at one.
+    pub fn pv_limit(&self) -> Option<PvLimit> {
         let SlipSpec { pv_limit: limit, beyond_limit: beyond, .. } = self.sliding;
-        Some((pressed, PvLimit { limit, beyond })).filter(|(_, limit)| limit.acts())
+        Some(PvLimit { limit, beyond }).filter(PvLimit::acts)
+    }
+
+    /// Whether its friction changes with slip.
+    pub fn feels_slip(&self) -> bool {
+        !self.law(SurfaceKind::Side).is_constant() || self.pv_limit().is_some()
     }
 
     /// Whether the loads of the meshes matter.
     pub fn depends_on_load(&self) -> bool {
         let (s, p) = (&self.side, &self.planet);
         [s.per_thrust, s.per_torque, p.per_pin_force, p.per_thrust].iter().any(|x| *x != 0.0)
-    }
-
-    /// The same on side gears and planets, pressed by a part of the force.
-    pub fn scaled(self, part: f64) -> Self {
-        let side = SideFriction {
-            constant: part * self.side.constant,
-            per_thrust: part * self.side.per_thrust,
-            per_torque: part * self.side.per_torque,
-            stiffness: part * self.side.stiffness,
-            pressed: self.side.pressed.times(part),
-            ..self.side
-        };
-        let planet = PlanetFriction {
-            per_pin_force: part * self.planet.per_pin_force,
-            per_thrust: part * self.planet.per_thrust,
-            stiffness: part * self.planet.stiffness,
-            pressed: self.planet.pressed.map(|pressed| pressed.times(part)),
-            ..self.planet
-        };
-        Self { side, planet, ..self }
     }
 }

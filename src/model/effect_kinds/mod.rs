@@ -1,7 +1,8 @@
 //! What effects are made of: what one may declare (`effect`), and the kinds of things one may do: forces on bodies
-//! (`body_effect`), dry friction that sticks (`friction_source`, `dry_friction`, `friction`), changes to single teeth (`teeth`).
+//! (`body_effect`), dry friction that sticks (`friction_source`, `friction`, `dry_friction`), changes to single teeth (`teeth`).
 
 pub mod body_effect;
+pub mod body_friction;
 pub mod dry_friction;
 #[cfg(test)]
 #[path = "tests/dry_friction.rs"]
@@ -20,7 +21,9 @@ pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting, pv_reading};
 pub use friction::Friction;
 pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
-pub use friction_source::{FrictionSource, PlanetFriction, SideFriction, SurfaceTemperature, WheelFriction};
+pub use friction_source::{
+    FrictionSource, PlanetFriction, SideFriction, SurfaceKind, SurfaceTemperature, WheelFriction,
+};
 pub use friction_state::{FrictionState, Mode};
 pub use pressed::{Pressed, PvLimit, Surface};
 pub use slip_law::SlipLaw;

@@ -88,20 +88,21 @@ pub enum Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effect_kinds::{FrictionPart, SlipLaw};
+    use crate::model::effect_kinds::{FrictionPart, FrictionSource, SideFriction, SlipSpec};
 
     const PRESSED: Pressed = Pressed { constant: 2e3, per_thrust: 9.0, per_load: 40.0 };
     const LIMIT: PvLimit = PvLimit { limit: 1e6, beyond: 0.6 };
-    const LAW: SlipLaw = SlipLaw { radius: 0.05, excess: 0.2, stribeck_speed: 0.3, slope: -0.01 };
-    const PART: FrictionPart = FrictionPart {
-        constant: 30.0,
-        per_thrust: 1e-3,
-        per_load: 0.1,
-        static_ratio: 1.2,
-        law: LAW,
-        pv_limit: Some((PRESSED, LIMIT)),
-        heat_index: 0,
-    };
+    const PART: FrictionPart = FrictionPart { constant: 30.0, per_thrust: 1e-3, per_load: 0.1, ..FrictionPart::NONE };
+
+    fn source() -> FrictionSource {
+        let PvLimit { limit: pv_limit, beyond: beyond_limit } = LIMIT;
+        FrictionSource {
+            side: SideFriction { radius: 0.05, pressed: PRESSED, ..SideFriction::default() },
+            static_ratio: 1.2,
+            sliding: SlipSpec { stribeck_speed: 0.3, slip_slope: -0.01, pv_limit, beyond_limit, ..SlipSpec::default() },
+            ..FrictionSource::new(0)
+        }
+    }
 
     /// Loads, and the speed at which p·v is `share` of the limit.
     fn at_share(share: f64) -> (SurfaceLoad, f64) {
@@ -125,19 +126,26 @@ mod tests {
 
     #[test]
     fn torque_and_slopes_below_within_and_beyond_the_band_are_those_of_formula_and_differences() {
+        let source = source();
         for (share, factor) in [(0.7, 1.0), (1.01, 0.9584), (1.025, 0.8), (1.04, 0.6416), (2.0, 0.6)] {
             let (by, speed) = at_share(share);
             let v = 0.05 * speed;
             let curve = 1.0 + 0.2 * (-v / 0.3_f64).exp() - 0.01 * v;
             let expected = (30.0 + 1e-3 * 4e3 + 0.1 * 600.0) * curve * factor;
-            let [torque, by_speed] = PART.sliding(speed, &by);
+            let [torque, by_speed] = PART.sliding(&source, speed, &by);
             assert!((torque - expected).abs() < 1e-11, "{torque} for {expected}");
             let difference = |of: &dyn Fn(f64) -> f64, h: f64| (of(h) - of(-h)) / (2.0 * h);
-            let [by_thrust, by_load] = PART.slopes(speed, &by);
+            let [by_thrust, by_load] = PART.slopes(&source, speed, &by);
             for (slope, found) in [
-                (by_speed, difference(&|h| PART.sliding(speed + h, &by)[0], 1e-5 * speed)),
-                (by_thrust, difference(&|h| PART.sliding(speed, &SurfaceLoad { thrust: 4e3 + h, ..by })[0], 4e-2)),
-                (by_load, difference(&|h| PART.sliding(speed, &SurfaceLoad { load: 600.0 + h, ..by })[0], 6e-3)),
+                (by_speed, difference(&|h| PART.sliding(&source, speed + h, &by)[0], 1e-5 * speed)),
+                (
+                    by_thrust,
+                    difference(&|h| PART.sliding(&source, speed, &SurfaceLoad { thrust: 4e3 + h, ..by })[0], 4e-2),
+                ),
+                (
+                    by_load,
+                    difference(&|h| PART.sliding(&source, speed, &SurfaceLoad { load: 600.0 + h, ..by })[0], 6e-3),
+                ),
             ] {
                 assert!((slope - found).abs() < 1e-6 * slope.abs(), "{share}: {slope} for {found}");
             }
@@ -146,11 +154,12 @@ mod tests {
 
     #[test]
     fn temperature_changes_torque_but_not_pressure() {
+        let source = source();
         for share in [0.9, 1.02, 1.2] {
             let (by, speed) = at_share(share);
             let hot = PART.times(0.5);
-            assert_eq!(hot.sliding(speed, &by), PART.sliding(speed, &by).map(|of| 0.5 * of));
-            assert_eq!(hot.slopes(speed, &by), PART.slopes(speed, &by).map(|of| 0.5 * of));
+            assert_eq!(hot.sliding(&source, speed, &by), PART.sliding(&source, speed, &by).map(|of| 0.5 * of));
+            assert_eq!(hot.slopes(&source, speed, &by), PART.slopes(&source, speed, &by).map(|of| 0.5 * of));
         }
     }
 }

@@ -2,6 +2,8 @@
 
 mod ways;
 
+use std::collections::HashMap;
+
 use crate::mirror::random::{self, Draw};
 use crate::mirror::scene::Step;
 use bevel_differential::contact::ContactLaw;
@@ -26,8 +28,23 @@ impl Run {
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
 
+    /// Whether it can start.
+    fn starts(&self) -> bool {
+        Simulation::start(&self.parameters, &self.inputs, 0.0).is_ok()
+    }
+
     /// Bits of all outputs at the start and after each step; a step that fails is the last.
     fn bits(&self) -> Result<Vec<u64>, Vec<Problem>> {
+        self.bits_while(|_| true)
+    }
+
+    /// Whether its bits are others than these.
+    fn differs(&self, from: &[u64]) -> Result<bool, Vec<Problem>> {
+        Ok(self.bits_while(|bits| from.starts_with(bits))? != from)
+    }
+
+    /// The same, to the first point at which `go_on` says no of all bits so far.
+    fn bits_while(&self, go_on: impl Fn(&[u64]) -> bool) -> Result<Vec<u64>, Vec<Problem>> {
         let mut simulation = Simulation::start(&self.parameters, &self.inputs, 0.0)?;
         let mut bits = Vec::new();
         let mut read = |simulation: &mut Simulation| {
@@ -35,17 +52,21 @@ impl Run {
                 Access::Output(of) => Some(of.read(simulation).to_bits()),
                 _ => None,
             }));
+            go_on(&bits)
         };
-        read(&mut simulation);
+        let mut goes_on = read(&mut simulation);
         let mut time = 0.0;
         for step in &self.steps {
+            if !goes_on {
+                break;
+            }
             simulation.set_inputs(&step.inputs);
             simulation.set_input_derivatives(step.derivatives);
             time += step.size;
             if simulation.advance(time).is_err() {
                 break;
             }
-            read(&mut simulation);
+            goes_on = read(&mut simulation);
         }
         Ok(bits)
     }
@@ -152,7 +173,7 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
                 }
                 let before = run.clone();
                 satisfy(&mut run, &test, d);
-                if Simulation::start(&run.parameters, &run.inputs, 0.0).is_err() {
+                if !run.starts() {
                     run = before;
                 }
             }
@@ -180,7 +201,7 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
                     changed.retain(|(row, ..)| problems.iter().all(|problem| problem.variable != row.name));
                     if changed.len() == before {
                         // refused by the name of a value that stays, beside which another one cannot be what it is
-                        changed.retain(|one| with(&[*one]).bits().is_ok());
+                        changed.retain(|one| with(&[*one]).starts());
                     }
                     assert!(changed.len() < before, "scene {index}: {problems:?}");
                 }
@@ -250,57 +271,86 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     }
 }
 
-/// Whether some scene of a level, in which `tests` hold, feels row `index`; none where there is no such scene.
-fn has_witness(index: usize, level: (GearContact, ContactLaw), tests: &[Test]) -> Option<bool> {
-    let row = &table().rows[index];
-    let of_level = [("scene.gear_contact", level.0 as i32), ("contact.law", level.1 as i32)];
-    let contradicts = |test: &Test| {
-        let value = of_level.iter().find(|(name, _)| *name == test.row.name).map(|&(_, value)| f64::from(value));
-        value.is_some_and(|value| test.values.contains(&value) != (test.sign == '='))
-    };
-    if tests.iter().any(contradicts) {
-        return None;
+/// A scene on a level in which tests hold, the bits of its outputs, and draws that go on from it.
+struct Case {
+    run: Run,
+    expected: Vec<u64>,
+    draw: Draw,
+}
+
+/// How the tooth fault of a case is set, where a row of it is looked for: a tooth that is broken, or that breaks.
+type Fault = Option<bool>;
+
+/// Cases by attempt, level, fault and tests: many rows ask for the same.
+#[derive(Default)]
+struct Cases(HashMap<String, Option<Case>>);
+
+impl Cases {
+    fn case(&mut self, attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<&Case> {
+        let named: Vec<_> = tests.iter().map(|test| (test.row.name, test.sign, &test.values)).collect();
+        let key = format!("{attempt} {level:?} {fault:?} {named:?}");
+        self.0.entry(key).or_insert_with(|| Self::new_case(attempt, level, fault, tests)).as_ref()
     }
-    let mut exists = false;
-    for attempt in 0..TRIES {
-        if attempt == TRIES / 2 && !exists {
-            return None;
-        }
-        let Some(mut run) = Run::random(1000 + attempt) else { continue };
-        let d = &mut Draw::new(attempt ^ 0xfee1);
-        if row.switch == Some("effects.tooth_fault") {
-            // a tooth in mesh, that breaks as soon as it may
+
+    fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<Case> {
+        let mut run = Run::random(1000 + attempt)?;
+        let mut draw = Draw::new(attempt ^ 0xfee1);
+        if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
-            (fault.onset, fault.tooth) = (if matches!(row.access, Access::Input(_)) { 0.0 } else { 1e-6 }, 0);
+            (fault.onset, fault.tooth) = (if breaks { 1e-6 } else { 0.0 }, 0);
         } else {
             run.steps.truncate(6);
         }
         on_level(&mut run, level);
         for test in tests {
-            satisfy(&mut run, test, d);
+            satisfy(&mut run, test, &mut draw);
         }
-        if (run.parameters.scene.gear_contact, run.parameters.contact.law) != level
-            || !run.is_felt(index, Situation::START)
-        {
-            continue;
+        if (run.parameters.scene.gear_contact, run.parameters.contact.law) != level {
+            return None;
         }
-        let Ok(expected) = run.bits() else { continue };
-        for _ in 0..3 {
-            let mut changed = run.clone();
-            changed.set(row, other(row, run.get(row).unwrap(), d), Situation::START);
-            let Ok(found) = changed.bits() else { continue };
-            exists |= changed.get(row) != run.get(row);
-            if found != expected {
-                return Some(true);
+        let expected = run.bits().ok()?;
+        Some(Case { run, expected, draw })
+    }
+
+    /// Whether some scene of a level, in which `tests` hold, feels row `index`; none where there is no such scene.
+    fn has_witness(&mut self, index: usize, level: (GearContact, ContactLaw), tests: &[Test]) -> Option<bool> {
+        let row = &table().rows[index];
+        let of_level = [("scene.gear_contact", level.0 as i32), ("contact.law", level.1 as i32)];
+        let contradicts = |test: &Test| {
+            let value = of_level.iter().find(|(name, _)| *name == test.row.name).map(|&(_, value)| f64::from(value));
+            value.is_some_and(|value| test.values.contains(&value) != (test.sign == '='))
+        };
+        if tests.iter().any(contradicts) {
+            return None;
+        }
+        let fault = (row.switch == Some("effects.tooth_fault")).then_some(!matches!(row.access, Access::Input(_)));
+        let mut exists = false;
+        for attempt in 0..TRIES {
+            if attempt == TRIES / 2 && !exists {
+                return None;
+            }
+            let Some(Case { run, expected, draw }) = self.case(attempt, level, fault, tests) else { continue };
+            if !run.is_felt(index, Situation::START) {
+                continue;
+            }
+            let d = &mut draw.clone();
+            for _ in 0..3 {
+                let mut changed = run.clone();
+                changed.set(row, other(row, run.get(row).unwrap(), d), Situation::START);
+                let Ok(differs) = changed.differs(expected) else { continue };
+                exists |= changed.get(row) != run.get(row);
+                if differs {
+                    return Some(true);
+                }
             }
         }
+        exists.then_some(false)
     }
-    exists.then_some(false)
 }
 
 #[test]
 fn a_value_that_scenes_feel_changes_some_output_on_every_level_of_teeth_and_in_every_way_that_its_condition_names() {
-    let mut wrong = Vec::new();
+    let (mut wrong, mut cases) = (Vec::new(), Cases::default());
     let chosen = std::env::var("FELT_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
         // what every scene feels need be shown once; a value of which every other one is refused is not taken in silence
@@ -311,7 +361,7 @@ fn a_value_that_scenes_feel_changes_some_output_on_every_level_of_teeth_and_in_e
                 break;
             }
             for (k, tests) in ways(row).iter().enumerate() {
-                found.push(has_witness(i, level, tests));
+                found.push(cases.has_witness(i, level, tests));
                 if !always && found.ends_with(&[Some(false)]) {
                     wrong.push(format!("{} by way {k} on {level:?}", row.name));
                 }

@@ -21,6 +21,7 @@ const ROLLING: u64 = 1 << 41;
 pub const WARM: u64 = 1 << 42;
 
 /// SplitMix64.
+#[derive(Clone)]
 pub struct Draw(u64);
 
 impl Draw {

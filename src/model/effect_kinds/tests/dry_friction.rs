@@ -1,16 +1,21 @@
 //! Tests of dry friction that sticks.
 
+use super::body_friction::BodyFriction;
 use super::dry_friction::*;
 use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
+use super::friction_source::FrictionSource;
 use super::friction_state::{FrictionState, Mode};
 
 const STIFFNESS: f64 = 1e3;
 
-/// A clutch with a limit torque equal to its load.
-fn clutch() -> DryFriction {
-    let mut clutch = DryFriction::new(DAMPING_TIME, 0);
-    clutch.push(&[FrictionPart { per_load: 1.0, static_ratio: 1.0, ..FrictionPart::NONE }], STIFFNESS);
-    clutch
+/// A body whose limit torque is its load.
+fn by_load(mut body: BodyFriction) -> BodyFriction {
+    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], STIFFNESS, false);
+    body
+}
+
+fn clutch() -> BodyFriction {
+    by_load(BodyFriction::new(DAMPING_TIME, 0))
 }
 
 fn pressed(load: f64) -> SurfaceLoad {
@@ -19,7 +24,8 @@ fn pressed(load: f64) -> SurfaceLoad {
 
 #[test]
 fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
-    let clutch = clutch();
+    let (clutch, sources) = (clutch(), [FrictionSource::new(0)]);
+    let clutch = DryFriction::new(&clutch, &sources);
     // sliding at a limit of 10 N·m winds the spring to 10 N·m
     let anchor = clutch.drag(0.0, 0.5, 10.0);
     assert!((STIFFNESS * (0.5 - anchor) - 10.0).abs() < 1e-9);
@@ -36,7 +42,8 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
 
 #[test]
 fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
-    let (clutch, by) = (clutch(), pressed(10.0));
+    let (clutch, sources, by) = (clutch(), [FrictionSource::new(0)], pressed(10.0));
+    let clutch = DryFriction::new(&clutch, &sources);
     // wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100 mrad
     let hold = FrictionState { mode: Mode::Stuck, anchor: -0.01, stiffness: STIFFNESS };
     let turn = |position| Slip { position, speed: -1.0 };
@@ -47,8 +54,8 @@ fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
 
 #[test]
 fn a_held_body_slides_where_its_command_falls_below_its_torque() {
-    let mut brake = DryFriction::commanded(DAMPING_TIME, 0);
-    brake.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], STIFFNESS);
+    let (brake, sources) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [FrictionSource::new(0)]);
+    let brake = DryFriction::new(&brake, &sources);
     // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached at six tenths of the way
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
     for speed in [0.0, 1e-12, -1e-12] {
@@ -70,7 +77,8 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
         let mut hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness };
         let before = 0.5 * stiffness * 1e-4;
         let mut heat = [0.0];
-        let clutch = clutch();
+        let (clutch, sources) = (clutch(), [FrictionSource::new(0)]);
+        let clutch = DryFriction::new(&clutch, &sources);
         clutch.adapt(&mut hold, &turn, &mut heat, 1.0);
         let after = clutch.energy(&hold, turn.position);
         assert!(after <= before * (1.0 + 1e-12), "{stiffness}: {before} J became {after} J");
