@@ -16,7 +16,7 @@ def fine(run):
 @pytest.mark.parametrize("step", [1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
 def test_the_communication_step_does_not_change_the_trajectory(drive, fine, step):
     scene, record = drive(TURN), []
-    scene.to(0.5, step, lambda s: record.append((s.time, *s.read([f"{side}.speed" for side in SIDES]))))
+    scene.to(min(0.5, 2e4 * step), step, lambda s: record.append((s.time, *s.read([f"{side}.speed" for side in SIDES]))))
     compared = 0
     for time, left, right in record:
         k = np.searchsorted(fine["time"], time - 1e-9)
@@ -39,7 +39,7 @@ def test_irregular_communication_steps_give_the_same_end(drive):
     np.testing.assert_allclose(ends, [ends[0]] * 3, rtol=3e-6)
 
 
-@pytest.mark.parametrize("step", [1.0, 60.0])
+@pytest.mark.parametrize("step", [10.0, 60.0])
 def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, step):
     scene = drive({"scene.start": "rolling"}).to(DAY, step)
     for side in SIDES:

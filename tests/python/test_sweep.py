@@ -21,7 +21,7 @@ from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
 from bevel_differential.designs.store import Columns, digest
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src"
-RUNS = 1000
+RUNS = 400
 # a third of these gears cannot be assembled
 VARY = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "impact, line_weber", "geometry.planet_teeth": "8..11",
         "geometry.side_teeth": "14, 15, 16", "geometry.planet_count": "2, 3, 4", "tooth_errors.seed": "seed"}
@@ -47,7 +47,7 @@ def few(**changed):
 def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
     rows = expected.table.to_pylist()
     failed = [row for row in rows if row["message"]]
-    assert [row["run"] for row in rows] == list(range(RUNS)) and 100 < len(failed) < 900
+    assert [row["run"] for row in rows] == list(range(RUNS)) and 0.1 * RUNS < len(failed) < 0.9 * RUNS
     for row in rows:
         # planets evenly spaced: both side gears have the same number of teeth, so twice that number is a multiple of planets
         assembles = 2 * row["geometry.side_teeth"] % row["geometry.planet_count"] == 0
@@ -167,7 +167,7 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
 
 def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, monkeypatch):
     file, evaluate = tmp_path / "found.parquet", Task.evaluate
-    for ends, caught in [(300, KeyboardInterrupt), (600, RuntimeError)]:
+    for ends, caught in [(100, KeyboardInterrupt), (200, RuntimeError)]:
 
         def failing(task, run, values, ends=ends, caught=caught):
             if run == ends:
@@ -176,15 +176,15 @@ def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, m
 
         monkeypatch.setattr(Task, "evaluate", failing)
         with pytest.raises(Stopped if caught is KeyboardInterrupt else caught) as stop:
-            sweep(scene, **PLAN, out=file, workers=0, resume=ends == 600)
-        assert caught is RuntimeError or f"300 of {RUNS} runs are kept" in str(stop.value)
+            sweep(scene, **PLAN, out=file, workers=0, resume=ends == 200)
+        assert caught is RuntimeError or f"100 of {RUNS} runs are kept" in str(stop.value)
     monkeypatch.undo()
     with pytest.raises(DifferentialError, match="--resume"):
         sweep(scene, **PLAN, out=file, workers=0)
     with pytest.raises(DifferentialError, match="another plan"):
         sweep(scene, **{**PLAN, "seed": 2}, out=file, workers=0, resume=True)
     rest = sweep(scene, **PLAN, out=file, workers=0, resume=True)
-    assert rest.new == RUNS - 600 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
+    assert rest.new == RUNS - 200 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
 
 
 class Freed:
