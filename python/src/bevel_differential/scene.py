@@ -59,6 +59,11 @@ class Scene(Runner):
         self.check_settable({**(values or {}), **{name.replace("__", "."): None for name in keywords}})
         return super().set(values, **keywords)
 
+    def value(self, name: str) -> Number:
+        """A parameter, or an input at the start, in SI: the scene's own value, or else that of the FMU."""
+        start = self.fmu.variable(name).start
+        return self.values.get(name, 0.0 if start is None else start)
+
     def check_settable(self, names: Iterable[str]) -> None:
         """Refuses names of inputs that follow a table, as a value for them would change nothing."""
         driven = {table.variable.name for table in self._signals.tables}

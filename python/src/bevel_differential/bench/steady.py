@@ -55,7 +55,7 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
 
 
 def _torques(scene):
-    command = scene.values.get("carrier.torque_command", 0.0)
+    command = scene.value("carrier.torque_command")
     if command <= 0.0:
         raise DifferentialError(f"carrier.torque_command = {command:g} N.m: a bench needs the greatest torque here, above 0")
     return SHARES * command

@@ -16,7 +16,7 @@ from ..designs.sweep import going_on_later, hashed
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
 from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
-from .point import AXES, FIGURES, PointTask, benched, own
+from .point import AXES, FIGURES, PointTask, benched
 
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
@@ -91,10 +91,10 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
     if within is not None:
         chosen = _chosen(scene, lines, within)
-        model, corners = chosen.run.setting, own(scene, CORNERS)
+        model, corners = chosen.run.setting, scene.value(CORNERS)
         scene.set(chosen.set)
         # jumps, which the middle of the map may do with, stall slow gears at its edge
-        if corners and not own(scene, CORNERS) and own(scene, LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
+        if corners and not scene.value(CORNERS) and scene.value(LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
             scene.set({CORNERS: True})
             model += ", corner contact"
         tell(f"model: {model}")

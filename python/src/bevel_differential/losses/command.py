@@ -70,10 +70,9 @@ def run(arguments: argparse.Namespace) -> int:
 def _axes(scene, arguments):
     from ..designs import Dimension
     from . import VARIABLES
-    from .point import own
 
     def size(name):
-        return abs(float(own(scene, name)))
+        return abs(float(scene.value(name)))
 
     torque = size("carrier.torque_command") or size("left.load_torque") + size("right.load_torque")
     speed = size("carrier.speed_command") or size("left.speed_command")

@@ -37,15 +37,10 @@ STILL, STILL_TORQUE = 1e-3, 0.01
 CREEP, FINER, LEVELS = 0.02, 20, 3
 
 
-def own(scene: Scene, name: str) -> Number:
-    """A value of the scene: its own, or that of the FMU at the start."""
-    return scene.values.get(name, scene.fmu.variable(name).start)
-
-
 def benched(scene: Scene) -> Scene:
     """The scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
     values = {**scene.values, **BENCH}
-    values |= {f"{shaft}_damping": DAMPING_TIME * own(scene, f"{shaft}_stiffness") for shaft in SHAFTS}
+    values |= {f"{shaft}_damping": DAMPING_TIME * scene.value(f"{shaft}_stiffness") for shaft in SHAFTS}
     return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
 
 

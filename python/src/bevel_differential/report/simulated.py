@@ -66,8 +66,7 @@ class Simulated:
 
     def value(self, name: str) -> Number:
         """A parameter or the start of an input, SI."""
-        start = self.scene.fmu.variable(name).start
-        return self.scene.values.get(name, 0.0 if start is None else start)
+        return self.scene.value(name)
 
     def literal(self, name: str) -> str:
         """The name of the choice that a parameter is set to."""
