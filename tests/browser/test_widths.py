@@ -28,13 +28,12 @@ def goes_on(live):
 
 
 def test_every_view_of_every_scene_plays_on(sized, scene_names, found):
-    # two views a scene, others at the next width: each view of each scene at two widths or more
+    # a view of each scene, another at the next width: each view of each scene at one width or more
     turn = WIDTHS.index(sized.ask("innerWidth"))
     for k, scene in enumerate(scene_names):
         sized.go(f"scene={scene}", "started")
-        for view in (k + turn, k + turn + 2):
-            look(sized, VIEWS[view % len(VIEWS)])
-            goes_on(sized)
+        look(sized, VIEWS[(k + turn) % len(VIEWS)])
+        goes_on(sized)
     found(f"{sized.ask('innerWidth')} px")
 
 
