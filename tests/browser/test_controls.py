@@ -127,6 +127,9 @@ def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found
 def test_a_value_beyond_the_range_shows_the_message_of_the_fmu_at_its_control(short, fmu, found):
     native = Native(fmu)
     ranged = [each for each in settable(fmu) if each.maximum is not None and (each.kind == "Real" or each.maximum < LARGEST)]
+    # the first of each kind and unit, and every third
+    first = {(each.kind, each.unit): each for each in reversed(ranged)}.values()
+    ranged = [each for k, each in enumerate(ranged) if k % 3 == 0 or each in first]
     for variable in ranged:
         text, value = beyond(variable)
         answer = short.put(variable.name, text, "started", "refused")
