@@ -425,7 +425,7 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file):
     before = pd.read_csv(folder / "out/front.csv")
     assert len(before) and len(pd.read_parquet(folder / "out/evaluations.parquet")) >= 2 * 8
     process = command(folder, fmu_file, *given, "--resume")
-    output, errors = process.communicate(timeout=100)
+    output, errors = process.communicate(timeout=300)
     assert process.returncode == 0, errors
     whole, _ = found(Problem.load(folder / "two.toml", fmu_file).sized(population=12, generations=4), folder / "whole")
     after = pd.read_csv(folder / "out/front.csv")

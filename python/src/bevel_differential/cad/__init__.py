@@ -22,12 +22,13 @@ def available() -> bool:
     return all(find_spec(name) for name in ("OCP", "ezdxf", "trimesh"))
 
 
-def step(shape: dict[str, Any], part: str = "assembly") -> bytes:
-    """The solid of a gear, or all gears and pins of the differential, as STEP in millimetres."""
+def step(shape: dict[str, Any], part: str = "assembly", solids: dict[str, Any] | None = None) -> bytes:
+    """The solid of a gear, or all gears and pins of the differential, as STEP in millimetres. `solids` keeps gears of the shape for
+    its other parts."""
     require("OCP.gp", EXTRA)
     from .step_file import step
 
-    return step(shape, part)
+    return step(shape, part, {} if solids is None else solids)
 
 
 def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> bytes:
@@ -51,9 +52,10 @@ def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), 
     """Writes the files of an answer about gears, and of these kinds for these parts; all are made before the first is written.
     Returns their names."""
     made = {name: content.encode() for name, content in found["files"].items()}
+    solids: dict[str, Any] = {}
     for part, kind in product(parts, kinds):
         if kind == "step":
-            made[f"{part}.step"] = step(found["shape"], part)
+            made[f"{part}.step"] = step(found["shape"], part, solids)
         elif kind in MESHES:
             made[f"{part}.{kind}"] = mesh(found["shape"], part, kind)
         elif part in GEARS:

@@ -16,8 +16,8 @@ from ..values import DifferentialError
 from .solid import gear_solid, pins_solid
 
 
-def step(shape, part):
-    """The file as bytes; `part` is planet, side_gear or assembly."""
+def step(shape, part, solids):
+    """The file as bytes; `part` is planet, side_gear or assembly. `solids`: gears by name that are made already, to which it adds."""
     for printer in Message.DefaultMessenger_s().Printers():
         printer.SetTraceLevel(Message_Gravity.Message_Fail)
     document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
@@ -29,7 +29,10 @@ def step(shape, part):
 
     names = [gear["name"] for gear in shape["gears"]]
     wanted = names if part == "assembly" else [part]
-    parts = {name: named(tool.AddShape(gear_solid(shape, names.index(name)), False), name) for name in wanted}
+    for name in wanted:
+        if name not in solids:
+            solids[name] = gear_solid(shape, names.index(name))
+    parts = {name: named(tool.AddShape(solids[name], False), name) for name in wanted}
     if part == "assembly":
         whole = named(tool.NewShape(), "differential")
         for body in shape["bodies"]:
