@@ -265,3 +265,30 @@ fn half_shafts_start_wound_on_every_level_and_rest() {
 fn reading(forces: &Forces, name: &str) -> f64 {
     readings().zip(forces.readings).find(|(reading, _)| reading.name == name).expect("the reading exists").1
 }
+
+#[test]
+fn an_equilibrium_beyond_the_largest_deflection_is_refused_at_the_start() {
+    let mut p = teeth(17, 9, 2);
+    p.contact.law = ContactLaw::LineWeber;
+    p.effects.body_compliance = true;
+    let (mut carried, mut refused) = (0, 0);
+    for k in 0..30 {
+        let load = 30e3 + 1e3 * f64::from(k);
+        let inputs = Inputs { load_torque: [-load, -load], ..Inputs::default() };
+        match Simulation::start(&p, &inputs, 0.0) {
+            // what begins in equilibrium goes on
+            Ok(mut s) => {
+                if !s.warnings().iter().any(|warning| warning.message.contains("no equilibrium")) {
+                    carried += 1;
+                    assert_eq!(s.advance(1e-5), Ok(()), "{load} N.m");
+                }
+            }
+            Err(problems) => {
+                refused += 1;
+                assert!(problems[0].variable.ends_with("load_torque"), "{}", problems[0]);
+                assert!(problems[0].message.contains("cannot be carried at the start"), "{}", problems[0]);
+            }
+        }
+    }
+    assert!(carried > 0 && refused > 0, "{carried} carried, {refused} refused");
+}

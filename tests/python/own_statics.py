@@ -61,6 +61,17 @@ class Statics:
         self.raw.getDerivatives(self.rates, 2 * BODIES)
         return self.inertia * [self.rates[BODIES + i] for i in self.free] / self.load
 
+    def carried(self, spins, farthest):
+        """The largest part of the loads that both sides carry with planets at one of the `spins`, and the side gears turned up to
+        `farthest` [rad] against them."""
+        def part(spin, angle):
+            x = np.zeros(len(self.free))
+            x[self.spins] = spin
+            x[SIDES] = np.array([1.0, -1.0]) * self.ratio * spin - np.sign(self.loads) * angle
+            return np.min(1.0 + self.torques(x)[SIDES] * self.load / self.loads)
+
+        return max(part(spin, angle) for spin in spins for angle in np.linspace(0.0, farthest, 200))
+
     def pressed(self, spin):
         """Positions with all planets at `spin` [rad] and each side where its teeth carry its load; None if they do not."""
         x = np.zeros(len(self.free))

@@ -29,6 +29,8 @@ RAMP, COARSE = 0.3, 1e-3
 MOST = 1.05
 # of the loads of the ramp's begin: teeth that touch at once need not find each other by blows
 FIRST = 0.01
+# pitches that planets roll when they go to another tooth
+ANOTHER = 0.25
 
 
 def left_over(driven, values):
@@ -67,15 +69,33 @@ def largest_force(opened, values, stop):
     return largest
 
 
+def rolled(opened):
+    """How far planet 1 has rolled [rad]."""
+    return opened.read(["planet[1].spin_angle"])[0]
+
+
+def without_blow(fmu, values, opened):
+    """Whether the first forces of a scene that has just been started are no more than its forces after a slow ramp of its loads.
+
+    Planets that differ are in balance at several teeth, and may roll to another one during the ramp. Then the scene's own forces,
+    once all has come to rest, are what is compared."""
+    begun, first = rolled(opened), largest_force(opened, values, SHOWN)
+    allowed, ended = largest_after_ramp(fmu, values)
+    if abs(ended - begun) > ANOTHER * 2.0 * np.pi / values.get("geometry.planet_teeth", 10):
+        opened.step(RAMP)
+        allowed = largest_force(opened, values, opened.time + SHOWN)
+    return first <= MOST * allowed
+
+
 def largest_after_ramp(fmu, values):
-    """The same after a slow ramp of the loads."""
+    """The largest force after a slow ramp of the loads, and where planet 1 is."""
     loads = {f"{side}.load_torque": values[f"{side}.load_torque"] for side in SIDES}
     with fmu.open() as opened:
         opened.initialise(values | {name: FIRST * load for name, load in loads.items()})
         for k in range(1, round(RAMP / COARSE) + 1):
             opened.set({name: load * max(FIRST, k * COARSE / RAMP) for name, load in loads.items()})
             opened.step(COARSE)
-        return largest_force(opened, values, opened.time + SHOWN)
+        return largest_force(opened, values, opened.time + SHOWN), rolled(opened)
 
 
 @pytest.mark.parametrize("name", OPENED)
@@ -86,8 +106,7 @@ def test_teeth_that_errors_keep_apart_carry_from_the_start_on_without_a_blow(fmu
         assert left_over(opened, values) < BALANCED
         assert min(opened.read(forces(values))) > 0.0
         assert not said(opened)
-        largest = largest_force(opened, values, SHOWN)
-    assert largest <= MOST * largest_after_ramp(fmu, values)
+        assert without_blow(fmu, values, opened)
 
 
 @pytest.mark.parametrize("name", OPENED)
@@ -124,14 +143,25 @@ def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_l
 
 
 def test_random_starts_with_errors_begin_without_a_blow(fmu, request):
-    for number in range(0, request.config.getoption("--scenes"), 10):
+    # scene 121 rolls by a tooth in the ramp
+    for number in {*range(0, request.config.getoption("--scenes"), 10), 121}:
         values = scene(number)
         with fmu.open() as opened:
             opened.initialise(values)
-            if is_without_equilibrium(opened):
-                continue
-            largest = largest_force(opened, values, SHOWN)
-        assert largest <= MOST * largest_after_ramp(fmu, values), number
+            if not is_without_equilibrium(opened):
+                assert without_blow(fmu, values, opened), number
+
+
+@pytest.mark.parametrize("planet_teeth, side_teeth, load", [(24, 7, 33e3), (196, 19, 71e3), (33, 7, 40e3), (165, 10, 64e3)])
+def test_a_load_for_which_no_equilibrium_is_found_is_carried_nowhere(fmu, planet_teeth, side_teeth, load):
+    values = INERTIAS | {"geometry.planet_count": 2, "geometry.planet_teeth": planet_teeth, "geometry.side_teeth": side_teeth,
+                         "contact.law": "line", "effects.body_compliance": True, "left.load_torque": load, "right.load_torque": load}
+    with fmu.open() as opened:
+        opened.initialise(values)
+        assert is_without_equilibrium(opened)
+    with Statics(fmu, values) as statics:
+        # up to a deflection beyond that at which another tooth would take over
+        assert statics.carried(np.linspace(-0.5, 0.5, 9) * 2.0 * np.pi / planet_teeth, 1.2 * np.pi / side_teeth) < 1.0
 
 
 def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::carried::Carried;
 use super::failure::limit_name;
 use super::hints;
+use super::ledger::LedgerEquations;
 use crate::contact::FlankGaps;
 use crate::integrate::{Matrix, Point};
 use crate::model::assembly::{Model, SIGMA};
@@ -60,15 +61,30 @@ pub fn press_sides(
     point: &mut Point<LARGEST>,
 ) -> Result<(), Problem> {
     press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
-        let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
-        problem!(
-            name,
-            "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
-            torque[s],
+        let bent = format!(
+            "tooth deflection exceeds {}; reduce the load or {}",
             limit_name(model),
             hints::stiffer_teeth(&model.parameters)
-        )
+        );
+        not_carried(torque, s, &bent)
     })
+}
+
+/// What the start says of a load that bends teeth too far.
+fn not_carried(torque: [f64; 2], s: usize, bent: &str) -> Problem {
+    let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
+    problem!(name, "{:.6} N.m cannot be carried at the start: {bent}", torque[s])
+}
+
+/// Fails where the equilibrium `point` under `torque` lies beyond the deflections for which teeth have a law: softer teeth than
+/// those that were pressed first may lead there.
+pub fn check_settled(
+    model: &Model,
+    equations: &Largest,
+    torque: [f64; 2],
+    point: &Point<LARGEST>,
+) -> Result<(), Problem> {
+    equations.check_deflection(point).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
 }
 
 /// The same with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On failure the side

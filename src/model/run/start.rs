@@ -1,7 +1,7 @@
 //! The state at the start time.
 
 use super::carried::Carried;
-use super::equilibrium::{ROUNDS, press_sides, pressed_as_they_are, settle, settle_as_they_are};
+use super::equilibrium::{ROUNDS, check_settled, press_sides, pressed_as_they_are, settle, settle_as_they_are};
 use crate::integrate::Point;
 use crate::model::assembly::{Ideal, Model, SIGMA};
 use crate::model::dynamics::{LARGEST, Largest, State};
@@ -93,6 +93,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         let found = settle(equations, &carried, &point);
         settled = found.is_some();
         if let Some(found) = found {
+            check_settled(model, equations, carried.teeth, &found)?;
             point = found;
         } else if !plan.spin_imposed {
             carried = Carried::new(model, ideal, inputs, state);
