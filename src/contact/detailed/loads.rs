@@ -13,8 +13,6 @@ pub struct DetailedState {
     pub rate: [f64; 3],
     /// Tooth pairs by which the planet's position was wrapped, positive with x.
     pub wrapped: i64,
-    /// Viscosity of the oil on the flanks [Pa·s]; none: as friction along the flanks has it.
-    pub viscosity: Option<f64>,
 }
 
 /// Loads of a mesh.

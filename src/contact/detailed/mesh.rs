@@ -34,13 +34,15 @@ pub struct Detailed {
     whole: Node,
 }
 
-/// Teeth of a mesh: their openings, and which planet and side gear they are of.
+/// Teeth of a mesh as they are now: their openings, their oil, and which planet and side gear they are of.
 #[derive(Clone, Copy)]
 pub struct MeshTeeth<'a> {
     /// Tooth pairs.
     pub engagement: &'a Engagement,
     /// Errors of the teeth.
     pub gaps: Option<&'a dyn Gaps>,
+    /// Viscosity of the oil on the flanks [Pa·s]; none: as friction along the flanks has it.
+    pub viscosity: Option<f64>,
     /// Planet.
     pub planet: usize,
     /// Side, 0 left and 1 right.
@@ -256,7 +258,7 @@ impl Detailed {
         }
         let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
         let touching = Touching { name, pair, opening: &opening, arcs, parts, motion };
-        self.add_touching((spring, teeth.engagement, needs_thrust), totals, touching, look);
+        self.add_touching((spring, teeth, needs_thrust), totals, touching, look);
     }
 }
 

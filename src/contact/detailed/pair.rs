@@ -27,8 +27,6 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     rate: [f64; 2],
     /// ∂a of the own arc by q, x, w of its mesh and of the planet's other one, where others move it.
     pub own: [[f64; 3]; 2],
-    /// Viscosity of the oil, from the state [Pa·s].
-    pub viscosity: Option<f64>,
 }
 
 impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
@@ -56,7 +54,6 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
             opening_rate_slope: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
             rate: [dq, dx],
             own: [[0.0; 3]; 2],
-            viscosity: state.viscosity,
         }
     }
 

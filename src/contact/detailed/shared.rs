@@ -275,8 +275,8 @@ impl Detailed {
             totals[side].add_moving(force, along_by, energy);
             let touching =
                 Touching { name: &name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
-            let engagement = shared.teeth[side].engagement;
-            self.add_touching((spring, engagement, needs_thrust), &mut totals[side], touching, &mut see);
+            let teeth = &shared.teeth[side];
+            self.add_touching((spring, teeth, needs_thrust), &mut totals[side], touching, &mut see);
         }
     }
 }

@@ -3,8 +3,8 @@
 use super::directions::Arcs;
 use super::face::Part;
 use super::sums::{LoadedNode, Rubbing, Sums};
-use super::{Detailed, Opening, PairMotion, PairName, SliceLoad, Totals};
-use crate::contact::{Engagement, Spring, ToothPair};
+use super::{Detailed, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
+use crate::contact::{Spring, ToothPair};
 
 /// A pair that touches.
 pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {
@@ -33,7 +33,7 @@ impl Detailed {
         const SHARED: bool,
     >(
         &self,
-        (spring, engagement, needs_thrust): (&S, &Engagement, bool),
+        (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, WIDE>,
         touching: Touching<OPEN, SHARED>,
         mut look: impl FnMut(&SliceLoad),
@@ -42,12 +42,19 @@ impl Detailed {
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
-        let warmed = self.friction.zip(motion.viscosity).map(|(law, viscosity)| law.with_viscosity(viscosity));
-        let rubbing = warmed.as_ref().or(self.friction.as_ref()).map(|law| {
+        let warmed;
+        let friction = match (&self.friction, teeth.viscosity) {
+            (Some(law), Some(viscosity)) => {
+                warmed = law.with_viscosity(viscosity);
+                Some(&warmed)
+            }
+            (law, _) => law.as_ref(),
+        };
+        let rubbing = friction.map(|law| {
             let arms = self.directions.arms(&arcs);
             Rubbing { law, speeds: motion.speeds(&arms), arms }
         });
-        let normal = needs_thrust.then(|| self.directions.normal(engagement, pair.spot, &arcs, pair.place));
+        let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
         let mut see = |node: &LoadedNode| {
             let Some(normal) = &normal else { return };
             let force = node.torque * node.node.weight * node.node.per_cone;

@@ -100,8 +100,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
         let [w, dw] = if self.has_pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
-        let (wrapped, viscosity) = (self.wrapped(g, s), self.acting.oil_viscosity.map(|oil| oil.dynamic));
-        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped, viscosity }
+        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
     }
 
     /// States of both meshes of group `g` in detail.
@@ -114,6 +113,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         MeshTeeth {
             engagement: &self.teeth.mesh.engagement,
             gaps: self.gaps().map(|gaps| gaps as _),
+            viscosity: self.acting.oil_viscosity.map(|oil| oil.dynamic),
             planet: self.teeth.plan.group(g).planet,
             side: s,
         }

@@ -26,8 +26,11 @@ const ON_BODIES: usize = 16;
 const EFFECTS: usize = 3;
 /// Entries of the matrices of plain teeth with planets that are alike.
 const PLAIN: usize = 16;
-/// What a step of Radau costs in steps of the other methods.
+/// What a step of ideal gears with all effects costs at most.
+const IDEAL: usize = 2;
+/// What a step of a method costs at most: an implicit one that iterates, and the others of large equations for comparison.
 const RADAU_IN_STEPS: usize = 8;
+const COMPARED_IN_STEPS: usize = 2;
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
 pub const LONGEST_INTERVAL: f64 = 1.0;
@@ -38,7 +41,7 @@ pub const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
 
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
-    let Gears::Teeth(teeth) = &model.gears else { return BUDGET };
+    let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
     let work = match &teeth.mesh.law {
         // few facets have many neighbours, many facets are many
         Law::Solid(solid) => {
@@ -51,9 +54,13 @@ pub fn budget(model: &Model) -> u64 {
         }
     };
     let effects = if teeth.effect_terms.body_effects.has_effects { EFFECTS } else { 0 };
-    // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
+    // matrices of few rows cost by their number of entries
     let freedoms = teeth.layout.count();
-    let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
+    let steps = match model.parameters.solver.method {
+        Method::Radau => RADAU_IN_STEPS,
+        Method::Rodas4 | Method::DormandPrince => COMPARED_IN_STEPS,
+        Method::Adaptive | Method::FixedStep => 1,
+    };
     BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
 }
 

@@ -135,8 +135,7 @@ fn force_does_not_jump_while_gaps_close_before_the_teeth_would_meet() {
             ] {
                 for hand in [-1.0, 1.0] {
                     let q = hand * (both.pair.normal_backlash / 2.0 + approach);
-                    let state =
-                        |x: f64| DetailedState { position: [q, x, w], rate: [0.0; 3], wrapped: 0, viscosity: None };
+                    let state = |x: f64| DetailedState { position: [q, x, w], rate: [0.0; 3], wrapped: 0 };
                     let pattern = |x: f64| pattern(&both, gaps, &state(x), 0.0);
                     let force = |x: f64| both.load(gaps, &state(x)).force;
                     let steps = 2000;

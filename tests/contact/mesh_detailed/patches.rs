@@ -39,7 +39,7 @@ fn crowned(pair: &Pair, crown: f64, even: f64, turn: f64, edge: Option<(f64, f64
 /// A state at rest at which one pair of drive flanks stands at the pitch point, `approach` [rad] deep.
 fn at(both: &Both, approach: f64) -> DetailedState {
     let q = -(both.pair.normal_backlash / 2.0 + approach);
-    DetailedState { position: [q, -both.pair.centred_position(), 0.0], rate: [0.0; 3], wrapped: 0, viscosity: None }
+    DetailedState { position: [q, -both.pair.centred_position(), 0.0], rate: [0.0; 3], wrapped: 0 }
 }
 
 /// Places of the pairs that can touch.

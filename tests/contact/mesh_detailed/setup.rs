@@ -66,7 +66,7 @@ impl Both {
 
     pub fn teeth<'a>(&'a self, gaps: Option<&'a dyn Gaps>) -> MeshTeeth<'a> {
         let (planet, side) = NAMES;
-        MeshTeeth { engagement: self.engagement(), gaps, planet, side }
+        MeshTeeth { engagement: self.engagement(), gaps, viscosity: None, planet, side }
     }
 
     pub fn load(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> DetailedLoad<f64> {
@@ -142,7 +142,6 @@ pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState {
             if w == 0.0 { 0.0 } else { random.between(-0.02, 0.02) },
         ],
         wrapped: 3,
-        viscosity: None,
     }
 }
 

@@ -133,7 +133,8 @@ impl Gears {
 
     /// Calls `act` with the teeth of both meshes.
     pub fn shared<R>(&self, gaps: Option<&dyn Gaps>, act: impl FnOnce(&SharedTeeth) -> R) -> R {
-        let teeth = [0, 1].map(|side| MeshTeeth { engagement: &self.mesh.engagement, gaps, planet: 0, side });
+        let teeth =
+            [0, 1].map(|side| MeshTeeth { engagement: &self.mesh.engagement, gaps, viscosity: None, planet: 0, side });
         act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(&name)[0] })
     }
 
@@ -200,7 +201,6 @@ pub fn random_states(random: &mut Lcg, pair: &Pair, w: f64) -> [DetailedState; 2
             ],
             rate: [between(random, 1.0), between(random, 1.0), axial[1]],
             wrapped: 0,
-            viscosity: None,
         }
     })
 }
