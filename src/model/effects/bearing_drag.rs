@@ -177,51 +177,79 @@ impl Effect for BearingDragSpec {
 /// Drag on carrier and side gears.
 #[derive(Clone, Copy, Debug)]
 struct Drag {
-    spec: BearingDragSpec,
-    /// Torque of bearings and seals on the carrier and on each side gear [N·m].
-    coulomb: [f64; 2],
-    /// Churning that does not depend on the oil [N·m·s²/rad²],
-    churning: f64,
-    /// and that which does, over its kinematic viscosity [N·m·s³/(rad²·m²)].
+    on: [Resistance; 2],
+    /// Speed at which the constant part is nearly full [rad/s].
+    breakaway_speed: f64,
+    /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
     churning_per_viscosity: f64,
-    /// Viscosity of the oil at which viscous drag is as given [Pa·s].
-    reference: f64,
+    /// Viscosity of the oil at which viscous drag is as given, where it follows the oil [Pa·s].
+    reference: Option<f64>,
     heat_index: usize,
+}
+
+/// What resists the rotation of the carrier, or of a side gear.
+#[derive(Clone, Copy, Debug)]
+struct Resistance {
+    /// Torque of bearings and seals [N·m].
+    coulomb: f64,
+    /// Viscous drag [N·m·s/rad].
+    viscous: f64,
+    /// Churning that does not depend on the oil [N·m·s²/rad²].
+    churning: f64,
 }
 
 impl Drag {
     fn new(spec: &BearingDragSpec, oil: &OilSpec, heat_index: usize) -> Self {
         let by_size = spec.churning_from_geometry;
+        let bearings = BEARINGS * spec.bearing_coefficient * spec.bearing_load * spec.bearing_diameter;
         Self {
-            spec: *spec,
-            coulomb: [
-                spec.carrier_torque + BEARINGS * spec.bearing_coefficient * spec.bearing_load * spec.bearing_diameter,
-                spec.side_torque + spec.seal_torque_per_diameter * spec.seal_diameter,
+            on: [
+                Resistance {
+                    coulomb: spec.carrier_torque + bearings,
+                    viscous: spec.carrier_viscous,
+                    churning: if by_size { 0.0 } else { spec.carrier_churning },
+                },
+                Resistance {
+                    coulomb: spec.side_torque + spec.seal_torque_per_diameter * spec.seal_diameter,
+                    viscous: spec.side_viscous,
+                    churning: 0.0,
+                },
             ],
-            churning: if by_size { 0.0 } else { spec.carrier_churning },
+            breakaway_speed: spec.breakaway_speed,
             churning_per_viscosity: if by_size { spec.churning_per_viscosity() } else { 0.0 },
-            reference: oil.viscosity(spec.reference_temperature).dynamic,
+            reference: spec.viscosity_from_oil.then(|| oil.viscosity(spec.reference_temperature).dynamic),
             heat_index,
         }
     }
 
+    /// What resists in this `oil`: apart, as most scenes have none.
+    #[cold]
+    fn in_oil(&self, oil: Viscosity, is_carrier: bool) -> Resistance {
+        let mut on = self.on[usize::from(!is_carrier)];
+        if is_carrier {
+            on.churning += self.churning_per_viscosity * oil.kinematic;
+        }
+        if let Some(reference) = self.reference {
+            on.viscous *= oil.dynamic / reference;
+        }
+        on
+    }
+
     /// Torque against the rotation of carrier or side gear at the speed `v` [rad/s], and its slope by the speed.
+    #[inline]
     fn drag(&self, oil: Option<Viscosity>, is_carrier: bool, v: f64) -> (f64, f64) {
-        let spec = &self.spec;
-        let (coulomb, viscous, churning) = if is_carrier {
-            let by_oil = oil.map_or(0.0, |oil| self.churning_per_viscosity * oil.kinematic);
-            (self.coulomb[0], spec.carrier_viscous, self.churning + by_oil)
-        } else {
-            (self.coulomb[1], spec.side_viscous, 0.0)
+        let warmed;
+        let on = match oil {
+            Some(oil) => {
+                warmed = self.in_oil(oil, is_carrier);
+                &warmed
+            }
+            None => &self.on[usize::from(!is_carrier)],
         };
-        let viscous = match oil {
-            Some(oil) if spec.viscosity_from_oil => viscous * (oil.dynamic / self.reference),
-            _ => viscous,
-        };
-        let t = libm::tanh(v / spec.breakaway_speed);
+        let t = libm::tanh(v / self.breakaway_speed);
         (
-            coulomb * t + viscous * v + churning * v * v.abs(),
-            coulomb * (1.0 - t * t) / spec.breakaway_speed + viscous + 2.0 * churning * v.abs(),
+            on.coulomb * t + on.viscous * v + on.churning * v * v.abs(),
+            on.coulomb * (1.0 - t * t) / self.breakaway_speed + on.viscous + 2.0 * on.churning * v.abs(),
         )
     }
 }
