@@ -1,4 +1,4 @@
-//! The scripts that unpack tool chains say what is wrong, and how it is mended, before they download.
+//! The scripts that unpack tool chains refuse an old Rust before they download, and say what to do about errors.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -9,8 +9,8 @@ use std::process::Command;
 use anyhow::Result;
 use fmu_build::tools::paths;
 
-/// A Debian whose lists of packages know this Rust; nothing can be downloaded there.
-fn debian(folder: &Path, rust: &str) -> Result<()> {
+/// Writes programs like Debian's to `folder`. Their lists of packages have the version `rust`; every download fails.
+fn fake_debian(folder: &Path, rust: &str) -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder)?;
     }
@@ -28,11 +28,11 @@ fn debian(folder: &Path, rust: &str) -> Result<()> {
     Ok(())
 }
 
-/// What the script says about that Debian, where Rust 1.89 is needed.
+/// Errors of the script with these programs where Rust 1.89 is needed, after "downloading; " if it tried to download.
 fn said(script: &str, rust: &str) -> Result<String> {
     let folder = paths::target().join("test-toolchains").join(format!("{script}-{rust}"));
     let programs = folder.join("programs");
-    debian(&programs, rust)?;
+    fake_debian(&programs, rust)?;
     let path = format!("{}:{}", programs.display(), std::env::var("PATH")?);
     let script = paths::workspace().join("fmu-build").join("cross").join(script);
     let output = Command::new("bash").arg(script).arg(folder.join("tools")).arg("1.89").env("PATH", path).output()?;
@@ -54,7 +54,7 @@ fn an_old_rust_is_refused_before_anything_is_downloaded() -> Result<()> {
 }
 
 #[test]
-fn a_package_that_is_gone_is_told_with_what_to_do() -> Result<()> {
+fn a_package_that_is_gone_is_reported_with_what_to_do() -> Result<()> {
     for script in ["rust.sh", "windows.sh", "aarch64.sh"] {
         for new in ["1.89.0", "1.96.1", "2.0.0"] {
             let said = said(script, new)?;

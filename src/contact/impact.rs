@@ -28,12 +28,12 @@ pub struct Impact {
     pub exponent: f64,
     /// C [N·s/m].
     pub damping: f64,
-    /// 1/d_max [1/m].
+    /// 1/d_max [1/m]: damping is full at the depth d_max.
     pub per_full_depth: f64,
 }
 
 impl Impact {
-    /// d^(e−1) for d > 0: multiplications and roots where the exponent is a multiple of ½, which most laws have.
+    /// d^(e−1) for d > 0: by multiplications and roots for the common exponents, multiples of ½.
     #[inline(always)]
     fn power(&self, d: f64) -> f64 {
         match self.exponent {
@@ -49,9 +49,10 @@ impl Impact {
     /// Force at penetration `d` > 0 [m] and rate `rate` [m/s].
     #[inline(always)]
     pub fn force(&self, d: f64, rate: f64) -> Force {
-        let power = self.stiffness * self.power(d);
+        // F_el/d
+        let secant = self.stiffness * self.power(d);
         let damping = Damping::Step { coefficient: self.damping, per_full_depth: self.per_full_depth };
-        damping.apply(power * d, self.exponent * power, d, rate)
+        damping.apply(secant * d, self.exponent * secant, d, rate)
     }
 
     /// Elastic energy U [J] at penetration `d` > 0 [m].

@@ -34,7 +34,7 @@ impl DisplayUnit {
         value * self.factor + self.offset
     }
 
-    /// The value in SI that is shown as `shown`.
+    /// The SI value of `shown`, a value in this unit.
     pub fn read(&self, shown: f64) -> f64 {
         (shown - self.offset) / self.factor
     }
@@ -45,7 +45,7 @@ impl DisplayUnit {
 pub struct Unit {
     /// Name used in the interface.
     pub name: &'static str,
-    /// Base exponents; `None` where FMI 2.0's integer exponents cannot express it.
+    /// Exponents of base units; `None` where they are no integers, as FMI 2.0 requires.
     pub base: Option<Base>,
     /// Units in which its values may be shown.
     pub display: &'static [DisplayUnit],
@@ -126,7 +126,7 @@ macro_rules! units {
     };
 }
 
-/// Coldest and hottest temperatures of oil, gears and clutches [K]: −60 and 400 °C.
+/// Lowest and highest temperature allowed for oil, gears and clutches [K]: −60 and 400 °C.
 pub const TEMPERATURES: (f64, f64) = (213.15, 673.15);
 
 units! {
@@ -198,7 +198,7 @@ units! {
     WATT_S_PER_K_RAD = "W.s/(K.rad)", per_kelvin(1, 2, -2, -1), [];
     /// Area.
     SQUARE_METRE = "m2", base(0, 2, 0, 0), [CM2];
-    /// Power per area, pressure times speed.
+    /// Power per area; pressure times speed.
     W_PER_M2 = "W/m2", base(1, 0, -3, 0), [W_PER_MM2];
     /// Viscosity.
     PA_S = "Pa.s", base(1, -1, -1, 0), [MILLI_PA_S];

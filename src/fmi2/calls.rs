@@ -1,9 +1,9 @@
 //! Which call is legal in which state: the tables of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
 
-use crate::instance::{Face, Phase, calls};
+use crate::instance::{Interface, Phase, calls};
 
 /// FMI 2.0.
-pub static FACE: Face = Face {
+pub static INTERFACE: Interface = Interface {
     version: 2,
     set_state: "fmi2SetFMUstate",
     reset: "fmi2Reset",
@@ -23,7 +23,7 @@ const CONTINUOUS: u16 = Phase::ContinuousTime.bit();
 const ALWAYS: u16 = INST | INIT | COMPLETE | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
 
 calls! {
-    &FACE;
+    &INTERFACE;
     SetDebugLogging          "fmi2SetDebugLogging"          ALWAYS;
     SetupExperiment          "fmi2SetupExperiment"          INST;
     EnterInitializationMode  "fmi2EnterInitializationMode"  INST;

@@ -12,6 +12,6 @@ mod panics;
 mod types;
 
 pub use crate::instance::{Category, EVENT_INDICATORS, OUTPUT_ORDER, Phase};
-pub use calls::{Call, FACE};
+pub use calls::{Call, INTERFACE};
 pub use exports::*;
 pub use types::*;

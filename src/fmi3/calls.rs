@@ -1,9 +1,9 @@
 //! Which call is legal in which state: FMI 3.0.2, sections 3.2 (model exchange) and 4.2 (co-simulation).
 
-use crate::instance::{Face, Phase, calls};
+use crate::instance::{Interface, Phase, calls};
 
 /// FMI 3.0.
-pub static FACE: Face = Face {
+pub static INTERFACE: Interface = Interface {
     version: 3,
     set_state: "fmi3SetFMUState",
     reset: "fmi3Reset",
@@ -27,7 +27,7 @@ const SET: u16 = INST | CONF | INIT | STEP | EVENT;
 const LOOK: u16 = INIT | STEP | INTER | EVENT | CONTINUOUS | TERMINATED | ERROR;
 
 calls! {
-    &FACE;
+    &INTERFACE;
     SetDebugLogging             "fmi3SetDebugLogging"             ALWAYS;
     EnterInitializationMode     "fmi3EnterInitializationMode"     INST;
     ExitInitializationMode      "fmi3ExitInitializationMode"      INIT;

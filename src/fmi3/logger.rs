@@ -6,11 +6,11 @@ use super::types::LogMessage;
 use crate::instance::c_types::c_void;
 use crate::instance::{Category, Sink, Status};
 
-/// The logger and what it is given with every message.
+/// The logger, and the pointer that goes with every message.
 pub struct HostLogger {
     /// The host's function.
     pub message: LogMessage,
-    /// Passed to it unchanged.
+    /// The host's pointer, passed to that function unchanged.
     pub environment: *mut c_void,
 }
 

@@ -10,6 +10,6 @@ mod types;
 mod values;
 pub mod variables;
 
-pub use calls::{Call, FACE};
+pub use calls::{Call, INTERFACE};
 pub use exports::*;
 pub use types::*;

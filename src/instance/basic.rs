@@ -44,10 +44,10 @@ pub enum Kind {
 /// Why a build without the other kind refuses it.
 pub const ONE_KIND: &str = "this build, for real time, is for co-simulation alone";
 
-/// A version of FMI: what its functions are called in messages.
+/// The C interface of a version of FMI: its number, and names of functions for messages.
 #[derive(Debug)]
-pub struct Face {
-    /// Its first number.
+pub struct Interface {
+    /// 2 for FMI 2.0, 3 for FMI 3.0.
     pub version: u32,
     /// The function that restores a state.
     pub set_state: &'static str,

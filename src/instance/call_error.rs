@@ -15,17 +15,17 @@ pub struct CallError {
 pub type CallResult<T = ()> = Result<T, CallError>;
 
 impl CallError {
-    /// The call returns fmi2Error.
+    /// The call returns the status error.
     pub fn error(message: impl Into<String>) -> Self {
         Self { status: Status::Error, message: message.into() }
     }
 
-    /// The call returns fmi2Discard.
+    /// The call returns the status discard.
     pub fn discard(message: impl Into<String>) -> Self {
         Self { status: Status::Discard, message: message.into() }
     }
 
-    /// The call was carried out in part and returns fmi2Warning.
+    /// The call was carried out in part and returns the status warning.
     pub fn warning(message: impl Into<String>) -> Self {
         Self { status: Status::Warning, message: message.into() }
     }

@@ -50,8 +50,8 @@ pub unsafe fn run<C: LegalCall>(
     // SAFETY: `busy` was clear and is set until `_release` is dropped, so no other reference to the instance exists
     let instance = unsafe { &mut *component.instance.get() };
     let outcome = panic_guard::catch(|| {
-        if instance.face.version != C::FACE.version {
-            return Err(other_face(instance.face.version));
+        if instance.interface.version != C::INTERFACE.version {
+            return Err(other_interface(instance.interface.version));
         }
         call.check(instance.now.phase)?;
         HostMemory::during_call(|host| body(instance, host))
@@ -70,10 +70,10 @@ fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallRes
         Ok(Err(error)) => error,
         Err(panic) => {
             instance.fail();
-            let face = instance.face;
+            let interface = instance.interface;
             CallError::error(format!(
                 "internal error, please report: {panic}; only {} or {} help now",
-                face.reset, face.set_state
+                interface.reset, interface.set_state
             ))
         }
     };
@@ -82,7 +82,7 @@ fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallRes
 }
 
 #[cold]
-fn other_face(version: u32) -> CallError {
+fn other_interface(version: u32) -> CallError {
     CallError::error(format!("the instance was made by a function of FMI {version}.0, and has no others"))
 }
 

@@ -56,8 +56,8 @@ impl Instance {
             Err(failure) => failure.to_string(),
         };
         self.now.phase = Phase::Error;
-        let face = self.face;
-        Err(CallError::error(format!("{failure}; continue with {} or {}", face.set_state, face.reset)))
+        let interface = self.interface;
+        Err(CallError::error(format!("{failure}; continue with {} or {}", interface.set_state, interface.reset)))
     }
 
     /// Sets the time [s].

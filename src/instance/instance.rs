@@ -1,6 +1,6 @@
 //! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
 
-use super::{Allowed, CallError, CallResult, Category, Face, Kind, Log, Phase, Snapshot};
+use super::{Allowed, CallError, CallResult, Category, Interface, Kind, Log, Phase, Snapshot};
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};
@@ -22,7 +22,7 @@ fn time_tolerance(time: f64, h: f64) -> f64 {
 /// An instance: a snapshot, and what no snapshot contains.
 pub struct Instance {
     /// The version of FMI whose functions made it.
-    pub face: &'static Face,
+    pub interface: &'static Interface,
     /// What the host of a co-simulation allows.
     pub allowed: Allowed,
     /// Parameters, inputs, phase, simulation.
@@ -50,11 +50,11 @@ pub struct Experiment {
 
 impl Instance {
     /// A new instance with start values.
-    pub fn new(face: &'static Face, kind: Kind, log: Log) -> Self {
+    pub fn new(interface: &'static Interface, kind: Kind, log: Log) -> Self {
         Self {
-            face,
+            interface,
             allowed: Allowed::default(),
-            now: Snapshot::new(face, kind),
+            now: Snapshot::new(interface, kind),
             log,
             cache: Share::new(),
             reported: Reported::default(),
@@ -171,7 +171,7 @@ impl Instance {
 
     /// As a new instance, except for the settings of the log.
     pub fn reset(&mut self) -> CallResult {
-        self.now = Snapshot::new(self.face, self.now.kind);
+        self.now = Snapshot::new(self.interface, self.now.kind);
         self.reported = Reported::default();
         self.unfelt.clear();
         Ok(())

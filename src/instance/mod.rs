@@ -1,5 +1,5 @@
 //! An instance as both versions of FMI see it: its states, values, steps, events and derivatives, on top of
-//! `model::Simulation`; and the checked access to what a host passes by pointers. `fmi2` and `fmi3` are thin faces over it.
+//! `model::Simulation`; and the checked access to what a host passes by pointers. `fmi2` and `fmi3` are thin interfaces over it.
 //!
 //! Decisions that the standards leave open:
 //! - A refused call changes nothing, so the instance keeps its state: an error for a wrong value reference does not end a

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CallError, CallResult, Face};
+use super::{CallError, CallResult, Interface};
 
 /// State of an instance in FMI's state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,7 +82,7 @@ impl Phase {
 /// A function of FMI that is legal in certain states only.
 pub trait LegalCall: Copy {
     /// The version of FMI that has it.
-    const FACE: &'static Face;
+    const INTERFACE: &'static Interface;
 
     /// Name of the C function.
     fn name(self) -> &'static str;
@@ -113,7 +113,7 @@ fn illegal(phases: u16, phase: Phase) -> CallError {
 
 /// The table of calls of a version of FMI: an enum `Call` of rows `Name "function" states;`.
 macro_rules! calls {
-    ($face:expr; $($call:ident $name:literal $phases:expr;)+) => {
+    ($interface:expr; $($call:ident $name:literal $phases:expr;)+) => {
         /// A function of FMI that is legal in certain states only.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
@@ -126,7 +126,7 @@ macro_rules! calls {
         }
 
         impl $crate::instance::LegalCall for Call {
-            const FACE: &'static $crate::instance::Face = $face;
+            const INTERFACE: &'static $crate::instance::Interface = $interface;
 
             fn name(self) -> &'static str {
                 match self { $(Self::$call => $name),+ }

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Discrete, Face, Kind, Phase};
+use super::{Discrete, Interface, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
@@ -47,9 +47,9 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// A new instance.
-    pub fn new(face: &Face, kind: Kind) -> Self {
+    pub fn new(interface: &Interface, kind: Kind) -> Self {
         Self {
-            version: face.version,
+            version: interface.version,
             kind,
             phase: Phase::Instantiated,
             parameters: Parameters::default(),

@@ -1,4 +1,4 @@
-//! Co-simulation with events: steps that end at an event or at the solver's own steps, and values that change at events alone.
+//! Co-simulation with events: steps that end at an event or at the end of a solver's step, and values that change only at events.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,16 +13,16 @@ pub struct Allowed {
     pub events: bool,
     /// A step may end at an event.
     pub early_return: bool,
-    /// The address of its function that is called at the solver's steps, and of what that is given; 0 = none.
+    /// Addresses of the host's function to call at the solver's steps, and of that function's argument; 0 = none.
     pub update: [usize; 2],
 }
 
-/// Outputs that change at events alone, where the host handles events.
+/// Outputs that change only at events, where the host handles events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Discrete {
     /// The last event.
     pub event: Event,
-    /// Masks of what dry friction holds: side gears, planets, wheels.
+    /// Bit masks of the bodies that dry friction holds: side gears, planets, wheels.
     pub held: [f64; 3],
 }
 
@@ -31,11 +31,11 @@ pub struct Discrete {
 pub struct Ended {
     /// The time that was reached [s].
     pub time: f64,
-    /// Whether an event has happened that the host is to handle.
+    /// Whether the host is to handle an event.
     pub event: bool,
     /// Whether an event has ended the step before its end.
     pub early: bool,
-    /// Whether the step is done.
+    /// Whether the whole step is done, not only a part of it.
     pub is_done: bool,
 }
 
@@ -48,8 +48,8 @@ impl Instance {
         Err(CallError::error("this call is for co-simulation, but the instance is for model exchange"))
     }
 
-    /// A step from `point` over `h` [s] to `until`, to the first event if the host allows it; or the part of it up to the next
-    /// step of the solver.
+    /// A step from `point` over `h` to `until` [s], or to the first event if the host allows early return; `in_parts`: only up to
+    /// the end of the solver's next step.
     pub fn step_to_event(&mut self, [point, h, until]: [f64; 3], in_parts: bool) -> CallResult<Ended> {
         self.check_co_simulation()?;
         let stop = self.now.stop_time;
@@ -90,19 +90,19 @@ impl Instance {
         CallError::discard(format!(
             "{failure}; values are those of the last successful time {:?} s; continue with {} or {}",
             six_digits(last),
-            self.face.set_state,
-            self.face.reset
+            self.interface.set_state,
+            self.interface.reset
         ))
     }
 
-    /// Lets outputs that change at events alone take their present values.
+    /// Gives outputs that change only at events their present values.
     pub fn publish(&mut self) -> CallResult {
         let simulation = self.simulation()?;
         self.now.discrete = Discrete { event: *simulation.last_event(), held: simulation.ledger().held };
         Ok(())
     }
 
-    /// Outputs that change at events alone: as published where the host handles events, else as they are now.
+    /// Outputs that change only at events: as published where the host handles events, else their present values.
     pub fn discrete(&mut self) -> CallResult<Discrete> {
         if !self.allowed.events {
             self.publish()?;
@@ -110,7 +110,7 @@ impl Instance {
         Ok(self.now.discrete)
     }
 
-    /// Enters event mode, from a solver of the host's or between steps.
+    /// Enters event mode: in model exchange, or between steps of co-simulation.
     pub fn enter_event_mode_of_any(&mut self) -> CallResult {
         if self.now.kind == Kind::CoSimulation && !self.allowed.events {
             return Err(CallError::error("the host has said that it does not use event mode"));
@@ -125,7 +125,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Leaves event mode for the host's solver.
+    /// Leaves event mode: the host's solver continues.
     pub fn enter_continuous_time_mode_of_exchange(&mut self) -> CallResult {
         self.check_model_exchange()?;
         self.enter_continuous_time_mode()
@@ -136,7 +136,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Event iteration of either kind: one is always enough.
+    /// Event iteration, of either kind of instance: one iteration is always enough.
     pub fn update_discrete_states(&mut self) -> CallResult<Update> {
         if self.now.kind == Kind::ModelExchange {
             return self.new_discrete_states();

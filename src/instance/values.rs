@@ -214,7 +214,7 @@ impl Instance {
             ))),
             (_, Variability::Fixed) if self.now.phase.is_running() => Err(CallError::error(format!(
                 "{} is a fixed parameter: it can be set only before {}",
-                row.name, self.face.exit_initialization
+                row.name, self.interface.exit_initialization
             ))),
             _ => Ok(()),
         }

@@ -1,14 +1,14 @@
-//! Where an integration stands: at the end of its last completed step, and within the one that leads on from there.
+//! Where an integration stands: at the end of its last completed step, and within the pending step after it.
 //!
-//! A step whose error is small enough is pending until a time beyond its end is asked for. Up to there its continuous
-//! extension tells the motion, at times that the steps do not depend on.
+//! A step whose error is small enough is pending until a time beyond its end is asked for. Until then its continuous
+//! extension gives the motion at any time within it. Steps do not depend on these times.
 
 use serde::{Deserialize, Serialize};
 
 use super::Point;
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
-/// ends and coefficients b. One that does not change in the step keeps its bits.
+/// ends and coefficients b. A component that does not change in the step keeps its bits.
 #[inline]
 pub fn extended(start: f64, end: f64, coefficients: [f64; 3], fraction: f64) -> f64 {
     let inner = coefficients[0] + fraction * (coefficients[1] + fraction * coefficients[2]);
@@ -22,7 +22,7 @@ pub struct Extension<const N: usize> {
     pub start: Point<N>,
     /// Its end.
     pub end: Point<N>,
-    /// Coefficients of the way in between, see [`extended`].
+    /// Coefficients b₀, b₁ and b₂ of [`extended`].
     pub coefficients: [Point<N>; 3],
 }
 
@@ -42,8 +42,8 @@ impl<const N: usize> Extension<N> {
         at
     }
 
-    /// By how much the motion halfway, over a step of size `h` [s], contradicts the equations: `slope` is what they demand
-    /// there, less what the extension does.
+    /// Defect of the extension halfway through a step of size `h` [s]: `slope`, by the equations, less the slope of the
+    /// extension.
     #[inline]
     pub fn defect(&self, slope: &Point<N>, h: f64) -> Point<N> {
         let Self { start, end, coefficients } = self;
@@ -69,9 +69,9 @@ pub struct Attempt {
     pub cut: bool,
     /// Whether it ends on a kink.
     pub to_kink: bool,
-    /// Whether a longer one was rejected before.
+    /// Whether a longer step was rejected just before.
     pub after_rejection: bool,
-    /// Longer ones before it that were rejected for their ledger, one after the other.
+    /// How many longer steps in a row were rejected for their ledger before it.
     pub unbalanced: u32,
 }
 
@@ -80,13 +80,13 @@ pub struct Attempt {
 pub struct Pending<const N: usize, P> {
     /// How it came about.
     pub attempt: Attempt,
-    /// The motion in it.
+    /// The motion in the step.
     pub extension: Extension<N>,
     /// Ledger rates at its begin and halfway.
     pub ledger_rates: [P; 2],
     /// Kinetic and stored energy at its begin.
     pub energy: [f64; 2],
-    /// Part of the step that is taken: all of it, unless the equations end within it.
+    /// Part of the step that is taken: all of it, unless the equations change within it.
     pub part: f64,
 }
 
@@ -99,13 +99,13 @@ pub struct Course<const N: usize, P> {
     pub time: f64,
     /// The step from there on.
     pub pending: Option<Pending<N, P>>,
-    /// Time at which the equations end [s]: no step goes beyond it.
+    /// Time at which these equations end, because they change [s]: no step is completed beyond it.
     pub end: f64,
-    /// Time at which their end is expected [s]: steps may go beyond it, but fit it.
+    /// Time at which they are expected to end [s]: steps are fitted to it, but may go beyond.
     pub expected: f64,
     /// Longest step [s].
     pub longest: f64,
-    /// What a double can resolve of the time axis [s].
+    /// Difference of times that a double can resolve [s].
     pub resolution: f64,
 }
 
@@ -116,7 +116,7 @@ impl<const N: usize, P> Course<N, P> {
         Self { point, time, pending: None, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
     }
 
-    /// Ends the equations at `end` [s], which lies within the pending step or at its end.
+    /// Ends the equations at `end` [s]. A pending step is taken up to there, or dropped if that leaves nothing of it.
     pub fn end_at(&mut self, end: f64) {
         self.end = end;
         if let Some(pending) = &mut self.pending {

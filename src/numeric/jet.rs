@@ -1,4 +1,4 @@
-//! A value with its first and second derivative by one variable: exact derivatives of closed forms at start-up.
+//! A value with its first and second derivative by one variable: exact derivatives of closed forms, used at the start.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

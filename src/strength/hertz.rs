@@ -5,16 +5,16 @@
 //!
 //! The `impact` law acts at R_m, w = F/b. Under the line laws w = 2FR/(R_e² − R_i²) grows with R just as ρ does: the
 //! pressure is the same over the face, and, as R_e² − R_i² = 2 b R_m, it is the same as at R_m under `impact`. One
-//! formula serves both: p_H = √(F E* / (π b R_m τ(s))). F is the force at the cone distance of the law's own resultant, R_F of
-//! the line laws, at which the same moment is a smaller force than at R_m.
+//! formula serves both: p_H = √(F E* / (π b R_m τ(s))). F acts at the cone distance of the law's resultant: R_m under
+//! `impact`, R_F > R_m under line laws. For the same moment F is therefore smaller under line laws.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pair;
 use crate::numeric::{PI, sin, sqrt};
 
-/// Least curvature radius for the formula, relative to that at the pitch point: nearer to a base circle the radius tends
-/// to zero and the flank is no longer a cylinder over the width of the contact.
+/// Least radius of curvature for the formula, relative to that at the pitch point: toward a base circle the radius tends
+/// to zero, and the flank is no cylinder over the width of the contact.
 const LEAST_RADIUS: f64 = 1e-3;
 
 /// Line contact of a planet with a side gear.
@@ -33,7 +33,7 @@ pub struct LineContact {
     /// Ends of the part of the path where one pair carries alone [rad]: the inner points of single contact of planet
     /// and side gear.
     pub single: [f64; 2],
-    /// The smaller relative radius of curvature there, per unit of cone distance; none at a base circle.
+    /// The smaller of the relative radii of curvature at these ends, per unit of cone distance; none at a base circle.
     pub rated_radius: Option<f64>,
 }
 
@@ -104,8 +104,8 @@ impl LineContact {
     /// Pressure [Pa] used in a rating: one pair carries the mesh's whole normal force `force` [N] at the worse
     /// inner point of single contact (ISO 10300-2:2001, Z_M-B of teeth without overlap).
     ///
-    /// S–N curves for pitting are meant for this pressure. That of a pair near the end of the path is higher, as the
-    /// radius vanishes toward the base circle, but it occurs where sliding wears and relief unloads the flank.
+    /// S–N curves for pitting refer to this pressure. Near the end of the path the pressure is higher, as the radius
+    /// vanishes toward the base circle, but there sliding wears and relief unloads the flank.
     pub fn rated_pressure(&self, force: f64) -> Option<f64> {
         self.pressure_on(self.line_load(force, self.mean_cone), self.mean_cone * self.rated_radius?)
     }

@@ -40,8 +40,8 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Gear `i` of `pair` (0 planet, 1 side gear), made with a tool of tip radius `tool_radius` modules; its teeth are
-    /// thinned for backlash as the pair's are. All slices of a straight tooth are alike, so this serves any section.
+    /// Gear `i` of `pair` (0 planet, 1 side gear), made with a tool of tip radius `tool_radius` modules, its teeth thinned
+    /// for the pair's backlash. All sections of a straight tooth are similar, so one profile serves all.
     pub fn of(pair: &Pair, i: usize, tool_radius: f64) -> Self {
         let gear = &pair.gears[i];
         let shift = if i == 0 { pair.profile_shift } else { -pair.profile_shift };
@@ -69,7 +69,7 @@ impl Profile {
     }
 
     /// Diameter [modules] of the outer point of single contact with `mate`: one base pitch above this gear's lowest
-    /// point of contact, which the mate's tip makes; the tip if there is no double contact.
+    /// point of contact, where the mate's tip touches; the tip diameter if there is no double contact.
     pub fn outer_single_contact(&self, mate: &Self) -> f64 {
         let alpha = self.pressure_angle;
         let line = (self.teeth + mate.teeth) / 2.0 * sin(alpha);

@@ -1,6 +1,6 @@
-//! Rows of the continuous states and their derivatives, for solvers of the host's.
+//! Rows of the continuous states and their derivatives, for the host's solvers.
 //!
-//! Some states are outputs; the others, and all derivatives, are local. What a scene does not have is 0.
+//! Some states are outputs; the others, and all derivatives, are local. States of bodies that a scene lacks are 0.
 
 use super::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, MM};
@@ -12,7 +12,7 @@ struct State {
     name: String,
     derivative: String,
     description: String,
-    /// Magnitude that errors are to be measured by.
+    /// Magnitude to which the host's solver relates errors.
     nominal: f64,
     unit: Unit,
     display: Option<DisplayUnit>,
@@ -41,8 +41,9 @@ const AXIAL: f64 = 1e-5;
 const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
 const AXIAL_SPEED: f64 = 1e-2;
-/// Names of position and velocity of side gears, turning and along their axes.
+/// Names of position and velocity of a side gear that turns.
 const SIDE: [&str; 2] = ["relative_angle", "speed"];
+/// The same along its axis.
 const SEAT: [&str; 2] = ["seat_position", "seat_speed"];
 
 /// Position and velocity of a body.
@@ -81,8 +82,8 @@ fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'st
     Variable { causality: Causality::Local, ..row }
 }
 
-/// Adds the rows that are missing to `rows`, sets the states' magnitudes there, and returns the indices of states and
-/// derivatives in the order of the states: positions of `BODIES`, then velocities.
+/// Adds the missing rows to `rows`, sets the magnitudes of all states, and returns the indices of states and derivatives:
+/// positions in the order of `BODIES`, then velocities.
 pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) {
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);
     let mut numbered = Vec::new();

@@ -5,7 +5,7 @@ use std::fmt;
 use bevel_differential::variables::Variable;
 use serde::Serialize;
 
-/// One error. The message is complete; the other fields repeat its parts where they are known.
+/// One error. The message is complete; the other fields repeat parts of it, where known.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Problem {
     /// What is wrong, in a sentence.
@@ -109,7 +109,7 @@ impl Problems {
     }
 }
 
-/// The error of a question that makes no sense, in one sentence.
+/// The error of a question that makes no sense; `what` is the sentence.
 pub fn question_error(what: impl Into<String>) -> anyhow::Error {
     Problems::from(Problem::from(what.into())).into()
 }

@@ -1,4 +1,4 @@
-//! The C functions from outside: at random, and by hosts written in C. The long runs are commands: `fuzz` and `memory`.
+//! The C functions called from outside: at random, and by hosts written in C. Long runs are the commands `fuzz` and `memory`.
 
 use std::ffi::OsString;
 use std::process::Command;
@@ -12,8 +12,9 @@ use lab::check::memcheck;
 
 /// Calls of the short run.
 const CALLS: usize = 4000;
-/// Least part of calls that must be carried out, and least steps in a thousand calls: a run of refusals shows little.
+/// Least part of the calls that must be carried out: a run of refusals shows little.
 const DONE: f64 = 0.4;
+/// Least steps of either kind in a thousand calls.
 const STEPS: u64 = 5;
 
 #[test]
@@ -36,7 +37,7 @@ fn calls_at_random_keep_every_promise() {
     }
 }
 
-/// A round at speeds with more mesh cycles in a step than can be run through.
+/// A round in which a step has more mesh cycles than can be counted one by one.
 #[test]
 fn a_round_at_absurd_speeds_ends() {
     let (send, outcome) = mpsc::channel();
@@ -78,7 +79,7 @@ fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let listed = String::from_utf8(output.stdout).unwrap();
     let all = listed.lines().filter_map(|line| line.split_whitespace().last());
-    // those of FMI 3.0 are compared with fmpy's list by a test in Python
+    // a test in Python compares the names of FMI 3.0 with fmpy's list
     let (third, mut exported): (Vec<&str>, Vec<&str>) = all.partition(|name| name.starts_with("fmi3"));
     assert_eq!(third.len(), 75, "functions of FMI 3.0.2");
     let mut known: Vec<&str> = Function::ALL.iter().map(|f| f.name()).collect();
@@ -115,6 +116,6 @@ fn what_belongs_to_the_host_stays_as_it_was() {
         let moved = said.lines().find_map(|line| line.strip_prefix(mode)).unwrap();
         assert!(moved.trim().parse::<f64>().unwrap() < 1e-6, "{said}");
     }
-    // the host may let invalid operations, divisions by zero and overflows trap
+    // the host may trap invalid operations, divisions by zero and overflows
     assert_eq!(said.matches(" runs\n").count(), 3, "{said}");
 }

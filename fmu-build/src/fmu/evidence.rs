@@ -14,13 +14,13 @@ use crate::tools::{paths, script};
 
 /// The folder in the archive. FMI-LS-REF gives its name.
 const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
-/// What a test with the files requires.
+/// The file that states what a test with the evidence requires.
 const REQUIREMENTS: &str = "requirements.md";
-/// The same text in the folder of the documentation, where FMI-LS-REF recommends one.
+/// Name of its copy in the FMU's documentation, as FMI-LS-REF recommends.
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 /// The script that makes the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
-/// Scenes of the evidence alone. In them acts what no shipped scene needs: laws, levels of gear contact, effects.
+/// Scenes for the evidence alone, with the laws, levels of gear contact and effects that no shipped scene uses.
 const SCENES: &str = "fmu-build/evidence";
 
 /// Simulates the shipped scenes and those of fmu-build/evidence, and writes their results to modelDescription/evidence, for `bevel-differential verify`
@@ -28,7 +28,7 @@ const SCENES: &str = "fmu-build/evidence";
 pub struct EvidenceCommand {}
 
 impl EvidenceCommand {
-    /// Writes the files and prints what they state.
+    /// Writes the files and prints the script's summary.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("looking for Python");
         let environment = Environment::ready(|what| progress.stage(what))?;
@@ -49,8 +49,8 @@ impl EvidenceCommand {
     }
 }
 
-/// Paths in the archive and files of the repository, in a fixed order. Without the folder there are none, so that the command can
-/// package the FMU that makes the first.
+/// Paths in the archive and the files for them, in a fixed order. None without the folder: the FMU that makes the first evidence
+/// carries none.
 pub fn files() -> Result<Vec<(String, PathBuf)>> {
     let root = paths::evidence();
     let mut found = Vec::new();
@@ -61,7 +61,7 @@ pub fn files() -> Result<Vec<(String, PathBuf)>> {
     Ok(found)
 }
 
-/// The text for `DOCUMENT`, if there is evidence.
+/// Contents of `DOCUMENT`, if there is evidence.
 pub fn document() -> Result<Option<Vec<u8>>> {
     let file = paths::evidence().join(REQUIREMENTS);
     let read = || fs::read(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)));

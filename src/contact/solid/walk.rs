@@ -1,4 +1,4 @@
-//! The way along both polygons of a section, corner by corner, as far as their overlap contributes to the load.
+//! Walks along both polygons of a section, corner by corner, as far as their overlap contributes to the load.
 
 use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
 use super::turned::Both;
@@ -22,9 +22,9 @@ pub struct Corner<const N: usize> {
     pub height: f64,
 }
 
-/// What follows the walks along both polygons.
+/// A visitor of the corners that the walks pass.
 pub trait Follow<const N: usize> {
-    /// A walk begins at this corner, the same for both walks.
+    /// A walk begins at this corner; both walks begin at the same one.
     fn begin(&mut self, at: &Corner<N>);
     /// The next corner.
     fn pass(&mut self, at: &Corner<N>);
@@ -34,16 +34,17 @@ pub trait Follow<const N: usize> {
 struct Walk<'a, const N: usize> {
     section: &'a FlankSection<'a>,
     measures: &'a [Measure<N>; 2],
-    /// 1 to higher places, −1 to lower ones.
+    /// Direction: 1 to higher places, −1 to lower ones.
     sense: f64,
-    /// The facets of planet and side gear at the place, and the rays at which they end.
+    /// The facets of planet and side gear at the present place.
     facets: [ProjectedFacet<N>; 2],
+    /// The rays at which these facets end, and their numbers.
     ahead: [ProjectedRay<N>; 2],
     index: [usize; 2],
 }
 
 impl<const N: usize> Walk<'_, N> {
-    /// The gear of the next corner, and the corner.
+    /// The next corner, with the gear to which it belongs.
     #[inline(always)]
     fn corner(&self) -> (usize, Corner<N>) {
         let own = usize::from((self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0);
@@ -69,11 +70,11 @@ impl<const N: usize> Walk<'_, N> {
 
 /// A section of both flanks.
 pub struct FlankSection<'a> {
-    /// Rays of planet and side gear; along both the planet's root and the side gear's tip come last.
+    /// Rays of planet (from tip to root) and side gear (from root to tip).
     pub rays: [&'a [TurningRay]; 2],
     /// Angles of their teeth.
     pub angles: [SineCosine; 2],
-    /// Where to begin: the rays that would be closest on exact flanks, counted along each.
+    /// Where to begin: numbers of the rays that would be closest on exact flanks.
     pub start: [f64; 2],
 }
 
@@ -83,16 +84,16 @@ impl FlankSection<'_> {
         self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, self.angles[gear]))
     }
 
-    /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
+    /// The rays on both sides of the place `u` on a flank, and the number of the lower one; `None` off the flank.
     #[inline(always)]
     fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
         let last = self.rays[gear].len().checked_sub(2)?;
         let mut i = (self.start[gear] as u32 as usize).min(last);
         let mut rays = [self.projected::<N>(gear, i)?, self.projected(gear, i + 1)?];
         if !(rays[0].u.v <= u && u <= rays[1].u.v) {
-            // facets are nearly alike
-            let ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
-            i = ((i as f64 + ahead) as u32 as usize).min(last);
+            // neighbouring facets have nearly the same length
+            let facets_ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
+            i = ((i as f64 + facets_ahead) as u32 as usize).min(last);
             let at = |i: usize| self.rays[gear].get(i).map(|ray| place::<0>(ray, self.angles[gear]).v);
             while at(i + 1)? < u {
                 i += 1;
@@ -105,18 +106,18 @@ impl FlankSection<'_> {
         Some((i, rays))
     }
 
-    /// Two walks from a place inside both flanks along the corners that contribute: first the way in which the overlap grows,
-    /// and then, from the same corner, the other way. `None` where the flanks are apart.
+    /// Walks twice from a place inside both flanks along the corners that contribute: first in the direction in which the overlap
+    /// grows, then from the same corner in the other. `None` where the flanks are apart.
     #[inline(always)]
     pub fn walk<const N: usize>(&self, soft: &Softness, follow: &mut impl Follow<N>) -> Option<()> {
         let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
         let side_tip = place::<N>(self.rays[1].last()?, self.angles[1]);
-        // contacts of involutes are at u = 0 or at a tip
+        // involutes touch at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
         let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);
         let facets = [ProjectedFacet::new(&planet.1[0], &planet.1[1]), ProjectedFacet::new(&side.1[0], &side.1[1])];
         let grows_up = facets[0].slope() > facets[1].slope();
-        // over convex flanks no overlap grows faster than at first
+        // between convex flanks the overlap grows fastest at first
         let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
         let (reach, least) = (soft.deep(), -soft.excess / LEAST_METRIC);
         let farthest = facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room;

@@ -72,7 +72,7 @@ fn instantiate(
     } else if let (false, Some(Kind::ModelExchange)) = (FULL, made_for) {
         ONE_KIND.to_owned()
     } else if let Some(kind) = made_for {
-        return Some(Instance::new(&FACE, kind, log));
+        return Some(Instance::new(&INTERFACE, kind, log));
     } else {
         format!("type {kind} is neither model exchange ({MODEL_EXCHANGE}) nor co-simulation ({CO_SIMULATION})")
     };

@@ -8,7 +8,7 @@
 #![allow(non_snake_case)] // FMI's names
 
 use super::types::*;
-use super::{Call, FACE};
+use super::{Call, INTERFACE};
 use crate::instance::c_types::{c_char, c_int};
 use crate::instance::{CallError, CallResult, HostMemory, call, debug_logging, plain};
 #[cfg(feature = "full")]

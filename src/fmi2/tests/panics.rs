@@ -6,7 +6,7 @@ use std::ffi::CString;
 use super::exports::{fmi2FreeInstance, fmi2GetReal, fmi2Reset};
 use super::logger::HostLogger;
 use super::types::{ComponentPointer, Kind, Status};
-use super::{Call, FACE, Phase};
+use super::{Call, INTERFACE, Phase};
 use crate::instance::{Component, Instance, LegalCall, Log, run};
 
 #[path = "../../../tests/common/recorder.rs"]
@@ -16,8 +16,8 @@ use recorder::Recorder;
 
 /// A component in `phase` that logs into `recorder`.
 fn component(kind: Kind, phase: Phase, recorder: &Recorder) -> ComponentPointer {
-    let mut instance =
-        Instance::new(&FACE, kind, Log::new(HostLogger::of(Some(recorder.callbacks()), CString::default()), false));
+    let log = Log::new(HostLogger::of(Some(recorder.callbacks()), CString::default()), false);
+    let mut instance = Instance::new(&INTERFACE, kind, log);
     instance.now.phase = phase;
     Component::into_pointer(instance)
 }

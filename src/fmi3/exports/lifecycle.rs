@@ -116,7 +116,7 @@ unsafe fn instantiate(
         log.status(Status::Error, &format!("fmi3Instantiate: {problem}"));
         return None;
     }
-    let mut instance = Instance::new(&FACE, kind, log);
+    let mut instance = Instance::new(&INTERFACE, kind, log);
     instance.allowed = allowed;
     Some(instance)
 }

@@ -8,7 +8,7 @@
 #![allow(non_snake_case)] // FMI's names
 
 use super::types::*;
-use super::{Call, FACE, values};
+use super::{Call, INTERFACE, values};
 use crate::instance::c_types::c_void;
 #[cfg(feature = "full")]
 use crate::instance::{CallError, c_types::c_int, getters, host_solver};

@@ -1,13 +1,14 @@
 //! Constants of the ideal differential with effects on bodies.
 //!
-//! All speeds follow from those that Willis' equation leaves free: v = P u with u = (ω_c, ψ̇, ends). Forces Q then give
-//! u̇ = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c) for the free ones under the accelerations u̇_c of imposed ones, so that
-//! v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and f = (1 − W M) P_c.
+//! All speeds follow from those that Willis' equation leaves free: v = P u with u = (ω_c, ψ̇, ends). Some of u are
+//! imposed, u_c; the others are u_f; P_c and P_f are their columns of P. Forces Q and imposed accelerations u̇_c give
+//! u̇_f = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c), so that v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and
+//! f = (1 − W M) P_c.
 
 use super::{BodyEffects, Ideal};
 use crate::model::scene::{Layout, PLANET, Plan, attached};
 
-/// Most degrees of freedom, those with ends of half-shafts, in whole vectors of any width.
+/// Most degrees of freedom, with ends of half-shafts, rounded up to whole vectors of any width.
 pub const MOST: usize = 8;
 
 /// Motions that may be imposed: carrier, spin, left and right end.

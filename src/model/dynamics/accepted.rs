@@ -1,4 +1,4 @@
-//! Where the host's solver stands between its steps.
+//! The end of the last step of the host's solver.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,13 +16,13 @@ pub struct Accepted {
     pub v: [f64; MAX_DOF],
     /// Inputs.
     pub inputs: Inputs,
-    /// Commands of imposed speeds: the free speeds have followed their jumps so far.
+    /// Commands of imposed speeds up to which the free speeds have followed jumps.
     pub followed: Inputs,
 }
 
 impl Accepted {
     /// `state` moved to the end of that step.
-    pub fn of(&self, state: &State) -> State {
+    pub fn applied_to(&self, state: &State) -> State {
         state.elsewhere(self.time, self.q, self.v)
     }
 

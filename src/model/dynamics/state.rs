@@ -52,10 +52,10 @@ pub struct State {
     pub input_derivatives: Option<InputDerivatives>,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// Time at which the integration last began anew after a change, such as one of inputs [s].
-    pub begun: Option<f64>,
-    /// Time between that change and the one before [s].
-    pub held: f64,
+    /// Time since which inputs hold [s]: the integration last began anew then, after a change of inputs or another one.
+    pub held_since: Option<f64>,
+    /// Time for which they had held before [s]: between the last two changes.
+    pub held_before: f64,
     /// The integrator's step that contains the present time. Work, heat, friction and damage are those at the beginning of it.
     pub pending_step: Option<PendingStep>,
     /// The last event.
@@ -84,8 +84,8 @@ impl State {
             carrier_command: 0.0,
             input_derivatives: None,
             energy_at_start: 0.0,
-            begun: None,
-            held: f64::INFINITY,
+            held_since: None,
+            held_before: f64::INFINITY,
             pending_step: None,
             event: Event::default(),
             pause: None,
@@ -234,8 +234,8 @@ impl State {
             && self.control.next.is_finite()
             && self.control.last >= 0.0
             && self.control.after_kink > 0.0
-            && self.held >= 0.0
-            && self.begun.is_none_or(f64::is_finite)
+            && self.held_before >= 0.0
+            && self.held_since.is_none_or(f64::is_finite)
     }
 }
 

@@ -1,5 +1,5 @@
-//! What effects are made of: what one may declare (`effect`), and the kinds of things one may do: forces on bodies
-//! (`body_effect`), dry friction that sticks (`friction_source`, `friction`, `dry_friction`), changes to single teeth (`teeth`).
+//! What an effect may declare (`effect`) and do: forces on bodies (`body_effect`), dry friction that sticks (`friction_source`,
+//! `friction`, `dry_friction`), changes to single teeth (`teeth`).
 
 pub mod body_effect;
 pub mod body_friction;

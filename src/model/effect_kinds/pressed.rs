@@ -1,21 +1,21 @@
-//! Pressure times speed of a rubbing surface, and friction beyond a limit of it.
+//! Pressure times speed of a rubbing surface, and how friction changes beyond a limit of p v.
 //!
 //! ```text
 //! p v = ω (P + P_F F + P_L L)      friction × g(p v),   g = 1 up to the limit,   g = b from 1.05 × the limit
 //! ```
 //!
 //! with the slip speed ω, the thrust F and the load L on the surface. A normal force N on the area A at the radius r has p =
-//! N/A and v = ω r. A friction torque T = μ N r has p v = T ω/(μ A). Between the limit and its end u = 0 … 1 the factor is g =
-//! 1 + (b − 1) u² (3 − 2u), so that it has a derivative everywhere. Temperature changes μ, not N: p v does not feel it.
+//! N/A and v = ω r. A friction torque T = μ N r has p v = T ω/(μ A). From the limit (u = 0) to 1.05 × the limit (u = 1) the factor
+//! is g = 1 + (b − 1) u² (3 − 2u), so that it has a derivative everywhere. Temperature changes μ, not N, and so not p v.
 //!
-//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings, for p v as what a surface bears.
+//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can bear.
 
 use super::SurfaceLoad;
 
-/// Width of the band in which friction changes, over the limit.
+/// Width of the band in which friction changes, as a part of the limit.
 const BAND: f64 = 0.05;
 
-/// Pressure times radius of a surface [N/m]: a constant, and per thrust and load.
+/// Pressure times radius of a surface [N/m], linear in thrust and load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pressed {
     /// Constant part [N/m].
@@ -27,7 +27,7 @@ pub struct Pressed {
 }
 
 impl Pressed {
-    /// Nothing presses.
+    /// No pressure.
     pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0 };
 
     /// Pressure times radius under the loads `by` [N/m].
@@ -35,7 +35,7 @@ impl Pressed {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
-    /// The same pressed `factor` times as much.
+    /// `factor` times the pressure.
     pub fn times(self, factor: f64) -> Self {
         let Self { constant, per_thrust, per_load } = self;
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load }
@@ -47,7 +47,7 @@ impl Pressed {
 pub struct PvLimit {
     /// Largest p·v at which friction is as given [W/m²].
     pub limit: f64,
-    /// Friction beyond the limit over that below it.
+    /// b: friction beyond the band over that up to the limit.
     pub beyond: f64,
 }
 
@@ -72,7 +72,7 @@ impl PvLimit {
     }
 }
 
-/// A rubbing surface; planets by their groups.
+/// A rubbing surface of a side, or of a group of planets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
     /// Between side gear and carrier: its washer, or its clutch pack.

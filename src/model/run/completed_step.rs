@@ -7,32 +7,32 @@ use crate::model::dynamics::ledger_rates::LedgerRates;
 /// A completed step, and the same while it was pending.
 pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<&'a Pending<N, LedgerRates>>);
 
-/// A completed step of equations of any size, for what looks at its motion.
+/// The motion in a completed step, for equations of any size.
 pub struct Passed {
     /// Size of the step [s].
     pub h: f64,
     /// Time at its begin [s].
     pub begin: f64,
     /// The motion in it.
-    pub way: Extension<LARGEST>,
-    /// The part of that which was taken.
+    pub extension: Extension<LARGEST>,
+    /// Part of the step that was taken.
     pub part: f64,
 }
 
 impl Passed {
     /// The step `completed`, whose times count from `begin` [s].
     pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, pending): CompletedStep<N>, begin: f64) -> Self {
-        let (way, part) = match pending {
+        let (extension, part) = match pending {
             Some(pending) => (pending.extension, pending.part),
             None => (cubic(equations, step), 1.0),
         };
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
-        let way = Extension {
-            start: largest(&way.start),
-            end: largest(&way.end),
-            coefficients: way.coefficients.each_ref().map(largest),
+        let extension = Extension {
+            start: largest(&extension.start),
+            end: largest(&extension.end),
+            coefficients: extension.coefficients.each_ref().map(largest),
         };
-        Self { h: step.h, begin: begin + step.time - step.h, way, part }
+        Self { h: step.h, begin: begin + step.time - step.h, extension, part }
     }
 }
 

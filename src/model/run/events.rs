@@ -14,7 +14,7 @@ pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
     with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
 }
 
-/// Breaks the tooth when its time has come or when it is triggered; the energy stored in it is heat.
+/// Breaks the tooth when its time has come or when it is triggered; its stored energy becomes heat.
 pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
@@ -24,8 +24,8 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// Applies the commands of lock and brakes: friction starts on the bodies they act on, and ends on others.
-pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
+/// Applies what changes now: a tooth breaks, lock and brakes follow their commands, and friction starts and ends on bodies.
+pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
     if !model.body_effects().act_in(state) {
@@ -34,7 +34,7 @@ pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     switch_friction(model, inputs, state);
 }
 
-/// Lets friction start and end on bodies, and the wheels slide that are held by more than their brakes hold.
+/// Lets friction start and end on bodies. Wheels held by more than the limit torque of their brakes begin to slide.
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
@@ -43,8 +43,8 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     });
 }
 
-/// Whether brakes were put on or released since friction was last updated.
-pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
+/// Whether brakes were put on or released since friction was last switched.
+pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
@@ -55,7 +55,7 @@ pub fn has_brakes(model: &Model) -> bool {
     model.body_effects().has_brakes
 }
 
-/// `state` with the brakes as `inputs` have them; `None` if nothing changes.
+/// `state` with the brakes that `inputs` command; `None` if no friction changes.
 pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
     let mut braked = *state;
     switch_friction(model, inputs, &mut braked);

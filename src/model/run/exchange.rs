@@ -6,7 +6,7 @@
 
 use crate::FULL;
 
-use super::events::{are_brakes_new, break_tooth, energy, update_friction};
+use super::events::{apply_changes, break_tooth, energy, have_brakes_changed};
 use super::progress::complete;
 use super::timeline::{breaks_tooth, next_change};
 use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
@@ -185,7 +185,7 @@ impl Simulation {
         let mut is_due = false;
         let h = state.time() - from.time;
         if h > 0.0 {
-            let mut begin = from.of(state);
+            let mut begin = from.applied_to(state);
             let before = energy(model, inputs, &begin);
             imposed::set(model, inputs, &mut begin);
             // the energy of a jump of imposed speeds is impulsive work of the input
@@ -220,7 +220,7 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
         }
         let jumps = imposed::is_impulse(model, &from.followed, inputs);
-        let commanded = inputs.lock != state.lock || are_brakes_new(model, inputs, state);
+        let commanded = inputs.lock != state.lock || have_brakes_changed(model, inputs, state);
         let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
         self.accept(from.followed);
         Ok(due)
@@ -234,14 +234,14 @@ impl Simulation {
         }
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
         let (before, followed) = match &self.accepted {
-            Some(from) => (from.of(state), from.followed),
+            Some(from) => (from.applied_to(state), from.followed),
             None => (*state, *inputs),
         };
         imposed::follow_impulse(model, &followed, inputs, state);
         imposed::set(model, inputs, state);
         // the energy of a jump of imposed speeds is impulsive work of the input
         state.work += energy(model, inputs, state) - energy(model, inputs, &before);
-        update_friction(model, inputs, state);
+        apply_changes(model, inputs, state);
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
                 equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);

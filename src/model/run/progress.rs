@@ -4,7 +4,7 @@
 //! the present, and its continuous extension tells the motion. Where something changes, that step is completed up to the
 //! present, and the integration begins anew there.
 
-use super::events::{break_tooth, update_friction};
+use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration};
 use super::timeline::{self, Stop};
 use super::{StepFailure, imposed};
@@ -18,7 +18,7 @@ pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State,
     complete(model, (state, watched));
     state.pause = None;
     imposed::jump(model, inputs, state);
-    update_friction(model, inputs, state);
+    apply_changes(model, inputs, state);
     timeline::begin_holding(state);
 }
 
@@ -101,7 +101,7 @@ fn go_on(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
-    let [mut shown, time] = timeline::shown(state, &clock);
+    let [mut shown, time] = timeline::last_communication_point(state, &clock);
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;

@@ -149,7 +149,7 @@ impl Simulation {
 
     /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
     pub(super) fn energy(&self, state: &State) -> f64 {
-        let known = self.accepted.as_ref().map(|accepted| accepted.of(state));
+        let known = self.accepted.as_ref().map(|accepted| accepted.applied_to(state));
         energy(&self.model, &self.inputs, known.as_ref().unwrap_or(state))
     }
 

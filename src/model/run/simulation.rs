@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::events::{break_tooth, update_friction};
+use super::events::{apply_changes, break_tooth};
 use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
 use super::{StepFailure, imposed, start, start_report, timeline};
@@ -56,7 +56,7 @@ impl Simulation {
             }
             None => Thermal::uniform(oil),
         };
-        start::speeds(model, inputs, state);
+        start::set_speeds(model, inputs, state);
         // a tooth that is broken from the start on
         break_tooth(model, inputs, state);
         let mut preload = None;
@@ -71,7 +71,7 @@ impl Simulation {
             }
         }
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
-        update_friction(&simulation.model, inputs, &mut simulation.state);
+        apply_changes(&simulation.model, inputs, &mut simulation.state);
         let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
         if let Some(preload) = &preload {
             let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
@@ -210,7 +210,7 @@ impl Simulation {
         }
         let end = |state: &State| {
             let step = state.pending_step.as_ref()?;
-            let [now, time] = timeline::shown(state, &step.clock);
+            let [now, time] = timeline::last_communication_point(state, &step.clock);
             Some(time + (step.end() - now)).filter(|&end| end > state.time())
         };
         let holds = self.state.pending_step.as_ref().is_some_and(|step| step.inputs == self.inputs);

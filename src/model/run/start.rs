@@ -9,8 +9,8 @@ use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
 use crate::problem::Problem;
 
-/// Speeds at the start: imposed ones, and Willis' equation unless everything starts at rest.
-pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
+/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from rest.
+pub fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
     let rest = model.parameters.scene.start == Start::Rest;
@@ -65,20 +65,20 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
     }
 }
 
-/// What a start is like.
+/// Result of [`preload`].
 #[derive(Clone, Copy, Debug)]
 pub struct Preload {
-    /// What is carried, and the accelerations with which it is.
+    /// What teeth and half-shafts carry, and the accelerations that go with it.
     pub carried: Carried,
-    /// Whether all is in balance without accelerations other than these, and no planet begins to roll.
+    /// Whether all is in balance with these accelerations alone, and no planet begins to roll.
     pub settled: bool,
 }
 
-/// Presses the meshes together until tooth torques balance the loads, and winds the half-shafts up.
+/// Presses the meshes together until tooth torques balance the loads, and winds up the half-shafts.
 ///
-/// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
-/// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
-/// differential, plain teeth at ψ = 0 and others at the minimum under the loads of these accelerations.
+/// First a balance without rolling planets is sought, a minimum of the potential V + Σ T α near ψ = 0 (stiffness that
+/// varies along the path holds small imbalances). Where there is none, the planets roll, and the loads are those under the
+/// accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;
@@ -86,10 +86,10 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut carried = Carried::new(model, &held, inputs, state);
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
-    // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
-    let otherwise = equations.in_detail() || equations.has_pins() || equations.bodies_of_gears().is_some();
+    // where pairs move each other, or slices of the face carry, the balance cannot be found mesh by mesh
+    let not_mesh_by_mesh = equations.in_detail() || equations.has_pins() || equations.bodies_of_gears().is_some();
     let mut settled = true;
-    if !plan.spin_imposed || otherwise {
+    if !plan.spin_imposed || not_mesh_by_mesh {
         let found = settle(equations, &carried, &point);
         settled = found.is_some();
         if let Some(found) = found {
@@ -98,7 +98,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         } else if !plan.spin_imposed {
             carried = Carried::new(model, ideal, inputs, state);
             press_sides(model, equations, carried.teeth, &mut point)?;
-            if otherwise {
+            if not_mesh_by_mesh {
                 let pressed = || pressed_as_they_are(equations, &carried, ROUNDS);
                 point = settle_as_they_are(equations, &carried).or_else(pressed).unwrap_or(point);
             }
@@ -114,7 +114,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let follows = [0, 1].map(|s| stiffness[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
     for s in 0..2 {
         if follows[s] {
-            // planets whose bodies are elastic join both sides
+            // elastic bodies of planets couple both sides
             let other = 1 - s;
             let across = stiffness[s][other];
             let (mut by_spin, mut own) = (by_spins[s], stiffness[s][s]);

@@ -1,8 +1,9 @@
-//! What happens at a time. This is the one place that knows of it, and every way of moving on passes through it.
+//! Times at which something happens. No other place knows them, and every motion in time passes through here.
 //!
-//! The equations change by themselves where a tooth breaks; inputs are expected to change when they have held as long as
-//! before; long stretches end so that the integrator's clock is set back; and the host asks for a time. A stop is the first
-//! of these. The time moves by as much as the integrator's clock has moved, or the call fails.
+//! The equations change by themselves where a tooth breaks. Inputs are expected to change when they have held as long as
+//! before. Long intervals end so that the integrator's clock is set back. The host asks for a time. A stop is the first of
+//! these but the expected change, to which steps are only fitted. The time moves as far as the integrator's clock, or the call
+//! fails.
 
 use super::StepFailure;
 use super::integration::LONGEST_INTERVAL;
@@ -11,12 +12,12 @@ use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
-/// By how much longer than before inputs are expected to hold: hosts add up steps, with all the rounding that brings.
+/// Relative allowance for rounding in the time that inputs are expected to hold: hosts add up steps.
 const ROUNDING: f64 = 1e-6;
-/// Operations on times, each of them rounded, between one stop and the next.
-const ROUNDED: f64 = 8.0;
+/// Rounded operations on times between one stop and the next.
+const ROUNDED_OPERATIONS: f64 = 8.0;
 
-/// Where the integration of a stretch of time is to stop.
+/// Where an integration is to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// Its time [s].
@@ -25,12 +26,12 @@ pub struct Stop {
     pub is_change: bool,
 }
 
-/// Times that are closer than this cannot be told apart near `time` [s].
+/// Least difference by which times near `time` can be told apart [s].
 fn resolution(time: f64) -> f64 {
-    ROUNDED * f64::EPSILON * time.abs().max(LONGEST_INTERVAL)
+    ROUNDED_OPERATIONS * f64::EPSILON * time.abs().max(LONGEST_INTERVAL)
 }
 
-/// Time at which the equations change by themselves, if that is still to come [s]: a tooth breaks.
+/// Time of the next change of the equations by themselves [s]: the onset of the tooth fault, if still to come.
 pub fn next_change(model: &Model, state: &State) -> Option<f64> {
     let p = &model.parameters;
     let onset = p.specs.tooth_fault.onset;
@@ -53,20 +54,20 @@ fn has_come(time: f64, state: &State) -> bool {
 pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
     let time = if until - state.time() > 1.5 * LONGEST_INTERVAL { state.time() + LONGEST_INTERVAL } else { until };
     match next_change(model, state) {
-        // a communication point that rounding parts from the change is the change
+        // a communication point that differs from the change only by rounding is the change
         Some(change) if (change - time).abs() <= resolution(change) => Stop { time, is_change: true },
         Some(change) if change < time => Stop { time: change, is_change: true },
         _ => Stop { time, is_change: false },
     }
 }
 
-/// Moves to `until` [s] if the step ahead contains it and the equations hold up to there and beyond. Returns whether it does.
+/// Moves to `until` [s] if the pending step contains it and the equations change only later. Returns whether it moved.
 #[inline]
 pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -> bool {
-    // reckoned before the move
+    // computed before the move
     let pause = if way.is_part {
         state.pending_step.as_ref().map(|step| {
-            let [now, time] = shown(state, &step.clock);
+            let [now, time] = last_communication_point(state, &step.clock);
             Pause { now, time, inputs: step.inputs }
         })
     } else {
@@ -80,28 +81,30 @@ pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -
     moves
 }
 
-/// Inputs have changed, or something else: from now on they hold.
+/// Inputs, or something else, have changed: from now on inputs hold.
 pub fn begin_holding(state: &mut State) {
-    state.held = state.begun.map_or(f64::INFINITY, |begun| state.time() - begun);
-    state.begun = Some(state.time());
+    state.held_before = state.held_since.map_or(f64::INFINITY, |since| state.time() - since);
+    state.held_since = Some(state.time());
 }
 
-/// The clock of the step ahead, or a new one that starts now.
+/// The clock of the pending step, or a new one that starts now.
 pub fn clock(model: &Model, state: &State) -> Clock {
     if let Some(pending_step) = &state.pending_step {
         return pending_step.clock;
     }
-    let held = state.held - state.begun.map_or(0.0, |begun| state.time() - begun);
+    let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
     let change = next_change(model, state).unwrap_or(f64::INFINITY);
-    Clock::new(change - state.time(), held * (1.0 + ROUNDING))
+    Clock::new(change - state.time(), left * (1.0 + ROUNDING))
 }
 
-/// Begin of the way to the next communication point: on the integrator's clock and in time [s].
-pub fn shown(state: &State, clock: &Clock) -> [f64; 2] {
+/// The last communication point, or the present where the motion has not paused since: on the integrator's clock, and its
+/// time [s].
+pub fn last_communication_point(state: &State, clock: &Clock) -> [f64; 2] {
     state.pause.map_or([clock.now, state.time()], |pause| [pause.now, pause.time])
 }
 
-/// Moves the time to `until` [s], to which the motion must have come: by the integrator's clock it has come to `reached` [s].
+/// Moves the time to `until` [s] if the motion has come there. By the integrator's clock it has come to `reached` [s]; an error
+/// if these differ by more than rounding.
 pub fn arrive(state: &mut State, until: f64, reached: f64) -> Result<(), StepFailure> {
     if (until - reached).abs() <= resolution(until) {
         state.move_with_clock(until);

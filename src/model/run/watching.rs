@@ -1,6 +1,5 @@
-//! What steps are watched for beside the ledger, by the integrator's continuous extension: loads of the teeth, as fatigue counts
-//! them; side speeds and transmission errors, as the history of mesh cycles takes them, so that extremes between the ends of
-//! steps count.
+//! What a completed step adds beside the ledger: loads of the teeth to their fatigue; side speeds and transmission errors to the
+//! history of mesh cycles. Both follow the integrator's continuous extension, so that extremes within steps count.
 
 use super::completed_step::Passed;
 use crate::integrate::{Curve, Extension, Point, SecondOrder};
@@ -10,9 +9,9 @@ use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, RatedStep, Rolled, Sample};
 use crate::model::scene::layout::LEFT;
 
-/// Adds a completed step to what it is watched for.
+/// Adds a completed step to fatigue and history, as far as the scene asks for them.
 ///
-/// Not compiled into the loop of steps, which is the same whether a scene asks for it or not.
+/// Kept out of the loop of steps, so that the loop is the same in every scene.
 #[cold]
 #[inline(never)]
 pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &Passed, watched: &mut Watched) {
@@ -31,7 +30,7 @@ pub fn count_fatigue(
     step: &Passed,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
-    let Passed { h, begin, way, part } = step;
+    let Passed { h, begin, extension, part } = step;
     // of three planets that differ there is a fourth group, without members
     let groups = model.ideal.plan.groups().len();
     let layout = &equations.teeth.layout;
@@ -42,7 +41,7 @@ pub fn count_fatigue(
         rolled
     };
     let mut sample = |fraction: f64, sample: &mut Sample| {
-        let at = way.at(fraction * part);
+        let at = extension.at(fraction * part);
         (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
         sample.mesh[..groups].fill(Default::default());
         for g in 0..groups {
@@ -53,22 +52,23 @@ pub fn count_fatigue(
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
     if from > 0.0 {
-        strength.roll(fatigue, &rolled(&way.start.q), &rolled(&way.at(from * part).q));
+        strength.roll(fatigue, &rolled(&extension.start.q), &rolled(&extension.at(from * part).q));
     }
     if from < 1.0 {
         let members = &layout.members[..groups];
         let teeth = (groups, equations.is_tooth_broken);
-        let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
+        let are_known =
+            last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == extension.start);
         let last = last.get_or_insert_default();
         let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
         strength.count(fatigue, &mut rated, &mut last.loads, are_known);
-        (last.at, last.teeth) = (way.at(*part), teeth);
+        (last.at, last.teeth) = (extension.at(*part), teeth);
     }
 }
 
-/// Adds a step to the history; one that was cut short counts as far as it was taken.
+/// Adds a step to the history: of a step that was cut short, the part that was taken.
 pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history: &mut MeshHistory) {
-    let extension = &step.way;
+    let extension = &step.extension;
     let pitch = model.periods[LEFT];
     let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
     let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));

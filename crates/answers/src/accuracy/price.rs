@@ -1,5 +1,5 @@
-//! What a run costs by its counts and the prices that `prices --write` measured, in evaluations of plain teeth: the same on every
-//! machine, so that equal questions get equal answers.
+//! Cost of a run, in evaluations of plain teeth: its counts times the prices that `prices --write` measured. It does not depend on
+//! the machine, so that equal questions get equal answers.
 
 use std::sync::OnceLock;
 
@@ -9,13 +9,13 @@ use bevel_differential::model::{GearContact, Parameters};
 use super::record::Effort;
 use super::switches::effects;
 
-/// What is on, the price of an evaluation of the tooth forces, that of a communication step, both in evaluations of plain teeth.
+/// Columns: what is on; price of an evaluation of the tooth forces; price of a communication step.
 const MEASURED: &str = include_str!("../../data/prices.csv");
 
-/// Least price of an evaluation that is counted with.
+/// Least price of an evaluation: a lower one counts as this.
 const LEAST: f64 = 0.01;
 
-/// A row of the prices.
+/// A row of `MEASURED`.
 struct Price {
     on: String,
     per_evaluation: f64,
@@ -23,15 +23,15 @@ struct Price {
 }
 
 impl Price {
-    /// Price of an evaluation, without what a communication step takes anyway.
-    fn of_one(&self) -> f64 {
-        self.per_evaluation * (1.0 - without_teeth() / self.per_step).max(0.0)
+    /// Price of an evaluation, less its share of what a communication step costs without teeth.
+    fn evaluation_alone(&self) -> f64 {
+        self.per_evaluation * (1.0 - step_without_teeth() / self.per_step).max(0.0)
     }
 }
 
 /// Price of a communication step without teeth.
-fn without_teeth() -> f64 {
-    of("ideal").map_or(0.0, |price| price.per_step)
+fn step_without_teeth() -> f64 {
+    measured("ideal").map_or(0.0, |price| price.per_step)
 }
 
 fn prices() -> &'static [Price] {
@@ -49,12 +49,12 @@ fn prices() -> &'static [Price] {
     })
 }
 
-fn of(on: &str) -> Option<&'static Price> {
+fn measured(on: &str) -> Option<&'static Price> {
     prices().iter().find(|price| price.on == on)
 }
 
 /// Price of an evaluation of `p`: prices of effects add up (docs/cost.md).
-fn per_evaluation(p: &Parameters) -> f64 {
+fn price_of_evaluation(p: &Parameters) -> f64 {
     let base = match (p.scene.gear_contact, p.contact.law) {
         (GearContact::Lumped, _) => "lumped",
         (GearContact::Solid, _) => "solid",
@@ -62,24 +62,24 @@ fn per_evaluation(p: &Parameters) -> f64 {
         (_, ContactLaw::LineWeber) => "line_weber",
         _ => "nothing",
     };
-    let price = |on: &str| of(on).map_or(0.0, Price::of_one);
+    let price = |on: &str| measured(on).map_or(0.0, Price::evaluation_alone);
     let effect = |name: &str| match name {
-        // measured with its law
+        // measured together with the law `line`
         "body_compliance" => price(name) - price("line"),
         name => price(name) - price("nothing"),
     };
-    let on = effects().filter(|switch| switch.is_on(p) && of(switch.name()).is_some());
+    let on = effects().filter(|switch| switch.is_on(p) && measured(switch.name()).is_some());
     price(base) + on.map(|switch| effect(switch.name()).max(0.0)).sum::<f64>()
 }
 
-/// Evaluations of `p` for `cost`.
+/// How many evaluations of `p` cost `cost`.
 pub fn evaluations(p: &Parameters, cost: f64) -> f64 {
-    cost / per_evaluation(p).max(LEAST)
+    cost / price_of_evaluation(p).max(LEAST)
 }
 
-/// Price of a run of `p` that took `effort`.
+/// Cost of a run of `p` that took `effort`.
 pub fn cost(p: &Parameters, effort: &Effort) -> f64 {
-    effort.points * without_teeth() + effort.evaluations * per_evaluation(p)
+    effort.points * step_without_teeth() + effort.evaluations * price_of_evaluation(p)
 }
 
 #[cfg(test)]
@@ -91,7 +91,7 @@ mod tests {
     fn every_effect_and_level_has_a_price() {
         let levels = ["ideal", "lumped", "nothing", "line", "line_weber", "solid"];
         for name in levels.into_iter().chain(EFFECTS.iter().filter(|e| e.switch.is_some()).map(|e| e.name)) {
-            assert!(of(name).is_some_and(|price| price.per_step > 0.0), "{name}");
+            assert!(measured(name).is_some_and(|price| price.per_step > 0.0), "{name}");
         }
     }
 

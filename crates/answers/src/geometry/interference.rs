@@ -1,8 +1,8 @@
-//! Whether the gears turn freely, in words and in JSON: what was found in the library's check of the teeth, and whether
-//! the gears strike their neighbours.
+//! Whether the gears turn freely, in words and in JSON: the result of the library's check of the teeth, and whether
+//! neighbouring gears strike each other.
 //!
 //! Depth, gap and resolution are those of `bevel_differential::geometry::solid::interference`, in millimetres at the heel
-//! and at the toe. The teeth may be taken thicker than they are made: backlash less that.
+//! and at the toe. Teeth may be checked thicker than they are made: the backlash is smaller by as much.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -26,7 +26,7 @@ const NEAR: f64 = 0.25;
 pub struct InterferenceCheck {
     pair: Pair,
     spec: GearSpec,
-    /// By how much teeth are thicker than they are made [m], both gears together at the outer pitch circle.
+    /// Added thickness of the teeth [m], of both gears together, at the outer pitch circle.
     thicken: f64,
     /// With the teeth in the middle of their gaps, and with all backlash taken up on one side.
     stances: [Interference; 2],
@@ -114,7 +114,7 @@ impl InterferenceCheck {
         }
     }
 
-    /// What enters what, the deepest first.
+    /// Which parts penetrate which, the deepest first.
     fn entered(&self, found: &Interference) -> String {
         let mut entering = found.approaches.iter().filter(|a| found.verdict(a.gap) == Verdict::Interfering);
         let Some(worst) = entering.next() else { return String::new() };
@@ -168,7 +168,7 @@ impl InterferenceCheck {
         format!("{same}; in step are {}, and half a pitch later {}.", first.join(", "), second.join(", "))
     }
 
-    /// A length at the heel [mm].
+    /// A length at the heel [mm] from one per cone distance.
     fn heel(&self, per_cone_distance: f64) -> f64 {
         per_cone_distance * self.pair.outer_cone * MM
     }
@@ -229,23 +229,23 @@ fn part(part: Part) -> &'static str {
     }
 }
 
-/// The two that come near each other.
+/// Names of the two parts that come near each other.
 fn parts(a: &Approach) -> String {
     format!("the planet's {} and the side gear's {}", part(a.parts[0]), part(a.parts[1]))
 }
 
-/// What enters what.
+/// Which part penetrates which.
 fn sentence(a: &Approach) -> String {
     if a.parts[0] == a.parts[1] {
         return format!("the {}s of planet and side gear overlap", part(a.parts[0]));
     }
-    // a tip enters; else the gear whose ray lies within the other
+    // a tip penetrates; without one, the gear whose ray lies within the other
     let own = a.parts.iter().position(|&part| part == Part::Tip).unwrap_or(a.ray);
     let mate = 1 - own;
     format!("the {}'s {} enters the {}'s {}", GEARS[own], part(a.parts[own]), GEARS[mate], part(a.parts[mate]))
 }
 
-/// Where it is.
+/// Where the approach is.
 fn place(a: &Approach) -> String {
     format!(
         "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both axes, \

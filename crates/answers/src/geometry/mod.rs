@@ -1,4 +1,4 @@
-//! The gears on paper and in CAD: derived dimensions with the terms of ISO 23509, curves, solids, interference.
+//! The gears for drawings and CAD: dimensions in the terms of ISO 23509, curves, solids, interference.
 
 pub mod assembly;
 pub mod design;

@@ -1,9 +1,9 @@
-//! The contact pattern: which spot of a flank sees which pressure while a pair of teeth goes through mesh.
+//! The contact pattern: the largest pressure on each spot of a flank while a pair of teeth goes through mesh.
 //!
 //! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here teeth are solid
-//! (`scene.gear_contact = solid`), every loaded section of planet 1's left mesh is followed over one whole engagement
-//! ([`sample`]), placed on the flank and given its Hertz pressure; the largest that a spot ever sees is the
-//! pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] what they show in numbers.
+//! (`scene.gear_contact = solid`). Every loaded section of planet 1's left mesh is followed over one whole engagement
+//! ([`sample`]), placed on the flank and given its Hertz pressure; the largest on each spot is the
+//! pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] the results in numbers.
 
 pub mod cases;
 pub mod envelope;
@@ -21,9 +21,9 @@ use sample::Engagement;
 
 /// Patterns of some cases.
 pub struct Patterns {
-    /// Names and texts of CSV files: pressures, contacts, outlines of the flanks, and what they show.
+    /// Names and texts of CSV files: pressures, contacts, findings, and outlines of the flanks.
     pub files: [(&'static str, String); 4],
-    /// What they show.
+    /// Findings of each case.
     pub findings: Vec<PatternFindings>,
 }
 
@@ -49,7 +49,7 @@ impl Patterns {
         Ok(Self { files, findings })
     }
 
-    /// What they show, as a table.
+    /// The findings as a table.
     pub fn table(&self) -> Table {
         findings::table(&self.findings)
     }

@@ -7,7 +7,7 @@ use super::report::{Cell, ComparisonReport, ComparisonRow};
 use super::stated::{self, CARRIER_SPEED, FORCE, LOAD, PLANET_SPIN, RIPPLE, STRAIGHT_SPEEDS, TURNING_SPEEDS};
 use super::theory::{self, Theory};
 
-/// N/m^1.5 in N/mm^1.5.
+/// Converts a stiffness from N/m^1.5 to N/mm^1.5.
 fn per_mm15(stiffness: f64) -> f64 {
     stiffness / 1e3f64.powf(1.5)
 }
@@ -25,7 +25,7 @@ enum Note {
     Energy,
 }
 
-/// A row: study, theory, this program.
+/// A row with the cells of study, theory and this program.
 fn row(note: Note, quantity: &'static str, cells: [Cell; 3]) -> ComparisonRow {
     ComparisonRow { quantity, cells, note: (note != Note::Nothing).then_some(note as usize) }
 }
@@ -36,7 +36,7 @@ pub fn report(theory: &Theory, results: &Results) -> ComparisonReport {
 }
 
 fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
-    use Cell::{Empty, Number, Power, Text};
+    use Cell::{Empty, Number, Scientific, Text};
     use Note::{Energy, Force, Frequency, Inputs, Nothing, Ripple, Start, Stiffness};
     let [speed, load, stiffness] = defaults();
     let (straight, turning) = (&results.straight, &results.turning);
@@ -52,9 +52,9 @@ fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
     let tangential = |program| [FORCE, theory.outer_tangential_force(LOAD), program].map(|force| Number(force, 0));
     let normal = |program| [Empty, Number(theory.normal_force(LOAD), 0), Number(mean(program), 0)];
     let line = |frequency: Option<f64>| frequency.map_or(Text("none".into()), |f| Number(f, 3));
-    let energy = |program| [Empty, Number(0.0, 0), Power(program)];
+    let energy = |program| [Empty, Number(0.0, 0), Scientific(program)];
     let alone = |program, decimals| [Empty, Empty, Number(program, decimals)];
-    let stiffnesses = [stated::STIFFNESS_PRINTED, per_mm15(theory.hertz_stiffness()), stiffness].map(Power);
+    let stiffnesses = [stated::STIFFNESS_PRINTED, per_mm15(theory.hertz_stiffness()), stiffness].map(Scientific);
     let start = [Text("spikes".into()), Empty, Number(straight.peak_tangential_force, 0)];
     let mesh =
         [Number(stated::MESH_FREQUENCY, 1), Number(theory.mesh_frequency(0.0), 3), Number(straight.mesh_frequency, 3)];
@@ -88,7 +88,7 @@ fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
     ]
 }
 
-/// Text of each note by its number, then what belongs to no row.
+/// Texts of the notes in the order of `Note`, then one that belongs to no row.
 fn notes(theory: &Theory, results: &Results) -> Vec<String> {
     let [speed, load, stiffness] = defaults();
     let hertz = per_mm15(theory.hertz_stiffness());

@@ -8,8 +8,8 @@ use crate::text::table::{Table, labelled};
 pub enum Cell {
     /// A number and how many decimals to show.
     Number(f64, usize),
-    /// A large or small number as d.ddde±x.
-    Power(f64),
+    /// A number in scientific notation: d.ddde±x.
+    Scientific(f64),
     /// A text.
     Text(String),
     /// Nothing.
@@ -19,7 +19,7 @@ pub enum Cell {
 impl Cell {
     fn value(&self) -> Option<f64> {
         match self {
-            Self::Number(value, _) | Self::Power(value) => Some(*value),
+            Self::Number(value, _) | Self::Scientific(value) => Some(*value),
             _ => None,
         }
     }
@@ -27,7 +27,7 @@ impl Cell {
     fn text(&self) -> String {
         match self {
             Self::Number(value, decimals) => format!("{value:.decimals$}"),
-            Self::Power(value) => format!("{value:.3e}"),
+            Self::Scientific(value) => format!("{value:.3e}"),
             Self::Text(text) => text.clone(),
             Self::Empty => "–".to_owned(),
         }

@@ -1,6 +1,6 @@
-//! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms, compilers of C, a browser or a machine without Rust; and two that
-//! look for changes of the source that no test, or no experiment of the evidence, notices.
+//! Commands that fail if the library breaks a promise: about calls, memory, effects that are off, steps in real time, other
+//! hosts and platforms, compilers of C, browsers, machines without Rust. Two more look for changes of the source that no test
+//! notices, and for wrong coefficients that the evidence does not show.
 
 pub mod fuzz;
 pub mod memcheck;

@@ -1,4 +1,4 @@
-//! An FMU for each library: what the command `platforms` compares, and what runs it.
+//! The FMUs that the command `platforms` compares, one for each library, and the programs that run them.
 
 use std::ffi::OsString;
 
@@ -11,8 +11,8 @@ use fmu_build::fmu::toolchains::{self, ARM, WINDOWS};
 use fmu_build::tools::progress::{self, Progress};
 use fmu_build::tools::{paths, python::Environment};
 
-/// The arguments of its script.
-pub fn built(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
+/// Builds the FMUs and returns the arguments of the script.
+pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
     progress.stage("building the library for each platform");
     let Some(zig) = toolchains::old_linux().found() else {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
@@ -31,7 +31,7 @@ pub fn built(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>>
     for library in built {
         let version =
             if library.platform == "linux64" { format!(", glibc {}", toolchains::GLIBC) } else { String::new() };
-        // what nothing here runs is compared nowhere
+        // without qemu the library for ARM cannot run here
         if library.platform != "aarch64-linux" || ARM.found().is_some() {
             named.push((format!("{}{version}", library.platform), library));
         }
@@ -48,7 +48,7 @@ pub fn built(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>>
     Ok(arguments)
 }
 
-/// What runs libraries of other systems and processors.
+/// Programs that run libraries of other systems and processors, and the Python of zig.
 fn tools(zig: &Environment) -> Vec<OsString> {
     let wine = WINDOWS.found().map(|tools| pair("wine", tools.programs().join("wine64")));
     let qemu = ARM.found().map(|tools| pair("qemu", tools.programs().join("qemu-aarch64")));

@@ -110,7 +110,7 @@ pub const SOURCES: Script = Script {
     file: "crates/lab/python/sources.py",
     doing: "comparing",
     folder: Some("sources"),
-    given: &[Given::Named("quick"), Given::Folder, Given::Made(sources::built)],
+    given: &[Given::Named("quick"), Given::Folder, Given::Made(sources::arguments)],
     sections: &[("docs/fmi.md", "sources", "")],
     ..DEFAULTS
 };
@@ -184,7 +184,7 @@ pub const PLATFORMS: Script = Script {
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",
     doing: "comparing",
-    given: &[Given::Made(platforms::built)],
+    given: &[Given::Made(platforms::arguments)],
     sections: &[("docs/fmi.md", "platforms", "")],
     ..DEFAULTS
 };

@@ -11,8 +11,8 @@ use fmu_build::fmu::toolchains;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
-/// The arguments of its script: the scenes, the FMU, the unit as sources, and zig, nothing if it is not installed.
-pub fn built(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
+/// Builds the unit and returns the arguments of the script: scenes, FMU, unit as sources, zig (empty if not installed).
+pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
     let tools = Tools::found().map_err(|remark| anyhow!("{remark}"))?;
     progress.stage("packing the FMU");
     let fmu = package::package()?;

@@ -8,7 +8,7 @@ from ..command.arguments import add_progress, add_scene, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     add_scene(parser)
     parser.add_argument("--want", metavar="OUTPUT[:STATISTIC]", action="append", default=[],
                         help="a quantity, such as left.speed:mean; may be repeated (default: all outputs of the scene)")

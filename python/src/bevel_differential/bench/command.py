@@ -8,7 +8,7 @@ from ..command.arguments import add_farm, add_fmu, add_set, farm, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     from . import TESTS
     parser.add_argument("test", nargs="*", metavar="TEST", help=f"{', '.join(TESTS)} (default: all)")
     parser.add_argument("--scene", metavar="FILE", help="another scene for one test")

@@ -1,11 +1,13 @@
-"""Meshes by trimesh: one gear, or the differential with pins in place. STL and 3MF in millimetres, GLB in metres as glTF wants it."""
+"""Files of meshes by trimesh: one gear, or the whole differential with pins. STL and 3MF in millimetres, GLB in metres as glTF
+requires."""
 
 import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial
 
+# a metre in units of each kind of file
 METRE = {"stl": 1e3, "3mf": 1e3, "glb": 1.0}
-# edges of a pin's circle
+# edges of the polygon that stands for a pin's circle
 AROUND = 128
 # of planet, side gear and pins
 COLOURS = [(0.80, 0.62, 0.35), (0.62, 0.65, 0.70), (0.40, 0.42, 0.45)]
@@ -31,9 +33,9 @@ def mesh(shape, part, kind):
 
 
 def _gear(gear, colour, scale):
-    faces = gear["mesh"]
-    vertices = scale * np.array(faces["vertices"])
-    return trimesh.Trimesh(vertices, np.array(faces["triangles"]), process=False, visual=_metal(colour))
+    surface = gear["mesh"]
+    vertices = scale * np.array(surface["vertices"])
+    return trimesh.Trimesh(vertices, np.array(surface["triangles"]), process=False, visual=_metal(colour))
 
 
 def _pins(pins, scale):

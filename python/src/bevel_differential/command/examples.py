@@ -11,7 +11,7 @@ FOLDERS = {"design": ("*.toml", "*.csv"), "vehicle": ("*.py",)}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("--out", metavar="FOLDER", default="examples", help="where to copy them (default: examples)")
 
 

@@ -9,7 +9,7 @@ _WHAT = {"step": "solids for CAD", "stl": "meshes", "3mf": "meshes for printing"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     from ..cad import KINDS, PARTS
     add_set(parser)
     for kind in KINDS:

@@ -6,7 +6,7 @@ from .arguments import add_progress, add_scene, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     add_scene(parser)
     parser.add_argument("--every", metavar="TIME", help="time between records, such as 0.1ms (default: the scene's "
                                                         "communication step)")

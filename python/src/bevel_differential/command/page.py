@@ -11,7 +11,7 @@ FILE = "BevelDifferential.html"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("--path", action="store_true", help="only print where the page is")
 
 

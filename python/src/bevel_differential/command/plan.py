@@ -7,7 +7,7 @@ from .arguments import add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
     parser.add_argument("--ssv", metavar="FILE", help="write the start values as a parameter set of SSP 1.0, which hosts read")

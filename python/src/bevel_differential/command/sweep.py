@@ -12,7 +12,7 @@ DEFAULTS = {"plan": "random", "seed": 0, "start": 0.0}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("--scene", help="a scene file (TOML), or the name of a shipped scene")
     parser.add_argument("--vary", metavar="NAME=VALUES", type=assignment, action="append", default=[],
                         help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), "

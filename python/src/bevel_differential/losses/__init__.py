@@ -1,5 +1,5 @@
-"""A map of power loss and torque bias over carrier torque, carrier speed, difference of wheel speeds and oil temperature, with an
-error that is measured."""
+"""A map of power loss and torque bias over carrier torque, carrier speed, difference of wheel speeds and oil temperature, with its
+measured error."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -21,7 +21,7 @@ from .point import AXES, FIGURES, PointTask, benched
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
 SIGNS = (1.0, -1.0)
-# whether teeth come into contact at their corners as well, and the level of detail
+# switch of corner contact, and level of gear contact
 CORNERS, LEVEL = "effects.corner_contact", "scene.gear_contact"
 # figures that the map holds where the differential slips: torques left and right, loss
 MAPPED = 3
@@ -31,14 +31,13 @@ MAPPED = 3
 class LossMap:
     """The map, in SI.
 
-    `lines`: of torque, speed, magnitude of the difference of speeds and temperature. `slipping`: FIGURES with the left wheel faster
-    and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, its third axis
-    of length 1; its last two figures are the left torques at which it breaks loose. `unseen`: points that the map has not seen,
-    their difference with its sign, shape (points, 4); `found`: T_left, T_right and loss there; `errors`: those of the map there over the
-    bound; shapes (points, 3).
-    `estimate`: the error over the bound that leaving lines out tells. `restless`: points whose means do not stand still.
-    `seconds`, `new`: what the runs of this call took, without the start of workers, and how many there were. `model`: what `accuracy`
-    chose, in words; empty with the scene's own."""
+    `lines`: values of torque, speed, magnitude of the difference of speeds, and temperature. `slipping`: FIGURES with the left wheel
+    faster and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, so the
+    third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `unseen`: random points
+    that measure the error, with signed difference, shape (points, 4). `found`: T_left, T_right and loss of the runs there, shape
+    (points, 3). `errors`: error of the map there over the bound, same shape. `estimate`: error over the bound, estimated by leaving
+    lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this call, and their
+    duration without the start of workers. `model`: the choice of `accuracy` in words; empty with the scene's own."""
 
     scene: Scene
     lines: tuple[np.ndarray, ...]
@@ -64,11 +63,11 @@ class LossMap:
 
     @property
     def beyond(self) -> int:
-        """How many unseen points are beyond the bound."""
+        """How many unseen points have an error beyond the bound."""
         return int(np.sum(np.any(self.errors > 1.0, axis=1)))
 
     def says(self) -> str:
-        """What the unseen points measure."""
+        """The measured error, in a sentence."""
         count = len(self.unseen)
         if not count:
             return "no unseen points: the error of the map is not measured"
@@ -79,11 +78,12 @@ class LossMap:
 def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, within: str | None = None, bound: Bound = Bound(),
            unseen: int = 300, seed: int = 1, most: int = 4000, out: FileName | None = None, resume: bool = False, force: bool = False,
            tell: Callable[[str], object] = lambda text: None, **farm: Any) -> LossMap:
-    """The map of a scene, whose changes over time are left out.
+    """The map of a scene; changes of the scene over time are ignored.
 
-    `levels`: values that the axes begin with, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`:
-    lets `accuracy` choose the cheapest model, such as "1%"; else it is the scene's. `unseen`: how many points measure the error, drawn
-    by `seed`. `most`: most points of the map that slip, in one direction. `out`: a Parquet file of all runs; see `designs.store.Store`.
+    `levels`: first values of each axis, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`: accuracy
+    for which `accuracy` chooses the cheapest model, such as "1%"; without it the scene's model is used. `unseen`: how many points
+    measure the error, drawn by `seed`. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
+    `designs.store.Store`.
     `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
     lines, model = [starting(levels[name]) for name in VARIABLES], ""
@@ -93,7 +93,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         chosen = _chosen(scene, lines, within)
         model, corners = chosen.run.setting, scene.value(CORNERS)
         scene.set(chosen.set)
-        # jumps, which the middle of the map may do with, stall slow gears at its edge
+        # without corner contact tooth forces jump: tolerable in the middle of the map, at its edge slow gears stall
         if corners and not scene.value(CORNERS) and scene.value(LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
             scene.set({CORNERS: True})
             model += ", corner contact"
@@ -131,11 +131,11 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
 
 
 class _Runs:
-    """Runs of points, each once. They are numbered in the order in which they are asked for, which is the same each time."""
+    """Runs of points, each once, numbered in the order of the requests, which is always the same."""
 
     def __init__(self, task, store, farm):
         self.task, self.store, self.farm = task, store, farm
-        # what failed is tried again
+        # rows of an earlier call; failed runs are repeated
         self.kept = {row["run"]: row for row in store.kept.to_pylist() if not row["message"]} if store is not None else {}
         self.found, self.restless, self.new = {}, 0, 0
 

@@ -4,7 +4,7 @@ import argparse
 
 from ..command.arguments import add_farm, add_files, add_fmu, add_scene, farm, once
 
-# what an axis begins with where nothing is said: parts of the scene's own value, or values
+# default values of the axes; those of torque and speed are parts of the scene's own values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
 USUAL = {DIFFERENCE: "0.5 rad/s..20 rad/s", TEMPERATURE: "-20 degC, 20 degC, 80 degC, 120 degC"}
 OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: a tenth to all of the scene's)",
@@ -13,7 +13,7 @@ OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SP
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     add_scene(parser)
     for name, what in OPTIONS.items():
         parser.add_argument(f"--{name}", metavar="VALUES", help=f"{what}; FROM..TO, FROM..TO:COUNT or a list A, B, C")
@@ -79,7 +79,7 @@ def _axes(scene, arguments):
     usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
     for name, variable in zip(OPTIONS, VARIABLES):
         text = getattr(arguments, name) or usual[name]
-        # a range without a count begins with its ends
+        # a range without a count starts with its two ends
         yield Dimension.parse(scene.fmu, variable, f"{text}:2" if ".." in text and ":" not in text else text)
 
 

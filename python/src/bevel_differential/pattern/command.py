@@ -7,7 +7,7 @@ from ..command.arguments import add_progress, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (default: the study's "
                                                                    "turn, aligned and with one thing out of place at a time)")
     add_set(parser)

@@ -11,7 +11,7 @@ from ..values import FileName
 from .slow import SnCurve
 
 MPA = 1e6
-# most events with a bar of their own, and their least part of the damage; the others share one bar
+# most events with a bar of their own, and least part of the damage for one; all others share a bar
 MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 
@@ -50,8 +50,8 @@ def _draw_events(axes, result, colour):
 
 
 def _draw_spectrum(axes, result, colours):
-    """Stress over the cycles that reach it in one life, with the S–N curves."""
-    lives = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
+    """Stress over the number of load cycles in one life that reach it, with the S–N curves."""
+    duty_cycles = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
     of_rolling, of_standing = curves(result)
     parts = [("of rolling teeth", colours[0], rolling_spectrum(result), of_rolling),
              ("of standing teeth", colours[1], standing_spectrum(result), of_standing)]
@@ -60,8 +60,8 @@ def _draw_spectrum(axes, result, colours):
     stresses = np.linspace(0.02, 1.3, 300) * highest
     for label, colour, (stress, count), curve in parts:
         order = np.argsort(-stress)
-        reached = np.cumsum(count[order]) * lives
-        # down to 0, so that the last step is seen to its end
+        reached = np.cumsum(count[order]) * duty_cycles
+        # a last point at 0 draws the edge of the last step
         steps = np.array([stress.max(), *stress[order], 0.0]) / MPA
         axes.step([0.1, *reached, reached[-1]], steps, where="pre", color=colour, label=label)
         axes.plot(curve.life(stresses), stresses / MPA, "--", color=colour, linewidth=1, label=f"S–N curve {label}")

@@ -12,7 +12,7 @@ SIMULATING = 0.3
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (default: study)")
     add_fmu(parser)
     add_progress(parser)

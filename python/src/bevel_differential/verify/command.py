@@ -11,7 +11,7 @@ TABLE = ("experiment", "kind", "variable", "unit", "time", "value", "expected", 
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds what the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("fmu", metavar="FMU", nargs="?", help="an FMU that carries evidence by FMI-LS-REF (start value: that of this package)")
     parser.add_argument("--quick", action="store_true", help="smoke tests alone")
     parser.add_argument("--csv", metavar="FILE", help="write the largest deviation of each variable")

@@ -1,4 +1,4 @@
-//! Calls that make, restore and read back saved states, with states and blobs that pass between instances.
+//! Calls that save and deserialise states. States and serialised states pass between instances.
 
 use std::ptr;
 
@@ -9,10 +9,10 @@ use super::arguments::{CallResult, Flaws};
 use super::instance::serialised;
 use super::random::Random;
 
-/// Most states and blobs that are held at a time.
+/// Most states that are held at a time, and most blobs.
 pub const HELD: usize = 12;
 
-/// States and blobs that are handed between instances.
+/// Saved states that any instance may be given.
 #[derive(Default)]
 pub struct HeldStates {
     /// States, each with its bytes.
@@ -52,12 +52,12 @@ pub fn get_state(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut 
     outcome
 }
 
-/// How far a blob is from what was serialised.
+/// How a blob differs from what was serialised.
 enum Damage {
     None,
-    /// Bits flipped, cut, or lengthened: must be refused.
+    /// A bit flipped, the end cut off, or a byte added: must be refused.
     Plain,
-    /// Bits of the payload flipped and the checksum made to fit: refused or taken, as long as what is taken works.
+    /// Bits of the payload flipped and the checksum made to fit: may be refused; if accepted, the state must work.
     Covered,
 }
 
