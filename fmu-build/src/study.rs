@@ -1,5 +1,5 @@
-//! The command `study`: packages the FMU and lets the Python package compare it with the study and with theory. The
-//! reports of both cases come with the comparison, and the package's own program for this checkout.
+//! The command `study`: packages the FMU and lets the Python package compare it with the study and with theory. It
+//! writes reports of both cases, and into the Python environment the program `bevel-differential` of this checkout.
 
 use std::fs;
 

@@ -35,7 +35,7 @@ pub struct Ended {
     pub event: bool,
     /// Whether an event has ended the step before its end.
     pub early: bool,
-    /// Whether the whole step is done, not only a part of it.
+    /// Whether the step is over, at its end or early; otherwise only a part of it is done.
     pub is_done: bool,
 }
 

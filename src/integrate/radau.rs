@@ -214,7 +214,7 @@ mod tests {
                 let coefficients = [sum(&EXTENSION[0]), sum(&EXTENSION[1]), 0.0];
                 assert!((extended(0.0, 1.0, coefficients, at) - at.powi(n)).abs() < 1e-14);
             }
-            // h f(y₀) + Σ e_i Z_i is h⁴ for y = t, t², t³
+            // h f(y₀) + Σ e_i Z_i vanishes for y = t, t², t³: it is of order h⁴
             let slope = if n == 1 { 1.0 } else { 0.0 };
             assert!((slope + sum(&ESTIMATE)).abs() < 1e-13, "{n}");
         }

@@ -22,12 +22,12 @@ OPENED = {
                | {f"{side}.load_torque": 5.0 for side in SIDES},
     "impact": {**OUTWARD, "contact.law": "impact"} | {f"{side}.load_torque": 200.0 for side in SIDES},
 }
-# points at which the largest force is looked for [s]
+# time over which the largest force is looked for, and its steps [s]
 SHOWN, FINE = 0.05, 1e-4
-# of the ramp of the loads [s]
+# the same of the ramp of the loads [s]
 RAMP, COARSE = 0.3, 1e-3
 MOST = 1.05
-# of the loads of the ramp's begin: teeth that touch at once need not find each other by blows
+# part of the loads with which the ramp begins: teeth that touch at once need not find each other by blows
 FIRST = 0.01
 
 
@@ -80,7 +80,7 @@ def without_blow(fmu, values, opened):
 
 
 def largest_after_ramp(fmu, values):
-    """The same after a slow ramp of the loads."""
+    """The largest force of a mesh after a slow ramp of the loads."""
     loads = {f"{side}.load_torque": values[f"{side}.load_torque"] for side in SIDES}
     with fmu.open() as opened:
         opened.initialise(values | {name: FIRST * load for name, load in loads.items()})

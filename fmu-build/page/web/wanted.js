@@ -4,7 +4,7 @@ import { pairNames } from "./pairs.js";
 const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
 const SIDES = ["left", "right"];
 
-// Whether a variable is not of a planet that is not there.
+// Whether a gear set of so many planets has a variable: false for one of a planet with a higher number.
 export const isThere = (name, planets) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > planets);
 
 export const planets = (setup) => Array.from({ length: setup.value("geometry.planet_count") }, (_, i) => `planet[${i + 1}]`);

@@ -30,7 +30,7 @@ class Time(Quantity):
 
 
 class Text:
-    """A column of words."""
+    """What a column of words has for a variable."""
 
     def __init__(self, name: str):
         self.name, self.kind = name, "Text"

@@ -198,7 +198,7 @@ impl Detailed {
         mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
         let [q, x, w] = state.position;
-        // closes gaps beyond the approach of error-free teeth
+        // errors and axial displacement bring flanks nearer than error-free ones by so much at most [m], then [rad]
         let slack = teeth.gaps.map_or(0.0, |g| -g.least()) + (-w).max(0.0);
         let slack = slack / self.face.inner();
         for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
@@ -263,8 +263,8 @@ impl Detailed {
 }
 
 impl Spot {
-    /// How what the normal's direction follows moves with q and x: the place on the path, or the arc past its end. `sign`
-    /// is ∂a/∂q, `s_slope` ∂s/∂x.
+    /// Slopes by q and x of what the normal's direction depends on: the place on the path, or the arc past its end.
+    /// `sign` is ∂a/∂q, `s_slope` ∂s/∂x.
     pub(super) fn moves(self, sign: f64, s_slope: f64) -> [f64; 2] {
         match self {
             Spot::Path | Spot::PlanetTip => [0.0, s_slope],

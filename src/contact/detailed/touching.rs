@@ -10,7 +10,7 @@ use crate::contact::{Spring, ToothPair};
 pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {
     /// Which teeth.
     pub name: &'a PairName,
-    /// The pair; its depth is that of its own arc.
+    /// The pair; where elastic gear bodies move it, its depth is its own arc (`contact::shared`).
     pub pair: &'a ToothPair,
     /// What opens its flanks.
     pub opening: &'a Opening,

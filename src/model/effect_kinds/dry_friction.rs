@@ -116,7 +116,7 @@ impl<'a> DryFriction<'a> {
         })
     }
 
-    /// Whether loads decide if a switch is due: of a body that slides, its speed does.
+    /// Whether loads decide if a switch is due, or to what: while stuck, and once the speed of sliding has passed zero.
     pub fn awaits_load(&self, state: &FrictionState, slip: &Slip) -> bool {
         state.mode == Mode::Stuck || self.overshoot(state, slip, &SurfaceLoad::default()) > 0.0
     }

@@ -49,7 +49,7 @@ spec! {
         pub side_torque: f64 = 0.2,
         /// Viscous drag on each side gear [N·m·s/rad].
         pub side_viscous: f64 = 1e-3,
-        /// Speed at which bearing torque has built up [rad/s].
+        /// Speed ω₀: bearing torque has built up to tanh 1 = 76 % there [rad/s].
         pub breakaway_speed: f64 = 0.1,
         /// Whether viscous drag follows the viscosity of `oil` at its temperature.
         pub viscosity_from_oil: bool = false,
@@ -178,7 +178,7 @@ impl Effect for BearingDragSpec {
 #[derive(Clone, Copy, Debug)]
 struct Drag {
     on: [Resistance; 2],
-    /// Speed at which the constant part is nearly full [rad/s].
+    /// Speed ω₀: the constant part is at tanh 1 = 76 % there [rad/s].
     breakaway_speed: f64,
     /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
     churning_per_viscosity: f64,

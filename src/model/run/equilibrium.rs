@@ -87,8 +87,8 @@ pub fn check_settled(
     equations.check_deflection(point).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
 }
 
-/// The same with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On failure the side
-/// that cannot be pressed.
+/// [`press_sides`] with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On
+/// failure the side that cannot be pressed.
 fn press(
     equations: &Largest,
     torque: [f64; 2],
@@ -116,8 +116,8 @@ fn press(
 
 /// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
 ///
-/// Errors may keep these apart, where nothing leads on, and bodies of gears may give way far beyond them: then, and where the
-/// search finds none, it begins from teeth that are pressed as they are.
+/// Pressed like this, teeth with errors may still be apart: no force leads the search on. Bodies of gears may give way
+/// far beyond this point: the search may find none. In both cases it begins from teeth that are pressed as they are.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
     let is_other = equations.gaps().is_some() || equations.bodies_of_gears().is_some();
     let touches = || {
@@ -213,7 +213,7 @@ struct Well<'a> {
     against: [f64; LARGEST],
     point: &'a Point<LARGEST>,
     unknowns: Vec<(usize, f64)>,
-    /// Farthest spin that a planet may have [rad].
+    /// Largest spin angle that a planet may have, either way [rad].
     near: f64,
 }
 

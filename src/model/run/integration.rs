@@ -132,7 +132,7 @@ pub fn integrate_teeth(
     }
 }
 
-/// Plain teeth, and effects on two planets: compiled as a whole for each size.
+/// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each size.
 #[inline(never)]
 fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
     teeth: &Teeth,
@@ -145,7 +145,7 @@ fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
     integrate_equations::<N, WITH_EFFECTS, _>(equations, model, state, integration, budget)
 }
 
-/// Teeth with any effects on more: the integration calls their forces through a table of functions.
+/// All other teeth and methods: the integration calls their forces through a table of functions.
 #[inline(never)]
 fn by_table<const N: usize, const G: usize>(
     teeth: &Teeth,
@@ -179,7 +179,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         pending_step.resume(&mut course);
         course.end_at(clock.end);
     }
-    // where the end is near the clock need not be set back
+    // on the way to the end of the equations the clock need not be set back: that end is near
     let longest = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;

@@ -78,7 +78,8 @@ pub struct Preload {
 ///
 /// First a balance without rolling planets is sought, a minimum of the potential V + Σ T α near ψ = 0 (stiffness that
 /// varies along the path holds small imbalances). Where there is none, the planets roll, and the loads are those under the
-/// accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum.
+/// accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum, or as they are
+/// pressed at ψ = 0 where none is found.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;

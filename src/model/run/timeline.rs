@@ -2,8 +2,8 @@
 //!
 //! The equations change by themselves where a tooth breaks. Inputs are expected to change when they have held as long as
 //! before. Long intervals end so that the integrator's clock is set back. The host asks for a time. A stop is the first of
-//! these but the expected change, to which steps are only fitted. The time moves as far as the integrator's clock, or the call
-//! fails.
+//! these times. The expected change is no stop: steps are only fitted to it. The time moves as far as the integrator's
+//! clock, or the call fails.
 
 use super::StepFailure;
 use super::integration::LONGEST_INTERVAL;

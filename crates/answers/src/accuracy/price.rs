@@ -12,7 +12,7 @@ use super::switches::effects;
 /// Columns: what is on; price of an evaluation of the tooth forces; price of a communication step.
 const MEASURED: &str = include_str!("../../data/prices.csv");
 
-/// Least price of an evaluation: a lower one counts as this.
+/// Least price of an evaluation by which [`evaluations`] divides; [`cost`] takes lower ones as they are.
 const LEAST: f64 = 0.01;
 
 /// A row of `MEASURED`.

@@ -5,7 +5,7 @@ const SMALL: f64 = 1e-3;
 /// Numbers from here on are shown with a power of ten by [`short`].
 const LARGE: f64 = 1e7;
 
-/// `value` with `digits` significant digits; more if whole, one less with a power of ten.
+/// `value` with `digits` significant digits; digits before the point are never cut. One digit less with a power of ten.
 pub fn significant(value: f64, digits: u32) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -19,7 +19,7 @@ pub fn significant(value: f64, digits: u32) -> String {
     format!("{value:.*}", decimals(value, digits))
 }
 
-/// `value` rounded to `digits` significant digits, without zeros at the end.
+/// `value` rounded to `digits` significant digits, without zeros after the point at the end; digits before it are kept.
 pub fn short(value: f64, digits: u32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");

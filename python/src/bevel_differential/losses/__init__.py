@@ -36,8 +36,8 @@ class LossMap:
     third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `unseen`: random points
     that measure the error, with signed difference, shape (points, 4). `found`: T_left, T_right and loss of the runs there, shape
     (points, 3). `errors`: error of the map there over the bound, same shape. `estimate`: error over the bound, estimated by leaving
-    lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this call, and their
-    duration without the start of workers. `model`: the choice of `accuracy` in words; empty with the scene's own."""
+    lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this call, and the
+    time that they took, start of workers included. `model`: the choice of `accuracy` in words; empty with the scene's own."""
 
     scene: Scene
     lines: tuple[np.ndarray, ...]

@@ -8,7 +8,7 @@ DIGITS = 4
 
 
 def number(value: float, digits: int = DIGITS) -> str:
-    """A number with so many significant digits, without an exponent where it is short enough."""
+    """A number with so many significant digits; below 1e7 all digits before the point are kept, without an exponent."""
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
