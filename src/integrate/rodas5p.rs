@@ -1,8 +1,8 @@
 //! Rodas5P: order 5 with embedded order 4, eight stages, L-stable and stiffly accurate.
 //!
 //! G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
-//! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
-//! smooth forcing (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle.
+//! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). On stiff problems with smooth forcing
+//! (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle, its error stays O(h⁴).
 
 use super::rosenbrock::{self, Tableau};
 use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, Statistics, Trial};

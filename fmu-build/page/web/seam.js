@@ -12,8 +12,8 @@ export function contactOf(setup) {
   const face = value("geometry.face_width");
   const mean = 0.5 * value("geometry.module") * Math.hypot(planet, side) - 0.5 * face;
   // tangent of the arc from a base circle to the pitch point: cos δ = cos δ_b cos ψ, sin δ_b = sin δ cos α
-  const arc = (pitch) => Math.sin(value("geometry.pressure_angle")) * Math.tan(pitch);
-  const [one, other] = [arc(Math.atan2(planet, side)), arc(Math.atan2(side, planet))];
+  const tangentOfArc = (pitchAngle) => Math.sin(value("geometry.pressure_angle")) * Math.tan(pitchAngle);
+  const [one, other] = [tangentOfArc(Math.atan2(planet, side)), tangentOfArc(Math.atan2(side, planet))];
   const modulus = value("material.young_modulus") / (2 * (1 - value("material.poisson_ratio") ** 2));
   return { modulus, face, radius: (mean * one * other) / (one + other) };
 }

@@ -5,7 +5,7 @@ const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.ener
 const SIDES = ["left", "right"];
 
 // Whether a gear set of so many planets has a variable: false for one of a planet with a higher number.
-export const isThere = (name, planets) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > planets);
+export const isThere = (name, count) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > count);
 
 export const planets = (setup) => Array.from({ length: setup.value("geometry.planet_count") }, (_, i) => `planet[${i + 1}]`);
 

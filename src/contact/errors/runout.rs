@@ -4,9 +4,9 @@
 //! (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂ a, fixed to the
 //! gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
 //!
-//!   e = ∓ε (cosβ T·u + sinβ T·t)
+//!   e = ∓ε (cosχ T·u + sinχ T·t)
 //!
-//! with v instead of u for the side gear, and the azimuth β of ê from the plane of the axes. The gap has one period per
+//! with v instead of u for the side gear, and the azimuth χ of ê from the plane of the axes. The gap has one period per
 //! revolution and the amplitude ε √(1 − (T·a)²) on both flanks. The flanks differ in phase as their normals do.
 //!
 //! The place of contact s of a tooth gives the position of its gear. The centre of the tooth is at the azimuth

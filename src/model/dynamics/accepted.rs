@@ -28,6 +28,7 @@ impl Accepted {
 
     /// Whether all numbers are finite.
     pub fn is_valid(&self) -> bool {
-        self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
+        let motion = self.q.iter().chain(&self.v).chain([&self.time]);
+        motion.copied().all(f64::is_finite) && self.inputs.is_finite() && self.followed.is_finite()
     }
 }

@@ -49,6 +49,13 @@ pub struct Pause {
     pub inputs: Inputs,
 }
 
+impl Pause {
+    /// Whether all numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.now.is_finite() && self.time.is_finite() && self.inputs.is_finite()
+    }
+}
+
 /// How far the motion goes in one call.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Way {

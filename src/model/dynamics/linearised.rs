@@ -13,7 +13,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// ∂(tooth torques)/∂q, for the static equilibrium.
-    pub fn tooth_stiffness(&self, at: &Point<N>) -> Matrix<N> {
+    pub fn tooth_torque_slopes(&self, at: &Point<N>) -> Matrix<N> {
         let mut m = [[0.0; N]; N];
         let mut by = [[[[0.0; 3]; 3]; 2]; G];
         if let Some(bodies) = self.bodies_of_gears() {

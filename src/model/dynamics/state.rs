@@ -206,11 +206,14 @@ impl State {
 
     /// Whether a simulation can continue from this state: all numbers finite and within their ranges, pending step included.
     pub fn is_valid(&self) -> bool {
-        self.is_valid_without_pending_step() && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
+        self.is_valid_without_pending_step()
+            && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
+            && self.event.time.is_finite()
+            && self.pause.as_ref().is_none_or(Pause::is_finite)
     }
 
-    /// The same without the pending step, for the end of an integration. There the pending step is finite, because it has passed
-    /// the error test.
+    /// The same without the pending step, the event and the pause, for the end of an integration. There the pending step is finite,
+    /// because it has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
         let numbers = [
             self.time,
@@ -254,6 +257,7 @@ impl BodyEffects {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::scene::Inputs;
 
     #[test]
     fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
@@ -263,6 +267,20 @@ mod tests {
             state.move_anchors(side, 2.0, &layout);
             let moved: Vec<usize> = (0..state.friction.len()).filter(|&k| state.friction[k].anchor != 0.0).collect();
             assert_eq!(moved, [side, FRICTION_WHEELS + side]);
+        }
+    }
+
+    #[test]
+    fn a_state_whose_event_or_pause_holds_no_number_is_not_valid() {
+        let mut good = State::at_rest(0.0, 1e-3);
+        good.pause = Some(Pause { now: 0.0, time: 0.0, inputs: Inputs::ZERO });
+        assert!(good.is_valid());
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut states = [good; 4];
+            states[0].event.time = bad;
+            let [_, now, time, inputs] = states.each_mut().map(|state| state.pause.as_mut().unwrap());
+            (now.now, time.time, inputs.inputs.planet_spin) = (bad, bad, bad);
+            assert!(states.iter().all(|state| !state.is_valid()), "{bad}");
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two on the side gears.
 //!
-//! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
-//! with the square of the speed. With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over that at a
+//! In their plainest form: load-independent bearing torque, viscous drag, and churning with the square of the speed. With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over that at a
 //! reference temperature.
 //!
 //! Two carrier bearings under the load F and a lip seal on each side gear's shaft add to T₀:

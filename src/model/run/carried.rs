@@ -14,11 +14,11 @@ pub struct Carried {
     /// Torque that each half-shaft delivers to its wheel [N·m].
     pub shaft: [f64; 2],
     /// Acceleration of each side gear [rad/s²].
-    pub side: [f64; 2],
+    pub side_acceleration: [f64; 2],
     /// Acceleration of the carrier [rad/s²].
-    pub carrier: f64,
+    pub carrier_acceleration: f64,
     /// Acceleration of the planets' spin [rad/s²].
-    pub spin: f64,
+    pub spin_acceleration: f64,
 }
 
 impl Carried {
@@ -60,9 +60,9 @@ impl Carried {
                 teeth
             }
         };
-        let side = together.side_accelerations(&motion);
-        let shaft = [0, 1].map(|s| teeth[s] + on_bodies[s] - (j.side[s] - j.end[s]) * side[s]);
-        Self { teeth, shaft, side, carrier: motion.carrier, spin: motion.spin }
+        let side_acceleration = together.side_accelerations(&motion);
+        let shaft = [0, 1].map(|s| teeth[s] + on_bodies[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
+        Self { teeth, shaft, side_acceleration, carrier_acceleration: motion.carrier, spin_acceleration: motion.spin }
     }
 }
 

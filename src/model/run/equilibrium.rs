@@ -33,7 +33,7 @@ impl Largest<'_> {
         let still = Point { q: at.q, v: [0.0; LARGEST] };
         let mut sum = [0.0; LARGEST];
         self.add_tooth_torques(&still, &mut sum);
-        (sum, self.tooth_stiffness(at))
+        (sum, self.tooth_torque_slopes(at))
     }
 
     /// Torque that plain teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
@@ -159,15 +159,15 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
     let mut against = [0.0; LARGEST];
     against[..2].copy_from_slice(&torque);
     for g in 0..equations.groups() {
-        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin;
+        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin_acceleration;
         if equations.has_pins() {
-            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier;
+            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
         }
     }
     // teeth that are alike all round are in balance in each pitch or in none
     let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
-    let near = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
-    let well = Well { equations, against, point, unknowns: unknowns(equations), near };
+    let farthest_spin_angle = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
+    let well = Well { equations, against, point, unknowns: unknowns(equations), farthest_spin_angle };
     let load = torque[0].abs() + torque[1].abs();
     let forward = torque[0] + torque[1];
     let forward = if forward == 0.0 { torque[0] } else { forward };
@@ -214,7 +214,7 @@ struct Well<'a> {
     point: &'a Point<LARGEST>,
     unknowns: Vec<(usize, f64)>,
     /// Largest spin angle that a planet may have, either way [rad].
-    near: f64,
+    farthest_spin_angle: f64,
 }
 
 impl Well<'_> {
@@ -245,18 +245,18 @@ impl Landscape for Well<'_> {
 
     fn is_near(&self, x: &DVector<f64>) -> bool {
         let (at, layout) = (self.at(x), &self.equations.teeth.layout);
-        (0..layout.groups).all(|g| at.q[layout.planet(g)].abs() < self.near)
+        (0..layout.groups).all(|g| at.q[layout.planet(g)].abs() < self.farthest_spin_angle)
     }
 
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
-        let (sum, stiffness) = self.equations.statics(&self.at(x));
+        let (sum, by_position) = self.equations.statics(&self.at(x));
         // forces on unknowns, counted by the bodies they stand for, point down the potential
         let force = |&(i, members): &(usize, f64)| members * (sum[i] - self.against[i]);
         let n = self.unknowns.len();
         let gradient = DVector::from_iterator(n, self.unknowns.iter().map(|unknown| -force(unknown)));
         let hessian = DMatrix::from_fn(n, n, |a, b| {
             let ((i, members), (j, _)) = (self.unknowns[a], self.unknowns[b]);
-            -members * stiffness[i][j]
+            -members * by_position[i][j]
         });
         (gradient, hessian)
     }

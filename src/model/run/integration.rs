@@ -180,7 +180,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         course.end_at(clock.end);
     }
     // on the way to the end of the equations the clock need not be set back: that end is near
-    let longest = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
+    let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
     let mut anchors = equations.acting().anchors();
@@ -200,7 +200,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
-            Ok(if switched || is_warmer || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
+            Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
@@ -235,7 +235,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
                 clock.now = course.time;
             }
         }
-        switched = (switched || is_warmer) && course.time < longest && course.end - course.time > RESOLUTION;
+        switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
     state.friction = equations.acting().friction_state;
     state.set_point(&course.point);

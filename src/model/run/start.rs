@@ -105,24 +105,24 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
             }
         }
     }
-    let (_, stiffness) = equations.statics(&point);
+    let (_, by_position) = equations.statics(&point);
     let speeds = state.v;
     point.v = state.point::<LARGEST>().v;
     // quasi-static: while the planets spin, α follows the changing stiffness
     let spin = |g: usize| teeth.layout.planet(g);
     let by_spins =
-        [0, 1].map(|s| (0..equations.groups()).map(|g| stiffness[s][spin(g)] * speeds[spin(g)]).sum::<f64>());
-    let follows = [0, 1].map(|s| stiffness[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
+        [0, 1].map(|s| (0..equations.groups()).map(|g| by_position[s][spin(g)] * speeds[spin(g)]).sum::<f64>());
+    let follows = [0, 1].map(|s| by_position[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
     for s in 0..2 {
         if follows[s] {
             // elastic bodies of planets couple both sides
             let other = 1 - s;
-            let across = stiffness[s][other];
-            let (mut by_spin, mut own) = (by_spins[s], stiffness[s][s]);
+            let across = by_position[s][other];
+            let (mut by_spin, mut own) = (by_spins[s], by_position[s][s]);
             if across != 0.0 && follows[other] {
-                let share = across / stiffness[other][other];
+                let share = across / by_position[other][other];
                 by_spin -= share * by_spins[other];
-                own -= share * stiffness[other][s];
+                own -= share * by_position[other][s];
             }
             point.v[s] = speeds[CARRIER] - by_spin / own;
         }

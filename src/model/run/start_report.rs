@@ -37,7 +37,7 @@ pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -
     for g in 0..teeth.plan.groups().len() {
         found.torque[g] = equations.planet_torques(&point, g);
     }
-    let rolls = !preload.settled && preload.carried.spin != 0.0;
+    let rolls = !preload.settled && preload.carried.spin_acceleration != 0.0;
     let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
     let in_equilibrium = balance.is_none();
     let messages = balance.into_iter().chain(unequal(&teeth.plan, &found));
@@ -61,10 +61,10 @@ fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) ->
     let planets = (0..teeth.plan.groups().len()).map(|g| layout.planet(g));
     // of planets that spin the torques change all the time
     let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
-    let sides = (0..2).map(|s| (s, carried.side[s]));
+    let sides = (0..2).map(|s| (s, carried.side_acceleration[s]));
     let left_over = sides
-        .chain(planets.map(|i| (i, carried.spin)))
-        .chain([(CARRIER, carried.carrier)])
+        .chain(planets.map(|i| (i, carried.spin_acceleration)))
+        .chain([(CARRIER, carried.carrier_acceleration)])
         // imposed motions have no inverse
         .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
         .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
