@@ -89,8 +89,7 @@ impl<'a> DryFriction<'a> {
     pub fn torque_slopes(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> [f64; 2] {
         match state.mode {
             Mode::Stuck => [state.stiffness, self.of.damping_time * state.stiffness],
-            mode if self.of.feels_slip => [0.0, self.limit_at(mode.direction() * slip.speed, by)[1]],
-            _ => [0.0; 2],
+            mode => [0.0, self.sliding_limit(mode.direction() * slip.speed, by)[1]],
         }
     }
 
