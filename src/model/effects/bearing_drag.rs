@@ -318,6 +318,24 @@ mod tests {
     }
 
     #[test]
+    fn viscous_drag_is_as_given_at_the_reference_and_proportional_to_the_oils_viscosity_elsewhere() {
+        let given = BearingDragSpec { carrier_viscous: 0.02, side_viscous: 0.01, carrier_churning: 0.0, ..none() };
+        let at_reference = OilSpec::default().viscosity(given.reference_temperature);
+        for (follows, times, expected) in [(true, 1.0, 1.0), (true, 3.0, 3.0), (true, 0.25, 0.25), (false, 3.0, 1.0)] {
+            let spec = BearingDragSpec { viscosity_from_oil: follows, ..given };
+            let drag = Drag::new(&spec, &OilSpec::default(), 0);
+            let oil = Viscosity { dynamic: times * at_reference.dynamic, ..at_reference };
+            for (is_carrier, viscous) in [(true, 0.02), (false, 0.01)] {
+                for speed in [40.0, -40.0] {
+                    let (torque, slope) = drag.drag(Some(oil), is_carrier, speed);
+                    assert!((torque - expected * viscous * speed).abs() < 1e-12, "{follows} {times}: {torque}");
+                    assert!((slope - expected * viscous).abs() < 1e-14, "{follows} {times}: {slope}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn slopes_are_those_of_the_torques() {
         let spec = BearingDragSpec {
             churning_from_geometry: true,
