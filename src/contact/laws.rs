@@ -3,7 +3,7 @@
 
 use super::law::{DampedImpact, FaceLaw, Lumped, PairLaw};
 use super::solid::mesh::SolidMesh;
-use super::spring::{self, Anywhere, Linear};
+use super::spring::{self, Anywhere};
 use super::stiffness::{Line, LineWeber};
 use super::{Damping, Elastic, Impact, Spring};
 
@@ -63,8 +63,6 @@ impl Law {
 pub enum AnySpring {
     /// K dᵉ.
     Impact(spring::ImpactSpring),
-    /// A linear spring.
-    Linear(Linear),
     /// Stiffness of the teeth, per unit of ∫R² dR.
     Line(Line),
     /// The same with the Hertz part by load.
@@ -76,7 +74,6 @@ macro_rules! with_spring {
     ($of:expr, $law:ident => $body:expr) => {
         match $of {
             $crate::contact::laws::AnySpring::Impact($law) => $body,
-            $crate::contact::laws::AnySpring::Linear($law) => $body,
             $crate::contact::laws::AnySpring::Line($law) => $body,
             $crate::contact::laws::AnySpring::LineWeber($law) => $body,
         }
@@ -102,7 +99,7 @@ impl Spring for AnySpring {
     #[inline(always)]
     fn place(&self, s: f64) -> AnyPlace {
         match self {
-            Self::Impact(_) | Self::Linear(_) => AnyPlace::Anywhere,
+            Self::Impact(_) => AnyPlace::Anywhere,
             Self::Line(law) => AnyPlace::Line(law.place(s)),
             Self::LineWeber(law) => AnyPlace::LineWeber(law.place(s)),
         }
@@ -111,7 +108,6 @@ impl Spring for AnySpring {
     fn respond(&self, place: &AnyPlace, p: f64) -> Elastic {
         match (self, place) {
             (Self::Impact(law), _) => law.respond(&Anywhere, p),
-            (Self::Linear(law), _) => law.respond(&Anywhere, p),
             (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
             (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),
             // of another law than this

@@ -53,6 +53,13 @@ pub struct ImpactSpring {
     pub cone: f64,
 }
 
+impl ImpactSpring {
+    /// A linear spring of stiffness `k` [N/m]: K d.
+    pub fn linear(k: f64, cone: f64) -> Self {
+        Self { law: Impact { stiffness: k, exponent: 1.0, damping: 0.0, per_full_depth: 0.0 }, cone }
+    }
+}
+
 impl Spring for ImpactSpring {
     type Place = Anywhere;
 
@@ -71,34 +78,5 @@ impl Spring for ImpactSpring {
             stiffness: self.cone * self.cone * force.by_depth,
             ..Elastic::default()
         }
-    }
-}
-
-/// A linear spring at a cone distance, whatever the place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linear {
-    /// Stiffness about the pole of the plane of action [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Linear {
-    /// A spring of stiffness `k` [N/m] at the cone distance `cone` [m].
-    pub fn new(k: f64, cone: f64) -> Self {
-        Self { stiffness: k * cone * cone }
-    }
-}
-
-impl Spring for Linear {
-    type Place = Anywhere;
-
-    #[inline(always)]
-    fn place(&self, _: f64) -> Anywhere {
-        Anywhere
-    }
-
-    #[inline(always)]
-    fn respond(&self, _: &Anywhere, p: f64) -> Elastic {
-        let torque = self.stiffness * p;
-        Elastic { energy: 0.5 * torque * p, torque, stiffness: self.stiffness, ..Elastic::default() }
     }
 }

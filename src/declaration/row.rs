@@ -84,7 +84,7 @@ impl<A> Row<A> {
 }
 
 /// The beginning of a row: a name and what it is.
-#[inline(always)]
+#[inline(never)]
 pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
     Row {
         name,
@@ -104,23 +104,23 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
 
 impl Row<()> {
     /// A scene feels the value under `condition` alone (`variables::felt`).
-    #[inline(always)]
+    #[inline(never)]
     pub const fn when(self, condition: &'static str) -> Self {
         Row { when: Some(condition), ..self }
     }
 
     /// The parameter may be changed while a simulation runs as well.
-    #[inline(always)]
+    #[inline(never)]
     pub const fn tunable(self) -> Self {
         Row { variability: Variability::Tunable, ..self }
     }
 
-    #[inline(always)]
     const fn number(self, Shown(unit, display): Shown, range: Option<Range>) -> Self {
         Row { unit: Some(unit), display, range, ..self }
     }
 
     /// A real parameter.
+    #[inline(never)]
     pub fn real<P: 'static>(
         self,
         unit: impl Into<Shown>,
@@ -131,12 +131,14 @@ impl Row<()> {
     }
 
     /// An integer parameter.
+    #[inline(never)]
     pub fn integer<P: 'static>(self, (min, max): (i32, i32), at: fn(&mut P) -> &mut i32) -> Row<Parameter<P>> {
         let range = Some(Range { min: f64::from(min), max: f64::from(max) });
         Row { range, ..self }.map(|()| Parameter::Integer(keep(at)))
     }
 
     /// A Boolean parameter.
+    #[inline(never)]
     pub fn switch<P: 'static>(self, at: fn(&mut P) -> &mut bool) -> Row<Parameter<P>> {
         self.map(|()| Parameter::Boolean(keep(at)))
     }
@@ -153,21 +155,25 @@ impl Row<()> {
     }
 
     /// An input between −`limit` and `limit`.
+    #[inline(never)]
     pub fn input<A>(self, unit: impl Into<Shown>, limit: f64, at: A) -> Row<A> {
         self.of(Causality::Input).number(unit.into(), Some(Range { min: -limit, max: limit })).map(|()| at)
     }
 
     /// An input between 0 and `max`.
+    #[inline(never)]
     pub fn command<A>(self, unit: impl Into<Shown>, max: f64, at: A) -> Row<A> {
         self.of(Causality::Input).number(unit.into(), Some(Range { min: 0.0, max })).map(|()| at)
     }
 
     /// An output.
+    #[inline(never)]
     pub fn output<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
         self.of(Causality::Output).number(unit.into(), None).map(|()| of)
     }
 
     /// A parameter that follows from others.
+    #[inline(never)]
     pub fn calculated<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
         Row { causality: Causality::CalculatedParameter, ..self.number(unit.into(), None).map(|()| of) }
     }

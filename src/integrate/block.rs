@@ -6,6 +6,7 @@
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
 use super::linear::{Inverse, Shape, add_times, times};
+use super::method::IN_REGISTERS;
 use super::{Linearisation, Matrix, Point, SecondOrder};
 use crate::numeric::lanes;
 
@@ -24,6 +25,27 @@ impl<const N: usize> Block<N> {
     /// Inverts I/s − J; `None` if it is singular. It is written where it stays, as matrices cost more to move than to invert.
     #[inline(always)]
     pub fn fill<E: SecondOrder<N> + ?Sized>(
+        &mut self,
+        system: (&E, Shape),
+        lin: &Linearisation<N, E::Rates>,
+        s: f64,
+    ) -> Option<()> {
+        if N > IN_REGISTERS { self.fill_apart(system, lin, s) } else { self.fill_here(system, lin, s) }
+    }
+
+    /// Compiled once: a call costs little beside so many numbers.
+    #[inline(never)]
+    fn fill_apart<E: SecondOrder<N> + ?Sized>(
+        &mut self,
+        system: (&E, Shape),
+        lin: &Linearisation<N, E::Rates>,
+        s: f64,
+    ) -> Option<()> {
+        self.fill_here(system, lin, s)
+    }
+
+    #[inline(always)]
+    fn fill_here<E: SecondOrder<N> + ?Sized>(
         &mut self,
         (system, shape): (&E, Shape),
         lin: &Linearisation<N, E::Rates>,
@@ -50,7 +72,18 @@ impl<const N: usize> Block<N> {
 
     /// Solves for the right-hand side `r` in place.
     #[inline(always)]
-    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
+    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
+        if N > IN_REGISTERS { self.solve_apart(system, r) } else { self.solve_here(system, r) }
+    }
+
+    /// Compiled once, as `fill_apart`.
+    #[inline(never)]
+    fn solve_apart<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
+        self.solve_here(system, r);
+    }
+
+    #[inline(always)]
+    fn solve_here<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
         let s = self.s;
         let pulled = times(shape, &self.stiffness, &r.q);
         add_times(&mut r.v, 1.0, &pulled);

@@ -125,7 +125,7 @@ pub trait Method {
 }
 
 /// Degrees of freedom up to which all of a point is in registers at once, and sums over stages are compiled into the steps.
-const IN_REGISTERS: usize = 7;
+pub const IN_REGISTERS: usize = 6;
 /// Numbers that are summed at a time beyond.
 const TOGETHER: usize = 8;
 

@@ -3,8 +3,8 @@
 //! The interface of a system, one-step methods (one a file), their linear algebra, and the drivers with adaptive and fixed
 //! steps. Nothing here is specific to gears.
 
+mod any_method;
 mod block;
-mod compared;
 mod complex;
 mod course;
 mod curve;
@@ -20,7 +20,7 @@ mod rosenbrock;
 mod statistics;
 mod system;
 
-pub use compared::Compared;
+pub use any_method::AnyMethod;
 pub use course::{Attempt, Course, Extension, Pending, extended};
 pub use curve::Curve;
 pub use dormand_prince::DormandPrince;

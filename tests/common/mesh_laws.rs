@@ -9,7 +9,7 @@ use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::law::{DampedImpact, FaceLaw, Lumped};
 use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::mesh::{Law, Mesh};
-use bevel_differential::contact::spring::{self, Linear};
+use bevel_differential::contact::spring;
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
@@ -103,7 +103,7 @@ impl Built {
                 let k = stiffness.mesh_mean() * moment / (centroid * centroid);
                 (
                     Law::Lumped(Lumped { stiffness: k, damping }),
-                    AnySpring::Linear(Linear::new(k, centroid)),
+                    AnySpring::Impact(spring::ImpactSpring::linear(k, centroid)),
                     centroid,
                     1.0,
                 )

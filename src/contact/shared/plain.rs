@@ -117,12 +117,44 @@ impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
         let own = if S::LINEAR { OwnArcs::linear(&couplings, &arc, law) } else { OwnArcs::new(&couplings, &arc, law) };
         Self { near, arc, couplings, own }
     }
+}
 
-    /// Pairs that carry, with their places in the arrays.
+/// How pairs share the load.
+struct Shares<'a, P> {
+    near: &'a [Option<Near<P>>],
+    arc: &'a [f64],
+    own: &'a [f64],
+    load: &'a [f64],
+    along: &'a [f64],
+}
+
+/// What is a pair's of it.
+struct Share<'a, P> {
+    near: &'a Near<P>,
+    /// Arc by which its flanks approach [rad].
+    arc: f64,
+    /// Own arc [rad].
+    own: f64,
+    /// Load ω_k.
+    load: f64,
+    /// τ_k = Σ_l ∂t_kl/∂s_k ω_l.
+    along: f64,
+}
+
+impl<'a, P> Shares<'a, P> {
+    /// All pairs.
     #[inline(always)]
-    fn loaded(&self) -> impl Iterator<Item = (usize, &Near<P>)> {
-        let is_clear = |k: usize| self.own.arc[k] <= 0.0;
-        (0..K).filter_map(move |k| self.near[k].as_ref().filter(|_| !is_clear(k)).map(|near| (k, near)))
+    fn all(&self) -> impl Iterator<Item = Share<'a, P>> {
+        let values = self.arc.iter().zip(self.own).zip(self.load.iter().zip(self.along));
+        self.near.iter().zip(values).filter_map(|(near, ((&arc, &own), (&load, &along)))| {
+            near.as_ref().map(|near| Share { near, arc, own, load, along })
+        })
+    }
+
+    /// Pairs that carry.
+    #[inline(always)]
+    fn loaded(&self) -> impl Iterator<Item = Share<'a, P>> {
+        self.all().filter(|share| share.own > 0.0)
     }
 }
 
@@ -183,27 +215,41 @@ impl SharedMeshes<'_> {
         self.mesh.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1])
     }
 
-    /// Forces and heat of both meshes.
+    /// Calls `see` with how the pairs share the load: compiled for each number of pairs and each law, which is why all that needs
+    /// no derivatives asks here.
     #[inline(never)]
-    pub fn force<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
+    fn share<S: Spring>(
+        &self,
+        law: &FaceLaw<S>,
+        states: &[MeshState; 2],
+        lookout: f64,
+        see: &mut dyn FnMut(Shares<S::Place>),
+    ) {
         let mut near = std::array::from_fn(|_| None);
-        let count = self.pairs(law, states, 0.0, &mut near);
-        by_count!(count, Default::default(), {
-            let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
-            let along = sharing.couplings.times(&sharing.couplings.by_own, &sharing.own.load);
-            let mut sum = [MeshForce::default(); 2];
-            for (k, near) in sharing.loaded() {
-                let (pair, side, own) = (&near.pair, near.pair_place.side, &sharing.own);
+        let count = self.pairs(law, states, lookout, &mut near);
+        by_count!(count, (), {
+            let Sharing { near, arc, couplings, own } = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
+            let along = couplings.times(&couplings.by_own, &own.load);
+            see(Shares { near, arc: &arc, own: &own.arc, load: &own.load, along: &along });
+        });
+    }
+
+    /// Forces and heat of both meshes.
+    pub fn force<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
+        let mut sum = [MeshForce::default(); 2];
+        self.share(law, states, 0.0, &mut |shares| {
+            for Share { near, own, load, along, .. } in shares.loaded() {
+                let (pair, side) = (&near.pair, near.pair_place.side);
                 let rate = self.rate(pair, &states[side]);
-                let response = law.respond_at(&near.place, self.mesh.cone * own.arc[k], rate);
+                let response = law.respond_at(&near.place, self.mesh.cone * own, rate);
                 let torque = self.mesh.cone * response.force.total;
                 sum[side].force[0] -= torque * pair.slope[0];
                 sum[side].force[1] -=
-                    torque * pair.slope[1] + (response.by_place - law.moment * own.load[k] * along[k]) * pair.s_slope;
+                    torque * pair.slope[1] + (response.by_place - law.moment * load * along) * pair.s_slope;
                 sum[side].heat += (response.force.total - response.force.elastic) * rate;
             }
-            sum
-        })
+        });
+        sum
     }
 
     /// The same with their derivatives and the elastic energy.
@@ -240,7 +286,7 @@ impl SharedMeshes<'_> {
         }
         let gradients = Gradients::new((couplings, curvatures), own, &along, arc, &changes);
         let mut sum = SharedForce::default();
-        for (k, near) in sharing.loaded() {
+        for (k, near) in (0..K).filter_map(|k| Some((k, sharing.near[k].as_ref().filter(|_| own.arc[k] > 0.0)?))) {
             let (pair, side) = (&near.pair, near.pair_place.side);
             let state = &states[side];
             let rate = self.rate(pair, state);
@@ -290,40 +336,30 @@ impl SharedMeshes<'_> {
     }
 
     /// Elastic energy of both meshes [J].
-    #[inline(never)]
     pub fn energy<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> f64 {
-        let mut near = std::array::from_fn(|_| None);
-        let count = self.pairs(law, states, 0.0, &mut near);
-        let sharing = Sharing::<_, MOST_PAIRS>::new::<S>(self.bodies, law, &near, count);
-        let energy = |(k, near): (usize, &Near<S::Place>)| {
-            let alone = law.specific.respond(&near.place, sharing.own.arc[k]).energy;
-            law.moment * (alone + 0.5 * sharing.own.load[k] * (sharing.arc[k] - sharing.own.arc[k]))
-        };
-        sharing.loaded().map(energy).sum()
+        let mut sum = 0.0;
+        self.share(law, states, 0.0, &mut |shares| {
+            let energy = |Share { near, arc, own, load, .. }: Share<S::Place>| {
+                let alone = law.specific.respond(&near.place, own).energy;
+                law.moment * (alone + 0.5 * load * (arc - own))
+            };
+            sum = shares.loaded().map(energy).sum();
+        });
+        sum
     }
 
     /// By how much pairs that touch or are about to are moved by others.
-    #[inline(never)]
     pub fn opening_by_others<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> OpeningByOthers {
-        let mut near = std::array::from_fn(|_| None);
-        let count = self.pairs(law, states, OpeningByOthers::LOOKOUT, &mut near);
         let mut opening_by_others = OpeningByOthers::default();
-        by_count!(count, (), {
-            let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
-            for (k, near) in sharing.near.iter().flatten().enumerate() {
-                opening_by_others.add(
-                    near.pair_place.side,
-                    near.pair.flank,
-                    near.pair.number,
-                    sharing.arc[k] - sharing.own.arc[k],
-                );
+        self.share(law, states, OpeningByOthers::LOOKOUT, &mut |shares| {
+            for Share { near: Near { pair, pair_place, .. }, arc, own, .. } in shares.all() {
+                opening_by_others.add(pair_place.side, pair.flank, pair.number, arc - own);
             }
         });
         opening_by_others
     }
 
     /// Calls `visit` with each loaded pair of the mesh with side gear `side`, its depth that of its own arc, and its force.
-    #[inline(never)]
     pub fn loaded<S: Spring>(
         &self,
         law: &FaceLaw<S>,
@@ -331,13 +367,12 @@ impl SharedMeshes<'_> {
         side: usize,
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
-        let mut near = std::array::from_fn(|_| None);
-        let count = self.pairs(law, states, 0.0, &mut near);
-        let sharing = Sharing::<_, MOST_PAIRS>::new::<S>(self.bodies, law, &near, count);
-        for (k, near) in sharing.loaded().filter(|(_, near)| near.pair_place.side == side) {
-            let pair = ToothPair { depth: sharing.own.arc[k], ..near.pair };
-            let rate = self.rate(&pair, &states[side]);
-            visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);
-        }
+        self.share(law, states, 0.0, &mut |shares| {
+            for Share { near, own, .. } in shares.loaded().filter(|share| share.near.pair_place.side == side) {
+                let pair = ToothPair { depth: own, ..near.pair };
+                let rate = self.rate(&pair, &states[side]);
+                visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);
+            }
+        });
     }
 }

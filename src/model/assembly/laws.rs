@@ -7,7 +7,7 @@ use crate::contact::bodies::PairCouplings;
 use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::law::{DampedImpact, FaceLaw, Lumped};
-use crate::contact::spring::{self, Linear};
+use crate::contact::spring;
 use crate::contact::stiffness::PairStiffness;
 use crate::contact::{AnySpring, ContactLaw, Damping, DampingModel, Impact, Law, hertz};
 use crate::geometry::Pair;
@@ -54,7 +54,7 @@ impl Laws {
             let k = per_width * moment / (centroid * centroid);
             return Ok(Self {
                 law: Law::Lumped(Lumped { stiffness: k, damping }),
-                spring: AnySpring::Linear(Linear::new(k, centroid)),
+                spring: AnySpring::Impact(spring::ImpactSpring::linear(k, centroid)),
                 face: whole(centroid, 1.0),
                 cone: centroid,
                 bodies: None,

@@ -6,7 +6,7 @@ use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, hints};
 use crate::contact::Law;
 use crate::integrate::{
-    self, AfterStep, Compared, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
+    self, AfterStep, AnyMethod, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
 };
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
@@ -114,11 +114,11 @@ pub fn integrate_teeth(
         };
     }
     if method == Method::Adaptive && !teeth.effect_terms.body_effects.act_in(state) {
-        return match teeth.layout.groups {
-            1 => whole::<LEAST, 1, false>(teeth, model, state, integration, budget),
-            2 => whole::<DIFFERENT, 2, false>(teeth, model, state, integration, budget),
-            _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, integration, budget),
-        };
+        match teeth.layout.groups {
+            1 => return whole::<LEAST, 1, false>(teeth, model, state, integration, budget),
+            2 => return whole::<DIFFERENT, 2, false>(teeth, model, state, integration, budget),
+            _ => {}
+        }
     }
     let is_default = method == Method::Adaptive;
     match (teeth.layout.groups, teeth.layout.plain()) {
@@ -158,8 +158,8 @@ fn by_table<const N: usize, const G: usize>(
     integrate_equations::<N, true, _>(equations, model, state, integration, budget)
 }
 
-/// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes, and steps of
-/// fixed size in the least of them alone: [`integrate_teeth`] knows.
+/// By any method, or by the default one alone. The others are not compiled in small sizes, and steps of fixed size in the least of
+/// them alone: [`integrate_teeth`] knows.
 fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
@@ -210,14 +210,12 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
                 let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            other => match other_than_default(other) {
-                Some(other) if FULL && ANY_METHOD && N > EXACT => {
-                    compared(&other, system, &mut course, clock.now, context, &mut observe)
-                }
-                _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
-                    observe(step, Some(pending))
-                }),
-            },
+            other if FULL && ANY_METHOD && N > EXACT => {
+                by_any_method(&named(other), system, &mut course, clock.now, context, &mut observe)
+            }
+            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
+                observe(step, Some(pending))
+            }),
         };
         equations.acting_mut().anchor(&anchors);
         let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
@@ -249,13 +247,13 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
     outcome.map_err(|failure| explain(failure, begin + clock.time, model))
 }
 
-/// The method that `method` names, if it is one to compare the default with.
-fn other_than_default(method: Method) -> Option<Compared> {
+/// The method of variable steps that `method` names.
+fn named(method: Method) -> AnyMethod {
     match method {
-        Method::Radau => Some(Compared::Radau),
-        Method::Rodas4 => Some(Compared::Rodas4),
-        Method::DormandPrince => Some(Compared::DormandPrince),
-        Method::Adaptive | Method::FixedStep => None,
+        Method::Radau => AnyMethod::Radau,
+        Method::Rodas4 => AnyMethod::Rodas4,
+        Method::DormandPrince => AnyMethod::DormandPrince,
+        Method::Adaptive | Method::FixedStep => AnyMethod::Rodas5P,
     }
 }
 
@@ -263,10 +261,10 @@ fn other_than_default(method: Method) -> Option<Compared> {
 type Observer<'a, const N: usize> =
     &'a mut dyn FnMut(Step<N, LedgerRates>, Option<&Pending<N, LedgerRates>>) -> Result<AfterStep, ExcessiveDeflection>;
 
-/// Integrates by another method of variable steps than the default.
+/// Integrates by a method of variable steps.
 #[inline(never)]
-fn compared<const N: usize>(
-    method: &Compared,
+fn by_any_method<const N: usize>(
+    method: &AnyMethod,
     system: &(impl SecondOrder<N, Rates = LedgerRates> + ?Sized),
     course: &mut Course<N, LedgerRates>,
     until: f64,

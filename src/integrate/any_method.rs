@@ -1,10 +1,14 @@
-//! Methods that are there to compare with, chosen at run time: the loop of steps is compiled once for all of them.
+//! Methods of variable steps, chosen at run time: where equations are large, the loop of steps is compiled once for all of them.
 
-use super::{DormandPrince, ErrorNorm, Linearisation, Method, Point, Radau, Rodas4, SecondOrder, Statistics, Trial};
+use super::{
+    DormandPrince, ErrorNorm, Linearisation, Method, Point, Radau, Rodas4, Rodas5P, SecondOrder, Statistics, Trial,
+};
 
-/// A method of variable steps other than the default.
+/// A method of variable steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compared {
+pub enum AnyMethod {
+    /// [`Rodas5P`], the default.
+    Rodas5P,
     /// [`Radau`].
     Radau,
     /// [`Rodas4`].
@@ -13,9 +17,10 @@ pub enum Compared {
     DormandPrince,
 }
 
-impl Method for Compared {
+impl Method for AnyMethod {
     fn estimate(&self) -> u32 {
         match self {
+            Self::Rodas5P => Rodas5P.estimate(),
             Self::Radau => Radau.estimate(),
             Self::Rodas4 => Rodas4.estimate(),
             Self::DormandPrince => DormandPrince.estimate(),
@@ -36,6 +41,7 @@ impl Method for Compared {
         counts: &mut Statistics,
     ) -> Option<Trial<N, S::Rates>> {
         match self {
+            Self::Rodas5P => Rodas5P.step(system, start, lin, h, norm, counts),
             Self::Radau => Radau.step(system, start, lin, h, norm, counts),
             Self::Rodas4 => Rodas4.step(system, start, lin, h, norm, counts),
             Self::DormandPrince => DormandPrince.step(system, start, lin, h, norm, counts),
