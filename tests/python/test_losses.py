@@ -4,7 +4,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from math import exp, tanh
 from types import SimpleNamespace
@@ -238,7 +237,7 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 
-def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
+def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
     given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40",
                "--difference", "1, 5", "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
@@ -250,10 +249,10 @@ def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
     said = running.communicate(timeout=120)
     assert running.returncode == 130 and said[1].count("\n") == 1 and "--resume" in said[1], said
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
-    done = subprocess.run([sys.executable, "-m", "bevel_differential", *given, "--workers", "0", "--resume"], env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, capture_output=True, text=True,
-                          timeout=600, check=False)
-    assert done.returncode == 0 and not done.stderr, done.stderr
-    new = int(re.search(r"^(\d+) runs in", done.stdout, re.MULTILINE)[1])
+    assert main([*given, "--workers", "0", "--resume", "--fmu", fmu_file]) == 0
+    told = capsys.readouterr()
+    assert not told.err
+    new = int(re.search(r"^(\d+) runs in", told.out, re.MULTILINE)[1])
     assert kept > 0 and new + kept == len(pq.read_table(out)) and not parts.exists()
 
 

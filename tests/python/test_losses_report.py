@@ -12,6 +12,7 @@ from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.grid import Bound
 from bevel_differential.losses.report import write
 from bevel_differential.losses.tables import HEAD, save
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from report_page import ReportPage
 
 RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
@@ -23,6 +24,12 @@ LEVELS = dict(zip(VARIABLES, ([90.0, 900.0], [5.0, 40.0], [0.5, 20.0], [273.15, 
 FIGURES = {"loss_map", "over_difference", "ratio", "stuck", "error"}
 SECTIONS = {"head", "loss", "bias", "error", "setup", "columns"}
 ZERO_CELSIUS = 273.15
+
+
+@pytest.fixture
+def in_haste(monkeypatch):
+    """Panels stand where they are at first."""
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
 
 
 class Tables(HTMLParser):
@@ -140,6 +147,7 @@ def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
         assert number(error) <= number(listed[0][1])
 
 
+@pytest.mark.usefixtures("in_haste")
 def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
     made = made_map(fmu_file, PLAIN, LEVELS, unseen=5)
     page = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8"))
@@ -147,6 +155,7 @@ def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_s
     assert "the scene has no drag" in page.captions["loss_map"]
 
 
+@pytest.mark.usefixtures("in_haste")
 @pytest.mark.parametrize("axis", range(4))
 def test_an_axis_of_a_single_value_has_its_report(axis, fmu_file, tmp_path):
     levels = {name: values[:1] if axis == place else values for place, (name, values) in enumerate(LEVELS.items())}

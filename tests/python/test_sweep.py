@@ -16,6 +16,7 @@ from interrupts import changed_command, with_interrupts
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, cluster, store
+from bevel_differential.command import main
 from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
 from bevel_differential.designs.store import Columns, digest
@@ -40,6 +41,13 @@ def expected(scene):
     return sweep(scene, **PLAN, workers=0)
 
 
+@pytest.fixture(scope="module")
+def two():
+    """A farm of two processes, whatever has happened to them before."""
+    with Farm(workers=2) as farm:
+        yield farm
+
+
 def few(**changed):
     return {**PLAN, "runs": 20, "workers": 0, **changed}
 
@@ -56,10 +64,11 @@ def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
         assert row["feasible"] == (assembles and row["efficiency:final"] >= 0.99999)
 
 
-# two processes: the tests of killed workers and of Ctrl-C
-@pytest.mark.parametrize("farm", [{"workers": 3}, {"workers": 2, "processes": False}], ids=["3 processes", "2 threads"])
-def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
-    assert sweep(scene, **PLAN, **farm).digest() == expected.digest()
+def test_rows_are_the_same_whatever_evaluates_them(scene, expected, two):
+    assert sweep(scene, **PLAN, workers=3, processes=False).digest() == expected.digest()
+    task, space = Task(scene, WANTS, CONDITIONS), Space.parse(scene.fmu, VARY)
+    rows = two.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs())
+    assert digest(Columns(task, space).table(list(rows))) == expected.digest()
 
 
 def workers_of_this_process():
@@ -89,13 +98,6 @@ def test_who_stops_early_ends_the_rows_behind_the_bar_too(monkeypatch):
         shown.close()
         assert ended
     assert "0/3" in sys.stderr.getvalue()
-
-
-@pytest.fixture(scope="module")
-def two():
-    """A farm of two processes, whatever has happened to them before."""
-    with Farm(workers=2) as farm:
-        yield farm
 
 
 def test_chunks_of_a_killed_worker_run_again(scene, expected, two):
@@ -236,15 +238,11 @@ def arguments(scene, out, wants, *more):
             "--workers", "2", *more]
 
 
-def command(*given):
-    return [sys.executable, "-m", "bevel_differential", *arguments(*given)]
-
-
 def environment(fmu_file):
     return {**os.environ, "PYTHONPATH": str(PACKAGE), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
 
 
-def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path):
+def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path, capsys):
     # a mean over two thousand steps, so that the interrupt comes in the middle
     scene = tmp_path / "turn.toml"
     scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
@@ -262,8 +260,9 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
     # it may go on with other workers
-    done = subprocess.run(command(scene, out, wants, "--resume", "--workers", "0"), env=environment(fmu_file), capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0 and done.stderr == "" and f"{kept} runs were kept from before" in done.stdout, done
+    assert main([*arguments(scene, out, wants, "--resume", "--workers", "0"), "--fmu", fmu_file]) == 0
+    told = capsys.readouterr()
+    assert told.err == "" and f"{kept} runs were kept from before" in told.out
     with Scene.load(scene, fmu=fmu_file) as loaded:
         whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=0)
     assert SweepResult.load(out).digest() == whole.digest()
@@ -277,9 +276,7 @@ def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_fi
                           text=True, timeout=120)
     assert full.returncode == 1 and full.stderr.count("\n") == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
-    rest = subprocess.run([sys.executable, "-m", "bevel_differential", *given, "--resume"], env=environment(fmu_file),
-                          capture_output=True, text=True, timeout=120)
-    assert rest.returncode == 0, rest.stderr
+    assert main([*given, "--resume", "--fmu", fmu_file]) == 0
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
 
 
