@@ -9,7 +9,8 @@ import resource, sys
 from bevel_differential import Fmu
 from bevel_differential.command import main
 from bevel_differential.designs import store
-Fmu.of()
+# before files are short
+Fmu.of(sys.argv[sys.argv.index("--fmu") + 1])
 store.INTERVAL, most = float(sys.argv[1]), int(sys.argv[2])
 if most:
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))

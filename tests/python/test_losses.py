@@ -239,9 +239,9 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
 
 def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
-    given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40",
-               "--difference", "1, 5", "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
-    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2"]), env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, stdout=subprocess.PIPE,
+    given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
+             "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
+    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2", "--fmu", fmu_file]), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)

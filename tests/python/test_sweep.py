@@ -21,7 +21,7 @@ from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
 from bevel_differential.designs.store import Columns, digest
 
-PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src"
+ROOT = Path(__file__).resolve().parents[2]
 RUNS = 200
 # a third of these gears cannot be assembled
 VARY = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "impact, line_weber", "geometry.planet_teeth": "8..11",
@@ -238,18 +238,14 @@ def arguments(scene, out, wants, *more):
             "--workers", "2", *more]
 
 
-def environment(fmu_file):
-    return {**os.environ, "PYTHONPATH": str(PACKAGE), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
-
-
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path, capsys):
     # a mean over two thousand steps, so that the interrupt comes in the middle
     scene = tmp_path / "turn.toml"
-    scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
+    scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
-    running = subprocess.Popen(changed_command(0.1, arguments(scene, out, wants)), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, start_new_session=True, preexec_fn=with_interrupts)
+    running = subprocess.Popen(changed_command(0.1, [*arguments(scene, out, wants), "--fmu", fmu_file]), stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
     # to all processes of it, as a terminal does
@@ -272,8 +268,7 @@ def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_fi
     out = tmp_path / "found.parquet"
     given = arguments("study_turning", out, WANTS)
     given[given.index("--runs") + 1], given[given.index("--workers") + 1] = "50", "0"
-    full = subprocess.run(changed_command(0.0, given, most=7000), env=environment(fmu_file), capture_output=True,
-                          text=True, timeout=120)
+    full = subprocess.run(changed_command(0.0, [*given, "--fmu", fmu_file], most=7000), capture_output=True, text=True, timeout=120)
     assert full.returncode == 1 and full.stderr.count("\n") == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
     assert main([*given, "--resume", "--fmu", fmu_file]) == 0

@@ -2,9 +2,7 @@
 test_verify_others.py."""
 
 import csv
-import os
 import re
-import sys
 import zipfile
 from pathlib import Path
 
