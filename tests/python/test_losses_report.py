@@ -12,7 +12,7 @@ from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.grid import Bound
 from bevel_differential.losses.report import write
 from bevel_differential.losses.tables import HEAD, save
-from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.figure import Figure
 from report_page import ReportPage
 
 RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
@@ -29,7 +29,7 @@ ZERO_CELSIUS = 273.15
 @pytest.fixture
 def in_haste(monkeypatch):
     """Panels stand where they are at first."""
-    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
+    monkeypatch.setattr(Figure, "get_layout_engine", lambda _: None)
 
 
 class Tables(HTMLParser):

@@ -5,7 +5,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.figure import Figure
 
 from bevel_differential import DifferentialError, Scene, extras, shipped_scenes
 from bevel_differential.command import main
@@ -38,7 +38,7 @@ def with_fmu(fmu_file, monkeypatch, tmp_path):
 
 def in_haste(patch):
     """Panels stand where they are at first, and run-ups are short."""
-    patch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
+    patch.setattr(Figure, "get_layout_engine", lambda _: None)
     patch.setattr(runup, "TURNS", runup.FEWER)
 
 
