@@ -19,7 +19,7 @@ LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
 def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_path):
-    found = accuracy("split_friction", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
+    found = accuracy("clunk", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
     assert isinstance(found, Accuracy) and found.wants == ["left.shaft_torque:max"] and found.within == 0.01
     assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
     assert found.cheaper.run.price < found.use.run.price < found.reference.price
@@ -79,8 +79,8 @@ def test_threads_get_answers_of_their_own():
         text = ask({"ask": "geometry", "set": [f"geometry.module={size} mm"], "facets": 4})["files"]["dimensions.txt"]
         return f"geometry.module = {size} mm" in text
 
-    with ThreadPoolExecutor(8) as pool:
-        assert all(pool.map(module, (3, 3.5, 4, 5, 5.5, 6, 6.5, 7)))
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(module, (3, 3.5, 4, 5)))
 
 
 def test_figures_are_those_of_closed_forms():

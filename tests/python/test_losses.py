@@ -4,7 +4,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from math import exp, tanh
 from types import SimpleNamespace
@@ -22,7 +21,7 @@ from bevel_differential.losses.grid import (Bound, estimates, figures_of, interp
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
-from interrupts import with_interrupts
+from interrupts import changed_command, with_interrupts
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
 CLUTCH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": PRELOAD,
@@ -205,16 +204,20 @@ def test_wrong_axes_are_one_line(option, value, words, capsys, fmu_file):
 
 # nothing is lost
 
-def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, mapped, tmp_path, monkeypatch):
-    given, out = {"bound": Bound(0.002, 0.1), "unseen": 60, "out": tmp_path / "runs.parquet"}, []
+def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monkeypatch):
+    given, out = {"bound": Bound(0.002, 0.1), "unseen": 20, "out": tmp_path / "runs.parquet"}, []
+    levels = LEVELS | {VARIABLES[-1]: [TEMPERATURE]}
 
     def kill(text):
         out.append(text)
+        if len(out) != 1:
+            return
         workers = [child for child in psutil.Process().children(recursive=True) if "multiprocessing.spawn" in " ".join(child.cmdline())]
         workers[0].send_signal(signal.SIGKILL)
 
     with Scene("stribeck", set=STRIBECK_CLUTCH, fmu=fmu_file) as made:
-        killed = losses(made, LEVELS, **given, tell=kill, workers=2)
+        whole = losses(made, levels, **given | {"out": None}, workers=0)
+        killed = losses(made, levels, **given, tell=kill, workers=2)
         evaluate = PointTask.evaluate
 
         def stopping(task, run, values):
@@ -225,21 +228,20 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, mapped, tmp_pat
         monkeypatch.setattr(PointTask, "evaluate", stopping)
         given["out"] = tmp_path / "stopped.parquet"
         with pytest.raises(Stopped, match="^stopped; 100 of .* runs are kept .*--resume"):
-            losses(made, LEVELS, **given, workers=0)
+            losses(made, levels, **given, workers=0)
         monkeypatch.undo()
-        resumed = losses(made, LEVELS, **given, resume=True, workers=0)
-        again = losses(made, LEVELS, **given, resume=True, workers=0)
-    assert len(out) > 1 and resumed.new == mapped.new - 100 and again.new == 0
+        resumed = losses(made, levels, **given, resume=True, workers=0)
+        again = losses(made, levels, **given, resume=True, workers=0)
+    assert len(out) > 1 and resumed.new == whole.new - 100 > 0 and again.new == 0
     for one in (killed, resumed, again):
-        assert np.array_equal(one.slipping, mapped.slipping) and np.array_equal(one.found, mapped.found)
+        assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 
-def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
+def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
-    command = [sys.executable, "-m", "bevel_differential", "losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40",
-               "--difference", "1, 5", "--temperature", "350", "--unseen", "5", "--most", "300", "--bound", "0.01,0.001", "--workers", "2",
-               "--out", str(out)]
-    running = subprocess.Popen(command, env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, stdout=subprocess.PIPE,
+    given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
+             "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
+    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2", "--fmu", fmu_file]), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
@@ -247,10 +249,10 @@ def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path):
     said = running.communicate(timeout=120)
     assert running.returncode == 130 and said[1].count("\n") == 1 and "--resume" in said[1], said
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
-    done = subprocess.run([*command, "--resume"], env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file}, capture_output=True, text=True,
-                          timeout=600, check=False)
-    assert done.returncode == 0 and not done.stderr, done.stderr
-    new = int(re.search(r"^(\d+) runs in", done.stdout, re.MULTILINE)[1])
+    assert main([*given, "--workers", "0", "--resume", "--fmu", fmu_file]) == 0
+    told = capsys.readouterr()
+    assert not told.err
+    new = int(re.search(r"^(\d+) runs in", told.out, re.MULTILINE)[1])
     assert kept > 0 and new + kept == len(pq.read_table(out)) and not parts.exists()
 
 

@@ -12,6 +12,7 @@ from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.grid import Bound
 from bevel_differential.losses.report import write
 from bevel_differential.losses.tables import HEAD, save
+from matplotlib.figure import Figure
 from report_page import ReportPage
 
 RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
@@ -23,6 +24,12 @@ LEVELS = dict(zip(VARIABLES, ([90.0, 900.0], [5.0, 40.0], [0.5, 20.0], [273.15, 
 FIGURES = {"loss_map", "over_difference", "ratio", "stuck", "error"}
 SECTIONS = {"head", "loss", "bias", "error", "setup", "columns"}
 ZERO_CELSIUS = 273.15
+
+
+@pytest.fixture
+def in_haste(monkeypatch):
+    """Panels stand where they are at first."""
+    monkeypatch.setattr(Figure, "get_layout_engine", lambda _: None)
 
 
 class Tables(HTMLParser):
@@ -63,6 +70,12 @@ def made_map(fmu_file, values, levels, unseen=40, most=400):
 @pytest.fixture(scope="module")
 def mapped(fmu_file):
     return made_map(fmu_file, RICH, LEVELS)
+
+
+@pytest.fixture(scope="module")
+def single(fmu_file):
+    """A map of a single point, whose report is drawn soonest."""
+    return made_map(fmu_file, RICH, {name: values[:1] for name, values in LEVELS.items()}, unseen=0)
 
 
 @pytest.fixture(scope="module")
@@ -134,6 +147,7 @@ def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
         assert number(error) <= number(listed[0][1])
 
 
+@pytest.mark.usefixtures("in_haste")
 def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
     made = made_map(fmu_file, PLAIN, LEVELS, unseen=5)
     page = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8"))
@@ -141,6 +155,7 @@ def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_s
     assert "the scene has no drag" in page.captions["loss_map"]
 
 
+@pytest.mark.usefixtures("in_haste")
 @pytest.mark.parametrize("axis", range(4))
 def test_an_axis_of_a_single_value_has_its_report(axis, fmu_file, tmp_path):
     levels = {name: values[:1] if axis == place else values for place, (name, values) in enumerate(LEVELS.items())}
@@ -149,15 +164,16 @@ def test_an_axis_of_a_single_value_has_its_report(axis, fmu_file, tmp_path):
     assert all(marks and max(marks.values()) >= 1 for marks in page.figures.values())
 
 
-def test_a_single_point_without_unseen_ones_has_its_report(fmu_file, tmp_path):
-    levels = {name: values[:1] for name, values in LEVELS.items()}
-    page = ReportPage(write(made_map(fmu_file, RICH, levels, unseen=0), tmp_path / "map.html").read_text(encoding="utf-8"))
+def test_a_single_point_without_unseen_ones_has_its_report(single, tmp_path):
+    page = ReportPage(write(single, tmp_path / "map.html").read_text(encoding="utf-8"))
     assert "the error of the map is not measured" in page.sections["error"]
     assert set(page.figures) == FIGURES - {"loss_map", "error"}
 
 
 def test_warnings_of_runs_and_of_the_map_stand_on_the_page(fmu_file, tmp_path):
-    made = made_map(fmu_file, RICH | {"limited_slip.friction_area": 1e-4, "limited_slip.pv_limit": 1e5}, LEVELS, unseen=3, most=81)
+    values = RICH | {"limited_slip.friction_area": 1e-4, "limited_slip.pv_limit": 1e5}
+    made = made_map(fmu_file, values, LEVELS | {VARIABLES[0]: [900.0], VARIABLES[3]: [300.0]}, unseen=3, most=9)
+    assert made.estimate > 1.0
     head = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
     assert re.search(r"The FMU warns: .*pv.*corners of the map", head), head
     assert "carrier.speed_command" not in head
@@ -174,8 +190,8 @@ def test_the_command_writes_it_beside_the_table(fmu_file, tmp_path, capsys):
     assert "3 unseen points" in ReportPage(file.read_text(encoding="utf-8")).sections["head"]
 
 
-def test_what_accuracy_chose_is_the_model(mapped, tmp_path):
-    made = type(mapped)(**{**mapped.__dict__, "model": "lumped, 1e-3"})
+def test_what_accuracy_chose_is_the_model(single, tmp_path):
+    made = type(single)(**{**single.__dict__, "model": "lumped, 1e-3"})
     assert "lumped, 1e-3: chosen by accuracy" in ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
 
 
@@ -196,12 +212,12 @@ def test_a_missing_package_is_said_before_the_work(monkeypatch, capsys, fmu_file
     assert "extra report" in said.err and not said.out
 
 
-def test_a_full_disk_leaves_no_half_report(mapped, tmp_path, monkeypatch):
+def test_a_full_disk_leaves_no_half_report(single, tmp_path, monkeypatch):
     def full(self, *_, **__):
         self.touch()
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(type(tmp_path), "write_text", full)
     with pytest.raises(DifferentialError, match="map.html: No space left on device; nothing is written"):
-        write(mapped, tmp_path / "map.html")
+        write(single, tmp_path / "map.html")
     assert not list(tmp_path.iterdir())

@@ -13,7 +13,7 @@ import pytest
 from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
 
-from bevel_differential import DifferentialError, Fmu, Scene
+from bevel_differential import DifferentialError, Fmu, Scene, cad
 from bevel_differential.command import main
 from bevel_differential.designs.farm import Farm
 from bevel_differential.designs.task import Row
@@ -27,6 +27,7 @@ from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+# a given stiffness saves nine tenths of a start, and changes neither mass nor stress
 SCENE = """description = "one spring per mesh, loaded"
 stop_time = 0.001
 step = 0.001
@@ -36,6 +37,7 @@ scene.gear_contact = "lumped"
 scene.planet_spin = "imposed"
 planet.spin_command = "200 deg/s"
 effects.strength = true
+contact.mesh_stiffness_from_geometry = false
 left.load_torque = "835 N.m"
 right.load_torque = "835 N.m"
 """
@@ -175,11 +177,10 @@ def test_the_front_is_that_of_a_fine_grid(two, folder):
     assert len(rows) < len(grid) / 2
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-def test_the_same_seed_gives_the_same_front_however_many_workers(two, folder, workers):
+def test_the_same_seed_gives_the_same_front_however_many_workers(two, folder):
     small = two.sized(population=12, generations=3, starts=2)
     alone, rows = found(small, folder / "alone")
-    many, other_rows = found(small, folder / f"workers_{workers}", workers)
+    many, other_rows = found(small, folder / "workers", workers=2)
     assert [(row.run, row.values, row.figures) for row in alone] == [(row.run, row.values, row.figures) for row in many]
     assert [(row.values, row.violation) for row in rows] == [(row.values, row.violation) for row in other_rows]
     other, _ = found(small.sized(seed=4), folder / "seed")
@@ -413,7 +414,9 @@ def command(folder, fmu_file, *arguments):
                             env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=with_interrupts)
 
 
-def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file):
+def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, capsys, monkeypatch):
+    # so slow that the interrupt comes in the middle
+    (folder / "scene.toml").write_text(SCENE.replace("contact.mesh_stiffness_from_geometry = false\n", ""), encoding="utf-8")
     given = ["two.toml", "--out", "out", "--workers", "0", "--population", "12", "--generations", "4"]
     process = command(folder, fmu_file, *given)
     for line in process.stdout:
@@ -424,9 +427,11 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file):
     assert process.returncode == 130 and "go on by --resume" in errors and "Traceback" not in errors
     before = pd.read_csv(folder / "out/front.csv")
     assert len(before) and len(pd.read_parquet(folder / "out/evaluations.parquet")) >= 2 * 8
-    process = command(folder, fmu_file, *given, "--resume")
-    output, errors = process.communicate(timeout=300)
-    assert process.returncode == 0, errors
+    # files for CAD are another test's
+    monkeypatch.setattr(cad, "available", lambda: False)
+    monkeypatch.chdir(folder)
+    assert main(["optimise", *given, "--resume", "--fmu", fmu_file]) == 0
+    assert "gears in out" in capsys.readouterr().out
     whole, _ = found(Problem.load(folder / "two.toml", fmu_file).sized(population=12, generations=4), folder / "whole")
     after = pd.read_csv(folder / "out/front.csv")
     assert set(after["run"]) <= {row.run for row in whole} and len(after) == min(64, len(whole))

@@ -12,16 +12,17 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet as pq
 import pytest
-from interrupts import with_interrupts
+from interrupts import changed_command, with_interrupts
 
 from bevel_differential import DifferentialError, Scene
-from bevel_differential.designs import Farm, Row, Space, Task, store
+from bevel_differential.designs import Farm, Row, Space, Task, cluster, store
+from bevel_differential.command import main
 from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
 from bevel_differential.designs.store import Columns, digest
 
-PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src"
-RUNS = 400
+ROOT = Path(__file__).resolve().parents[2]
+RUNS = 200
 # a third of these gears cannot be assembled
 VARY = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "impact, line_weber", "geometry.planet_teeth": "8..11",
         "geometry.side_teeth": "14, 15, 16", "geometry.planet_count": "2, 3, 4", "tooth_errors.seed": "seed"}
@@ -40,6 +41,13 @@ def expected(scene):
     return sweep(scene, **PLAN, workers=0)
 
 
+@pytest.fixture(scope="module")
+def two():
+    """A farm of two processes, whatever has happened to them before."""
+    with Farm(workers=2) as farm:
+        yield farm
+
+
 def few(**changed):
     return {**PLAN, "runs": 20, "workers": 0, **changed}
 
@@ -56,10 +64,11 @@ def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
         assert row["feasible"] == (assembles and row["efficiency:final"] >= 0.99999)
 
 
-@pytest.mark.parametrize("farm", [{"workers": 1}, {"workers": 2}, {"workers": 4}, {"workers": 2, "processes": False}],
-                         ids=["1 process", "2 processes", "4 processes", "2 threads"])
-def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
-    assert sweep(scene, **PLAN, **farm).digest() == expected.digest()
+def test_rows_are_the_same_whatever_evaluates_them(scene, expected, two):
+    assert sweep(scene, **PLAN, workers=3, processes=False).digest() == expected.digest()
+    task, space = Task(scene, WANTS, CONDITIONS), Space.parse(scene.fmu, VARY)
+    rows = two.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs())
+    assert digest(Columns(task, space).table(list(rows))) == expected.digest()
 
 
 def workers_of_this_process():
@@ -91,15 +100,14 @@ def test_who_stops_early_ends_the_rows_behind_the_bar_too(monkeypatch):
     assert "0/3" in sys.stderr.getvalue()
 
 
-def test_chunks_of_a_killed_worker_run_again(scene, expected):
+def test_chunks_of_a_killed_worker_run_again(scene, expected, two):
     task, space = Task(scene, WANTS, CONDITIONS), Space.parse(scene.fmu, VARY)
     rows, killed = [], None
-    with Farm(workers=2) as farm:
-        for row in farm.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs()):
-            rows.append(row)
-            if killed is None and len(rows) > RUNS // 4:
-                killed = workers_of_this_process()[0]
-                killed.send_signal(signal.SIGKILL)
+    for row in two.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs()):
+        rows.append(row)
+        if killed is None and len(rows) > RUNS // 4:
+            killed = workers_of_this_process()[0]
+            killed.send_signal(signal.SIGKILL)
     assert killed is not None and digest(Columns(task, space).table(rows)) == expected.digest()
 
 
@@ -115,14 +123,15 @@ class Deadly:
         pass
 
 
-def test_a_design_that_kills_its_worker_each_time_is_a_failed_row():
-    with Farm(workers=2) as farm:
-        rows = farm.evaluate(Deadly(), [(run, {"deadly": run == 30}) for run in range(60)])
+def test_a_design_that_kills_its_worker_each_time_is_a_failed_row(two):
+    rows = two.evaluate(Deadly(), [(run, {"deadly": run == 30}) for run in range(60)])
     assert [row.run for row in rows] == list(range(60))
     assert [row.run for row in rows if row.message] == [30] and "worker process died" in rows[30].message
 
 
-def test_a_scheduler_that_is_not_there_is_said_within_seconds():
+def test_a_scheduler_that_is_not_there_is_said_within_seconds(monkeypatch):
+    assert cluster.ANSWER_TIMEOUT <= 5.0
+    monkeypatch.setattr(cluster, "ANSWER_TIMEOUT", 0.5)
     begun = time.monotonic()
     with pytest.raises(DifferentialError, match="tcp://127.0.0.1:9: nothing answers"), Farm(scheduler="tcp://127.0.0.1:9"):
         pass
@@ -167,7 +176,7 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
 
 def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, monkeypatch):
     file, evaluate = tmp_path / "found.parquet", Task.evaluate
-    for ends, caught in [(100, KeyboardInterrupt), (200, RuntimeError)]:
+    for ends, caught in [(RUNS // 4, KeyboardInterrupt), (RUNS // 2, RuntimeError)]:
 
         def failing(task, run, values, ends=ends, caught=caught):
             if run == ends:
@@ -176,15 +185,15 @@ def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, m
 
         monkeypatch.setattr(Task, "evaluate", failing)
         with pytest.raises(Stopped if caught is KeyboardInterrupt else caught) as stop:
-            sweep(scene, **PLAN, out=file, workers=0, resume=ends == 200)
-        assert caught is RuntimeError or f"100 of {RUNS} runs are kept" in str(stop.value)
+            sweep(scene, **PLAN, out=file, workers=0, resume=ends == RUNS // 2)
+        assert caught is RuntimeError or f"{RUNS // 4} of {RUNS} runs are kept" in str(stop.value)
     monkeypatch.undo()
     with pytest.raises(DifferentialError, match="--resume"):
         sweep(scene, **PLAN, out=file, workers=0)
     with pytest.raises(DifferentialError, match="another plan"):
         sweep(scene, **{**PLAN, "seed": 2}, out=file, workers=0, resume=True)
     rest = sweep(scene, **PLAN, out=file, workers=0, resume=True)
-    assert rest.new == RUNS - 200 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
+    assert rest.new == RUNS - RUNS // 2 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
 
 
 class Freed:
@@ -222,25 +231,21 @@ def test_an_interrupt_while_dask_frees_something_is_not_lost(scene, tmp_path, mo
     assert not lost and len(calls) == 3
 
 
-def command(scene, out, wants, *more):
+def arguments(scene, out, wants, *more):
     vary = [part for name, values in VARY.items() for part in ("--vary", f"{name}={values}")]
     wants = [part for want in wants for part in ("--want", want)]
-    return [sys.executable, "-m", "bevel_differential", "sweep", "--scene", str(scene), *vary, *wants, "--plan", "lhs",
-            "--runs", str(RUNS), "--seed", "1", "--out", str(out), "--workers", "2", *more]
+    return ["sweep", "--scene", str(scene), *vary, *wants, "--plan", "lhs", "--runs", str(RUNS), "--seed", "1", "--out", str(out),
+            "--workers", "2", *more]
 
 
-def environment(fmu_file):
-    return {**os.environ, "PYTHONPATH": str(PACKAGE), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
-
-
-def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path):
+def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path, capsys):
     # a mean over two thousand steps, so that the interrupt comes in the middle
     scene = tmp_path / "turn.toml"
-    scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
+    scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
-    running = subprocess.Popen(command(scene, out, wants), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, start_new_session=True, preexec_fn=with_interrupts)
+    running = subprocess.Popen(changed_command(0.1, [*arguments(scene, out, wants), "--fmu", fmu_file]), stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
     # to all processes of it, as a terminal does
@@ -250,37 +255,23 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     # an interrupt while a part is written may write its rows twice; they count once
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
-    done = subprocess.run(command(scene, out, wants, "--resume"), env=environment(fmu_file), capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0 and done.stderr == "" and f"{kept} runs were kept from before" in done.stdout, done
+    # it may go on with other workers
+    assert main([*arguments(scene, out, wants, "--resume", "--workers", "0"), "--fmu", fmu_file]) == 0
+    told = capsys.readouterr()
+    assert told.err == "" and f"{kept} runs were kept from before" in told.out
     with Scene.load(scene, fmu=fmu_file) as loaded:
-        whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=2)
+        whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=0)
     assert SweepResult.load(out).digest() == whole.digest()
-
-
-FULL_DISK = """
-import resource, sys
-from bevel_differential import Fmu
-from bevel_differential.command import main
-from bevel_differential.designs import store
-Fmu.of()
-store.INTERVAL = 0.0
-# no file may be longer: the parts fit, the whole does not
-resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]), resource.RLIM_INFINITY))
-sys.exit(main(sys.argv[2:]))
-"""
 
 
 def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_file, scene, tmp_path):
     out = tmp_path / "found.parquet"
-    arguments = command("study_turning", out, WANTS)[3:]
-    arguments[arguments.index("--runs") + 1], arguments[arguments.index("--workers") + 1] = "50", "0"
-    full = subprocess.run([sys.executable, "-c", FULL_DISK, "7000", *arguments], env=environment(fmu_file), capture_output=True,
-                          text=True, timeout=120)
+    given = arguments("study_turning", out, WANTS)
+    given[given.index("--runs") + 1], given[given.index("--workers") + 1] = "50", "0"
+    full = subprocess.run(changed_command(0.0, [*given, "--fmu", fmu_file], most=7000), capture_output=True, text=True, timeout=120)
     assert full.returncode == 1 and full.stderr.count("\n") == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
-    rest = subprocess.run([sys.executable, "-m", "bevel_differential", *arguments, "--resume"], env=environment(fmu_file),
-                          capture_output=True, text=True, timeout=120)
-    assert rest.returncode == 0, rest.stderr
+    assert main([*given, "--resume", "--fmu", fmu_file]) == 0
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
 
 

@@ -29,6 +29,10 @@ class Batches:
                 references = np.array([variables[place].reference for place in places], np.uint32)
                 dtype = np.float64 if call == "Real" else np.int32
                 self.groups.append((call, places, references, dtype))
+        # a value is read at every step of some hosts: addresses and types of buffers are not looked up each time
+        self._calls = [(call, places, references.ctypes.data, (ctypes.c_double if call == "Real" else ctypes.c_int32) * len(places))
+                       for call, places, references, _ in self.groups]
+        self._count = len(variables)
 
     @staticmethod
     @lru_cache(256)
@@ -45,13 +49,15 @@ class Batches:
 
     def get(self, instance: Any) -> list[Number]:
         """Gets all, as a list in the order of the variables."""
-        values: dict[int, Number] = {}
-        for call, places, references, dtype in self.groups:
-            numbers: np.ndarray = np.empty(len(places), dtype)
-            status = instance._get[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
+        values: list[Number] = [0.0] * self._count
+        for call, places, references, buffer in self._calls:
+            # of this call, as threads share the batches
+            numbers = buffer()
+            status = instance._get[call](instance._component, references, len(places), numbers)
             instance.check(status, f"getting {call} variables")
-            values.update(zip(places, (numbers != 0 if call == "Boolean" else numbers).tolist()))
-        return [values[place] for place in range(len(values))]
+            for place, number in zip(places, numbers):
+                values[place] = number != 0 if call == "Boolean" else number
+        return values
 
     def record(self, rows: int) -> list[np.ndarray]:
         """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""

@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import qmc
 
+from ..extras import require
 from ..values import DifferentialError, Number, suggestion
 from .space import Space
 
@@ -64,6 +64,7 @@ class Plan:
             return np.empty((self.runs, 0))
         if self.kind == "random":
             return np.array([_generator(self.seed, run).random(size) for run in range(self.runs)])
+        qmc = require("scipy.stats.qmc", "sweep")
         engine = {"lhs": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.kind]
         return engine(size, rng=np.random.default_rng(self.seed)).random(self.runs)
 

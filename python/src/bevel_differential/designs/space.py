@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from scipy import stats
 
+from ..extras import require
 from ..fmu import Fmu
 from ..values import DifferentialError, Number, Value, Variable
 
@@ -151,6 +151,8 @@ def _quantile(kind, numbers, share):
     if kind in ("range", "uniform"):
         return numbers[0] + share * (numbers[1] - numbers[0])
     share = np.maximum(share, _LEAST)
+    # a second to load, which each worker would take to start
+    stats = require("scipy.stats", "sweep")
     if kind == "normal":
         return stats.norm.ppf(share, *numbers)
     if kind == "lognormal":

@@ -17,8 +17,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
-from scipy.stats import beta
+
+from ..extras import require
 
 # least lines of an axis that tell whether the map bends
 LEAST = 3
@@ -133,10 +133,13 @@ def interpolated(lines: Sequence[np.ndarray], values: np.ndarray, points: np.nda
     kept = values.reshape([len(lines[axis]) for axis in several] + [values.shape[-1]])
     if not several:
         return np.broadcast_to(kept, (len(points), values.shape[-1]))
-    return RegularGridInterpolator([lines[axis] for axis in several], kept)(np.asarray(points)[:, several])
+    # a second to load, which each worker would take to start
+    interpolate = require("scipy.interpolate", "sweep")
+    return interpolate.RegularGridInterpolator([lines[axis] for axis in several], kept)(np.asarray(points)[:, several])
 
 
 def share_beyond(count: int, beyond: int) -> float:
     """The share of points beyond a bound that is not exceeded at CONFIDENCE, after so many of `count` random points were beyond it
     (Clopper and Pearson); 1 − 0.05^(1/n) where none was."""
+    beta = require("scipy.stats", "sweep").beta
     return 1.0 if beyond == count else float(beta.ppf(CONFIDENCE, beyond + 1, count - beyond))

@@ -1,6 +1,7 @@
 """Distribution of a figure, and yield, with intervals of 95 % confidence; and from them which tolerance is worth its money."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy import stats
@@ -43,8 +44,14 @@ class Spread:
 def proportion(good: np.ndarray) -> Estimate:
     """Part of runs that are good, shape (runs,), with the interval of Wilson."""
     count, runs = int(np.sum(good)), len(good)
+    return Estimate(count / runs, *_wilson(count, runs))
+
+
+@cache
+def _wilson(count, runs):
+    # slow, and alternatives ask for the same counts again and again
     between = stats.binomtest(count, runs).proportion_ci(LEVEL, method="wilson")
-    return Estimate(count / runs, between.low, between.high)
+    return between.low, between.high
 
 
 def gain(before: np.ndarray, after: np.ndarray, cost: float) -> Estimate:
