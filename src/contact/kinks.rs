@@ -16,8 +16,8 @@ const HALVINGS: u32 = 15;
 
 impl Engagement {
     /// The fraction of the motion from `position` to `position + change` (both (q, x)) after which the first kink lies,
-    /// taken as straight; `None` if there is none. If flanks may not fit (`OPEN`), `opening` is by how much those of a pair
-    /// with its number, at its place on the path, do not [rad].
+    /// taken as straight; `None` if there is none. If `OPEN`, `opening` is the gap between the flanks of a pair, by its number and
+    /// its place on the path [rad], negative for excess material. Where flanks that fit would be apart, it is not asked.
     #[inline(always)]
     pub fn kink<const OPEN: bool>(
         &self,
@@ -52,14 +52,19 @@ impl Engagement {
         first
     }
 
-    /// The fraction of the motion from `q` to `q + change`, taken as straight, after which flanks touch or separate; `None` if
-    /// they do not.
+    /// The fraction of the motion from `q` to `q + change`, taken as straight, after which the flanks that touch at its begin
+    /// separate, or after which flanks touch if none did; `None` if they do not.
     pub fn kink_of_touch(&self, q: f64, change: f64) -> Option<f64> {
         let touching = self.approach(q) > 0.0;
-        first_change(|t| (self.approach(q + t * change) > 0.0) != touching)
+        first_change(|t| {
+            let end = q + t * change;
+            // across the lash are other flanks
+            (self.approach(end) > 0.0 && (!touching || end * q > 0.0)) != touching
+        })
     }
 
-    /// Calls `visit` with the fractions of the motion at which pairs enter or leave contact abruptly, without corner contact.
+    /// For meshes without corner contact: calls `visit` with the fractions of the motion at which a pair of either flank, loaded or
+    /// not, passes an end of the path.
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));

@@ -59,8 +59,7 @@ impl Mesh {
         }
     }
 
-    /// The same of flanks that may not fit: `opening` is by how much those of a pair with its number, at its place on the path,
-    /// do not [rad].
+    /// The same of flanks with gaps or excess material between them: `opening`, as [`Engagement::kink`] takes it.
     #[inline(always)]
     pub fn kink_of_open(&self, state: &MeshState, h: f64, opening: impl Fn(Flank, i64, f64) -> f64) -> Option<f64> {
         if matches!(self.law, Law::Solid(_)) {

@@ -9,6 +9,7 @@ mod golden_pairs;
 mod hertz;
 mod hunt_crossley;
 mod impact;
+mod kinks;
 mod mesh_conjugacy;
 mod mesh_detailed;
 mod mesh_explicit;

@@ -47,7 +47,9 @@ def decisions(folder, count, timed, begin, end):
                      stop / seconds if seconds else math.nan, run.price, found.reference.price])
         error = percent(run.error) + (f"; two runs of the richest model differ by {percent(stray)}" if found.uncertain else "")
         asked.setdefault(f"`{name}{f' --from {start:g}s' if start else ''}`", []).append(f"`{want}`")
-        table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", solver.removeprefix("tolerance "), error,
+        # without teeth and effects motion has a closed form
+        tolerance = solver.removeprefix("tolerance ") if effects or gears != "ideal" else "–"
+        table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", tolerance, error,
                       significant(stop / seconds, 2) if seconds else ""])
     write_measured(folder / "decisions.csv", ["error: of the chosen setting against the richest model, as a fraction"], rows)
     questions = "; ".join(f"{scene}: {', '.join(wants)}" for scene, wants in asked.items())

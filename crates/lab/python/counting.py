@@ -27,7 +27,7 @@ def stepping(folder, effects, name):
     # as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
     settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
-    printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
+    printed = completed([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
                     "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json", "--target-dir", folder],
                    "cargo did not start", settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
@@ -38,8 +38,8 @@ def stepping(folder, effects, name):
     return Path(shutil.copy(built[0], Path(folder, name)))
 
 
-def said(command, missing, settings=None, **options):
-    """What a program prints; ends where it fails, with `missing` if it is not there."""
+def completed(command, missing, settings=None, **options):
+    """Runs a program and returns it as completed. Exits with its errors if it fails, with `missing` if it is not installed."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(settings or {})}, **options)
     except FileNotFoundError:
@@ -52,15 +52,15 @@ def said(command, missing, settings=None, **options):
 def callgrind(program, vectors, arguments, options=(), out="/dev/null"):
     """Runs a program under callgrind, and returns what callgrind reported."""
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
-    return said(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
+    return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
 
 
-def counts(folder):
-    """Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
-    the program as well, and `count` its end."""
+def counts(folder, first=2):
+    """Instructions of each step from number `first` on: callgrind writes a file after every one, `count.1`, `count.2`, …, and `count`
+    at the end of the program. Unless counts begin at a step, the first file holds the start of the program as well."""
     found = []
     for file in folder.iterdir():
-        if file.suffix[1:].isdigit() and int(file.suffix[1:]) > 1:
+        if file.suffix[1:].isdigit() and int(file.suffix[1:]) >= first:
             summary = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("summary:")]
             if not summary:
                 raise SystemExit(f"{file} has no count")
@@ -134,7 +134,7 @@ def kind_of(mnemonic):
 
 def mnemonics(program):
     """Name of the instruction at each address of a program."""
-    listing = said(["objdump", "--disassemble", "--no-show-raw-insn", program],
+    listing = completed(["objdump", "--disassemble", "--no-show-raw-insn", program],
                    "objdump names the instructions: install it (apt-get install binutils)").stdout
     return dict(filter(None, map(disassembled, listing.splitlines())))
 

@@ -123,7 +123,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
     write(folder, "prices.csv", [["on", "evaluation", "communication_step"], *data])
     write(folder, "alone.csv", rows)
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
-    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown([short(row) for row in rows])}\n"
+    text = (f"Each alone; \"all together\" is {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown([short(row) for row in rows])}\n"
             f"All together an evaluation costs {of_all:.1f} times that of plain teeth; single surcharges would add up to {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]

@@ -12,7 +12,7 @@ import numpy as np
 from bevel_differential import Fmu
 from bevel_differential.scene_file import flat
 from calls import write_start
-from counting import NARROW, callgrind, counts, said
+from counting import NARROW, callgrind, counts, completed
 from tools import WORKSPACE, say
 
 # where the packer puts the unit
@@ -60,9 +60,9 @@ def compiled(folder):
     for place, file in enumerate([*files, Path(__file__).with_name("loop.c")]):
         say(place / len(files) / 2, f"compiling {file.name}")
         objects.append(folder / f"{file.stem}.o")
-        said(["gcc", "-O2", f"-I{headers}", f"-I{folder / 'sources'}", "-c", file, "-o", objects[-1]],
+        completed(["gcc", "-O2", f"-I{headers}", f"-I{folder / 'sources'}", "-c", file, "-o", objects[-1]],
              "gcc compiles the sources: install it (apt-get install gcc)")
-    said(["gcc", *objects, "-o", folder / "loop", "-lm", "-lpthread"], "gcc")
+    completed(["gcc", *objects, "-o", folder / "loop", "-lm", "-lpthread"], "gcc")
     return folder / "loop", Fmu(folder)
 
 
@@ -79,7 +79,7 @@ def rows(folder):
             say(0.5 + 0.5 * len(found) / 3, f"counting C, {name}, steps of {size} s")
             write_start(folder / "set", fmu, values | {"solver.method": "fixed_step", "solver.fixed_step": float(size)})
             arguments = [fmu.description.guid, folder / "set", folder / "drive", *(str(fmu.variable(one).reference) for one in OUTPUTS)]
-            for line in said([program, *arguments], "the loop").stdout.splitlines():
+            for line in completed([program, *arguments], "the loop").stdout.splitlines():
                 what, _, number = line.rpartition(" ")
                 if what:
                     told[what] = max(told.get(what, 0), int(number))
@@ -87,7 +87,7 @@ def rows(folder):
             shutil.rmtree(dumps, ignore_errors=True)
             dumps.mkdir()
             callgrind(program, NARROW, arguments, ["--zero-before=one_communication_step", "--dump-after=*one_communication_step*"], dumps / "count")
-            of_steps = counts(dumps)
+            of_steps = counts(dumps, first=1)
             found.append([f"C: {name}", size, statistics.median(of_steps), max(of_steps)])
     remark = (f"C: an instance takes {told['instance'] / 2**20:.2f} MiB, of which at most {told['used'] / 2**20:.2f} are used, "
               f"{told['stack'] / 1024:.0f} KiB of the program's stack and {told['stack within'] / 1024:.0f} KiB of a stack of its own.\n")

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from bevel_differential.text import markdown
-from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, executed, instructions, said, stepping
+from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, executed, instructions, completed, stepping
 from tools import say
 
 SCENES = ("straight", "turn")
@@ -18,7 +18,7 @@ ARRANGEMENT = 0.01
 
 def measured(program, vectors):
     """By scene the bits of a run, and its instructions per communication step by kind."""
-    return {scene: (said([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, vectors, scene))
+    return {scene: (completed([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, vectors, scene))
             for scene in SCENES}
 
 

@@ -3,6 +3,7 @@
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
@@ -11,8 +12,8 @@ use crate::fmu::libraries::{CRATES, folders};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 
-/// Shorter paths are not looked for: a few bytes may mean something else.
-const SHORTEST: usize = 4;
+/// Separators in a folder that is looked for: `/src` may be the middle of any path, and tells nothing of a machine.
+const FEWEST_SEPARATORS: usize = 2;
 
 /// The FMU's library as cargo left it beside this program, as it is. An error says why it cannot be used.
 pub fn beside_program() -> Result<PathBuf> {
@@ -52,16 +53,28 @@ fn cleaned(library: &Path) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("this-machine");
     let copy = folder.join(library.file_name().unwrap_or_default());
     write_whole(&copy, &content)?;
+    if cfg!(target_os = "macos") {
+        sign(&copy)?;
+    }
     Ok(copy)
 }
 
-/// Puts `name` in the place of each `folder` that a path begins with. The length stays, so that nothing moves: separators, of
-/// which many in a row are as good as one, fill it up.
+/// Signs a library anew: macOS ends a process that loads pages which do not have the hashes of the linker's signature.
+fn sign(library: &Path) -> Result<()> {
+    let output = Command::new("codesign").args(["--force", "--sign", "-"]).arg(library).output();
+    let output = output.context("codesign, which is part of macOS, cannot be run")?;
+    ensure!(output.status.success(), "codesign: {}", String::from_utf8_lossy(&output.stderr).trim());
+    Ok(())
+}
+
+/// Puts `name` in the place of each `folder` that a separator follows: strings of a library follow each other without a gap, so
+/// that the beginning of a path cannot be seen. The length stays, so that nothing moves: separators, of which many in a row are
+/// as good as one, fill it up.
 fn overwrite(content: &mut [u8], folder: &[u8], name: &[u8]) {
-    if folder.len() < SHORTEST {
+    let is_separator = |byte: &u8| *byte == b'/' || (cfg!(windows) && *byte == b'\\');
+    if folder.iter().filter(|&byte| is_separator(byte)).count() < FEWEST_SEPARATORS {
         return;
     }
-    let is_separator = |byte: &u8| *byte == b'/' || (cfg!(windows) && *byte == b'\\');
     let found: Vec<usize> = content
         .windows(folder.len() + 1)
         .enumerate()
@@ -90,7 +103,11 @@ mod tests {
     fn a_folder_is_overwritten_at_equal_length_and_the_rest_of_the_path_stays() {
         let text = "src/a.rs/home/me/crates/b-1.0/src/lib.rs/home/merry/c.rs";
         assert_eq!(overwritten(text, "/home/me", "cargo"), "src/a.rscargo////crates/b-1.0/src/lib.rs/home/merry/c.rs");
-        assert_eq!(overwritten("/opt/x/y.rs", "/opt", "toolchains"), "tool/x/y.rs");
-        assert_eq!(overwritten("/c/y.rs", "/c", "cargo"), "/c/y.rs");
+        assert_eq!(overwritten("/opt/x/y.rs", "/opt/x", "toolchains"), "toolch/y.rs");
+    }
+
+    #[test]
+    fn a_folder_that_may_be_the_middle_of_any_path_is_left() {
+        assert_eq!(overwritten("b-1.0/src/lib.rs", "/src", "project"), "b-1.0/src/lib.rs");
     }
 }

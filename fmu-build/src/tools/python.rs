@@ -128,11 +128,28 @@ impl Environment {
     fn install(&self, list: &Path, pins: Option<&Path>, what: &str, report: impl Fn(&str)) -> Result<()> {
         report(&format!("installing {what}"));
         let mut pip = self.command();
-        pip.args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"]).arg(list);
+        // most modules of the packages are never imported: those that are get their bytecode then
+        pip.args([
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--no-input",
+            "--disable-pip-version-check",
+            "--no-compile",
+            "-r",
+        ])
+        .arg(list);
         if let Some(pins) = pins {
             pip.arg("--no-deps").arg("--constraint").arg(pins);
         }
         finish(&mut pip, "the Python packages cannot be installed (check the network)")
+    }
+
+    /// The folder with the bytecode of modules, which keeps it out of the checkout. A process that compiles the package anew starts
+    /// three times as slowly.
+    fn bytecode(&self) -> PathBuf {
+        self.folder.join("bytecode")
     }
 
     fn interpreter(&self) -> Python {
@@ -150,7 +167,8 @@ impl Environment {
             .envs(env::join_paths(folders).map(|folders| ("PYTHONPATH", folders)))
             .envs(paths::built("answers").map(|library| ("BEVEL_DIFFERENTIAL_ANSWERS", library)))
             .env("BEVEL_DIFFERENTIAL_SCENES", paths::scenes())
-            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env_remove("PYTHONDONTWRITEBYTECODE")
+            .env("PYTHONPYCACHEPREFIX", self.bytecode())
             .env("PYTHONUTF8", "1")
             .env("MPLBACKEND", "Agg")
             .env("MPLCONFIGDIR", self.folder.join("matplotlib"));
@@ -169,8 +187,9 @@ impl Environment {
             .collect();
         let python = self.interpreter().program;
         let text = format!(
-            "#!{}\nimport os, sys\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nsys.exit(main())\n",
+            "#!{}\nimport os, sys\nsys.pycache_prefix = {:?}\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nsys.exit(main())\n",
             python.display(),
+            self.bytecode().display().to_string(),
             source.display().to_string()
         );
         let program = self.programs().join(if cfg!(windows) { "bevel-differential.py" } else { "bevel-differential" });

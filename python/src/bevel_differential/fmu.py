@@ -1,4 +1,4 @@
-"""The FMU: extracted and loaded once per process."""
+"""The FMU: an extracted archive and its variables. `Fmu.of` extracts a file once per process."""
 
 import atexit
 import hashlib
@@ -15,7 +15,7 @@ from fmpy import extract, read_model_description
 from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
 
-_loaded: dict[tuple[int, Path], "Fmu"] = {}
+_shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
@@ -47,14 +47,16 @@ class Fmu:
         file = Path(file or usual()).resolve()
         key = (os.getpid(), file)
         with _lock:
-            if key not in _loaded:
+            if key not in _shared:
+                if file.is_dir():
+                    raise DifferentialError(f"{file}: it is a folder; name the .fmu file, or take Fmu(folder)")
                 if not file.is_file():
                     raise DifferentialError(f"{file}: there is no such FMU")
                 try:
-                    _loaded[key] = cls(file)
+                    _shared[key] = cls(file)
                 except (BadZipFile, OSError) as error:
                     raise DifferentialError(f"{file}: not an FMU ({error}); name a file that ends with .fmu") from None
-            return _loaded[key]
+            return _shared[key]
 
     @classmethod
     def by_hash(cls, file: str, sha256: str) -> "Fmu":
@@ -62,8 +64,8 @@ class Fmu:
         for place in (Path(file), Path(usual())):
             if place.is_file() and cls.of(place).sha256 == sha256:
                 return cls.of(place)
-        raise DifferentialError(f"{file}: neither this file nor the FMU of the package on this machine is the one that was asked for "
-                                f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines")
+        raise DifferentialError(f"{file}: neither this file nor the default FMU of this machine, {usual()}, is the one that was asked for "
+                                f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines, or set BEVEL_DIFFERENTIAL_FMU")
 
     def __reduce__(self) -> tuple:
         # another process or machine finds the FMU by its hash, as its files may be elsewhere
@@ -71,7 +73,9 @@ class Fmu:
 
     @cached_property
     def sha256(self) -> str:
-        """SHA-256 of the file."""
+        """SHA-256 of the file. A folder has none, so that an `Fmu` of one stays in its process."""
+        if self.file.is_dir():
+            raise DifferentialError(f"{self.file}: an extracted folder has no hash to be found by in another process; open the .fmu file")
         return hashlib.sha256(self.file.read_bytes()).hexdigest()
 
     def variable(self, name: str) -> Variable:

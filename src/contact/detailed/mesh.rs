@@ -27,8 +27,9 @@ pub struct Detailed {
     /// Whether side gears move along their axes.
     pub has_seats: bool,
     pub(super) directions: Directions,
-    /// Sum of the face's weights, and the cone distance of its resultant [m].
+    /// Sum of the face's weights: ∫R² dR, or 1 where the law is one for the face.
     pub(super) moment: f64,
+    /// Cone distance of the resultant of teeth that fit [m].
     resultant: f64,
     /// The face of teeth that fit, in one point.
     whole: Node,
@@ -41,7 +42,7 @@ pub struct MeshTeeth<'a> {
     pub engagement: &'a Engagement,
     /// Errors of the teeth.
     pub gaps: Option<&'a dyn Gaps>,
-    /// Viscosity of the oil on the flanks [Pa·s]; none: as friction along the flanks has it.
+    /// Viscosity of the oil at its temperature [Pa·s], for a law of friction that takes it from the oil; none: that of the law.
     pub viscosity: Option<f64>,
     /// Planet.
     pub planet: usize,
@@ -118,7 +119,7 @@ impl Detailed {
         totals.load()
     }
 
-    /// Whether the flanks of pairs may not fit.
+    /// Whether there may be gaps or excess material between the flanks of pairs.
     fn is_open(&self, teeth: &MeshTeeth) -> bool {
         self.has_seats || teeth.gaps.is_some()
     }
@@ -188,7 +189,8 @@ impl Detailed {
         energy
     }
 
-    /// Calls `visit` with each pair that may touch, or is as near to it as `margin` of its flank, drive and coast [rad].
+    /// Calls `visit` with each pair that may touch, or is at most a margin [rad] from touching: `margin` of drive flanks and of
+    /// coast flanks.
     #[inline(always)]
     pub(super) fn each(
         &self,

@@ -1,5 +1,6 @@
-//! Bodies that turn against another one. Each is a degree of freedom: its position is the twist between both, the other ahead, and
-//! its velocity is its own. A new one is a row here; an effect asks for it by its moment of inertia (`Requests`).
+//! Bodies that turn against another one. Each is a degree of freedom. Its position is the twist, the angle of the other body less
+//! its own; its velocity is absolute, and so not the rate of its position. A new one is a row here; an effect asks for it by its
+//! moment of inertia (`Requests`).
 
 use super::layout::LEFT;
 

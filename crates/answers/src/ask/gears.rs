@@ -12,7 +12,7 @@ use crate::problem::{Problem, Problems};
 use crate::progress::Progress;
 use crate::scene::set::{real, value, variable};
 
-/// Fewest and most points between the ends of a flank's curve: fewer show no involute, more no CAD program wants.
+/// Fewest and most pieces of a flank's curve: one shows no involute, more no CAD program wants.
 const FACETS: [usize; 2] = [2, 1000];
 /// Most facets of a flank in surfaces, which are hundreds of megabytes beyond.
 const MOST_OF_SURFACES: usize = 200;

@@ -31,7 +31,7 @@ class SpectrumResult:
     """Damage and life over a duty cycle.
 
     `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`:
-    their Miner sums per cycle at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
+    their Miner sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
     `teeth` of planet and side gear; `planets`: how many; `side_ratio`: root stress of the side gears over that of the planets;
     `order`: in which events follow each other."""
 
@@ -46,14 +46,14 @@ class SpectrumResult:
 
     @property
     def by_event(self) -> np.ndarray:
-        """Miner sums per cycle, shape (events, 4): roots of planet and side gear, their flanks. Slow cycles are in it."""
+        """Miner sums per duty cycle, shape (events, 4): roots of planet and side gear, their flanks. Slow cycles are in it."""
         found = np.array([one.event.count * one.meshing for one in self.events])
         found[:, :2] += self.slow_damage
         return found
 
     @property
     def damage(self) -> dict[str, float]:
-        """Miner sums per cycle by the FMU's names of damage."""
+        """Miner sums per duty cycle by the FMU's names of damage."""
         return dict(zip(MODES, self.by_event.sum(axis=0).tolist()))
 
     @property
@@ -104,7 +104,7 @@ class SpectrumResult:
 
     @property
     def warnings(self) -> list[str]:
-        """What the FMU warned of, each once with the events that it is about."""
+        """What the FMU warned of, each warning once: with the name of its event, or with the number of its events."""
         events: dict[str, list[str]] = {}
         for event_damage in self.events:
             for warning in event_damage.warnings:
@@ -151,11 +151,11 @@ class SpectrumResult:
         if isfinite(self.cycles_to_failure):
             km = f", {self.life_km:.4g} km" if isfinite(self.life_km) else ""
             lines.append(f"life by the {self.critical_name}: {self.cycles_to_failure:.4g} cycles, {self.life_hours:.4g} h{km}")
+            worst = self.worst
+            lines.append(f"worst event: {worst.event.name}: S_F = {worst.safety_root:.3g}, S_H = {worst.safety_flank:.3g}")
         else:
             lines.append("life: no event does any damage")
-        worst = self.worst
-        lines += [f"worst event: {worst.event.name}: S_F = {worst.safety_root:.3g}, S_H = {worst.safety_flank:.3g}", ""]
-        return "\n".join(lines + aligned(self.cells(), 1))
+        return "\n".join([*lines, "", *aligned(self.cells(), 1)])
 
     def markdown(self) -> list[str]:
         """The table as lines of Markdown."""

@@ -17,21 +17,21 @@ SETTLED = 1.5e-3
 THEORY = {"color": INK, "ls": (0, (5, 3)), "lw": 1.2}
 
 
-def speeds(folder, order, runs):
+def speeds(folder, request, runs):
     figure = style.figure(9.0)
     grid = figure.add_gridspec(2, 2, height_ratios=[1.15, 1])
-    start_of_speeds(figure.add_subplot(grid[0, 0]), order["straight"], runs["straight"])
-    speeds_in_turn(figure.add_subplot(grid[0, 1]), order, runs["turning"])
-    ripple_in_turn(figure.add_subplot(grid[1, :]), order, runs["turning"])
+    start_of_speeds(figure.add_subplot(grid[0, 0]), request["straight"], runs["straight"])
+    speeds_in_turn(figure.add_subplot(grid[0, 1]), request, runs["turning"])
+    ripple_in_turn(figure.add_subplot(grid[1, :]), request, runs["turning"])
     ripple = runs["turning"]["results"]["ripple"]
     after = runs["straight"]["results"]["settled_after"]
-    band = 100.0 * order["settled_band"]
-    style.caption(figure, f"Speeds of both half-shafts with {order['load']:.0f} N·m on each, started in the middle of the "
+    band = 100.0 * request["settled_band"]
+    style.caption(figure, f"Speeds of both half-shafts with {request['load']:.0f} N·m on each, started in the middle of the "
                   "backlash. Upper left: the load throws the light side gears back through the play until the teeth meet; "
                   f"{1e3 * after:.1f} ms after the start straight driving is within {band:.0f} % of theory and stays there "
                   "without ripple. Upper right and below: in the turn the planets roll, and the speeds swing as one or two "
                   f"pairs of teeth share the load, once per tooth: {ripple[0]:.2f} % (left) and {ripple[1]:.2f} % (right) "
-                  f"from peak to peak. The study shows ±{order['claimed_ripple']:.0f} %.")
+                  f"from peak to peak. The study shows ±{request['claimed_ripple']:.0f} %.")
     style.save(figure, folder / "speeds.png")
 
 
@@ -51,8 +51,8 @@ def start_of_speeds(axes, expected, run):
     axes.legend(loc="lower right")
 
 
-def speeds_in_turn(axes, order, run):
-    expected, end = order["turning"], order["duration"]
+def speeds_in_turn(axes, request, run):
+    expected, end = request["turning"], request["duration"]
     record = run["record"][(run["record"]["time"] > SETTLED) & (run["record"]["time"] <= end + 1e-9)]
     for name, color in [("left", BLUE), ("carrier", GREY), ("right", RED)]:
         axes.plot(record["time"], np.degrees(record[f"{name}.speed"]), color=color, label=name)
@@ -67,32 +67,32 @@ def speeds_in_turn(axes, order, run):
     axes.legend(loc="upper left", ncols=3)
 
 
-def ripple_in_turn(axes, order, run):
-    record, expected = run["record"], order["turning"]
-    record = record[(record["time"] > 0.02) & (record["time"] <= order["duration"])]
+def ripple_in_turn(axes, request, run):
+    record, expected = run["record"], request["turning"]
+    record = record[(record["time"] > 0.02) & (record["time"] <= request["duration"])]
     for side, color, theory in zip(["left", "right"], [BLUE, RED], expected["side_speeds"]):
         axes.plot(record["time"], 100.0 * (np.degrees(record[f"{side}.speed"]) / theory - 1.0), color=color, label=side)
     axes.axhline(0.0, label="theory", **THEORY)
     axes.set(title="Turn: ripple of the speeds about theory", xlabel="time, s", ylabel="deviation, %",
-             xlim=(0, order["duration"]), ylim=(-1.2, 1.1))
+             xlim=(0, request["duration"]), ylim=(-1.2, 1.1))
     axes.legend(loc="upper right", ncols=3)
     period(axes, 0.15, expected["mesh_frequency"], -1.0)
 
 
-def tooth_forces(folder, order, runs):
+def tooth_forces(folder, request, runs):
     figure = style.figure(7.8)
     grid = figure.add_gridspec(2, 2, width_ratios=[1, 1.35], height_ratios=[1.6, 1])
-    straight, turning = order["straight"], order["turning"]
+    straight, turning = request["straight"], request["turning"]
     strike(figure.add_subplot(grid[:, 0]), straight, runs["straight"])
     record = runs["turning"]["record"]
-    record = record[(record["time"] > SETTLED) & (record["time"] <= order["duration"])]
+    record = record[(record["time"] > SETTLED) & (record["time"] <= request["duration"])]
     upper = figure.add_subplot(grid[0, 1])
     mesh_forces(upper, turning, record)
-    pairs(figure.add_subplot(grid[1, 1], sharex=upper), turning, record, order["duration"])
+    pairs(figure.add_subplot(grid[1, 1], sharex=upper), turning, record, request["duration"])
     peak = runs["straight"]["results"]["peak_tangential_force"] / straight["tangential_force"]
     swing = 1e6 * np.ptp(record["left.tangential_force"]) / turning["tangential_force"]
     settled = runs["straight"]["record"]
-    settled = settled[(settled["time"] > 0.01) & (settled["time"] <= order["duration"])]["left.tangential_force"]
+    settled = settled[(settled["time"] > 0.01) & (settled["time"] <= request["duration"])]["left.tangential_force"]
     still = 1e6 * np.max(np.abs(settled / straight["tangential_force"] - 1.0))
     style.caption(figure, f"Left: started in the middle of the play, the teeth strike once with {peak:.1f} times the static "
                   "force and settle within a fraction of a millisecond; an output every millisecond, as in the study, cannot "
@@ -140,12 +140,12 @@ def pairs(axes, expected, record, duration):
     period(axes, 0.1273, expected["mesh_frequency"], 0.62, 0.3)
 
 
-def force_spectrum(folder, order, runs):
+def force_spectrum(folder, request, runs):
     figure, (upper, lower) = style.panels(2, 1, 9.0, height_ratios=[1, 1.5])
-    turning = order["turning"]
-    mesh, claim = turning["mesh_frequency"], order["claimed_frequency"]
+    turning = request["turning"]
+    mesh, claim = turning["mesh_frequency"], request["claimed_frequency"]
     spin = turning["start_values"]["planet.spin_command"][0]
-    forces_in_time(upper, order, runs)
+    forces_in_time(upper, request, runs)
     spectrum, still = runs["turning"]["spectrum"], runs["straight"]["spectrum"]
     mean = spectrum["left.normal_force"][0]
     lines_of_force(lower, spectrum, mean * SPECTRUM_FLOOR)
@@ -157,14 +157,14 @@ def force_spectrum(folder, order, runs):
     lower.text(claim + 0.8, high * 0.55, f"the study's {claim:.1f} Hz,\nnot a multiple", color=OCHRE, va="top")
     lower.legend(loc="upper center", bbox_to_anchor=(0.38, 1.0), ncols=3)
     lower.set(title=f"Turn: spectrum of these forces, lines at multiples of the mesh frequency {mesh:.3f} Hz")
-    window, teeth = order["spectrum_window"], order["planet_teeth"]
+    window, teeth = request["spectrum_window"], request["planet_teeth"]
     largest = np.max(still["left.normal_force"][1:])
     style.caption(figure, f"Forces on the left side gear. A planet with {teeth} teeth that spins at {spin:.0f} deg/s meshes "
                   f"{teeth} · {spin:.0f}/360 = {mesh:.3f} times a second, and every line of the turn is a multiple of that. "
                   "Straight ahead planets and side gears turn as one body: no meshing and no line at any frequency "
                   f"(largest amplitude {largest:.0e} N), also not at the study's {claim:.1f} Hz, which is ten times the "
-                  f"carrier's rotation. Spectrum of the last {window:.1f} s of {order['record']:.1f} s, sampled every "
-                  f"{1e3 * order['interval']:.0f} ms: {window * mesh:.0f} whole mesh periods, so that a rectangular window does "
+                  f"carrier's rotation. Spectrum of the last {window:.1f} s of {request['record']:.1f} s, sampled every "
+                  f"{1e3 * request['interval']:.0f} ms: {window * mesh:.0f} whole mesh periods, so that a rectangular window does "
                   "not spread the lines.")
     style.save(figure, folder / "force_spectrum.png")
 
@@ -172,10 +172,10 @@ def force_spectrum(folder, order, runs):
 FORCES = [("left.thrust_force", PALE_BLUE, "thrust"), ("left.normal_force", BLUE, "normal force")]
 
 
-def forces_in_time(axes, order, runs):
+def forces_in_time(axes, request, runs):
     """What the spectrum is of: three teeth of the turn, and the same force straight ahead."""
-    end = 3.0 / order["turning"]["mesh_frequency"]
-    begin = order["record"] - end
+    end = 3.0 / request["turning"]["mesh_frequency"]
+    begin = request["record"] - end
     for case in ["turning", "straight"]:
         record = runs[case]["record"][runs[case]["record"]["time"] >= begin]
         time = 1e3 * (record["time"] - begin)
