@@ -1,5 +1,6 @@
 //! A row: what a variable is named, what it may be, and `A`, the way to its value. How rows are written: first the name and what
-//! it is, then conditions, at last what kind of variable it is and the way to its value.
+//! it is, then conditions, at last what kind of variable it is and the way to its value. Each is a call: rows are made once, and
+//! inlined they are tens of kilobytes.
 
 use super::access::keep;
 use super::{DisplayUnit, Parameter, Shown, Unit};

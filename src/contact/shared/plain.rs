@@ -128,7 +128,7 @@ struct Shares<'a, P> {
     along: &'a [f64],
 }
 
-/// What is a pair's of it.
+/// What a pair has of it.
 struct Share<'a, P> {
     near: &'a Near<P>,
     /// Arc by which its flanks approach [rad].
@@ -286,7 +286,8 @@ impl SharedMeshes<'_> {
         }
         let gradients = Gradients::new((couplings, curvatures), own, &along, arc, &changes);
         let mut sum = SharedForce::default();
-        for (k, near) in (0..K).filter_map(|k| Some((k, sharing.near[k].as_ref().filter(|_| own.arc[k] > 0.0)?))) {
+        for k in 0..K {
+            let (Some(near), true) = (&sharing.near[k], own.arc[k] > 0.0) else { continue };
             let (pair, side) = (&near.pair, near.pair_place.side);
             let state = &states[side];
             let rate = self.rate(pair, state);
