@@ -62,9 +62,9 @@ def main():
                 ["all instructions", *(f"{total:.1f}" for total in totals)]]
         print(f"{markdown(rows)}\nsame bits, no more work")
         return
-    print(f"{markdown(rows)}\nInstructions per communication step of 1 ms in the study's turn: {totals[1]:.0f} with all effects off, "
-          f"{totals[0]:.0f} in a build without any. Results have the same bits. An effect that is off adds no floating-point "
-          "operation, branch or call. One that is on also takes more steps where it brings faster motion.")
+    print(f"{markdown(rows)}\nInstructions per communication step of 1 ms in the study's turn: {totals[1]:.0f} with all off, {totals[0]:.0f} in "
+          "a build without any, with the same bits. An effect that is off adds no floating-point operation, branch or call. One that is on "
+          "takes more steps where it brings faster motion.")
 
 
 if __name__ == "__main__":
