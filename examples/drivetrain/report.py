@@ -84,6 +84,6 @@ def quantities(found):
 def mesh(found, limits):
     fastest = found["fastest"]
     return (f"If the mesh were cut open: teeth under {found['load']:.0f} N·m have {found['swing']:.2g} rad/s undamped, and "
-           
-            f"{fastest:.2g} 1/s as fastest pole. No step\nabove 2/{fastest:.2g} s = {2e6 / fastest:.1f} µs would do, where the cut at the half-shafts allows "
+            f"{fastest:.2g} 1/s as fastest pole. No step\nabove 2/{fastest:.2g} s = {2e6 / fastest:.1f} µs would do, where the cut at the "
+            "half-shafts allows "
             f"{limits['jacobi']['predicted'] * 1e6:.0f} µs.\n")

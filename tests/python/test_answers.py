@@ -79,8 +79,8 @@ def test_threads_get_answers_of_their_own():
         text = ask({"ask": "geometry", "set": [f"geometry.module={size} mm"], "facets": 4})["files"]["dimensions.txt"]
         return f"geometry.module = {size} mm" in text
 
-    with ThreadPoolExecutor(4) as pool:
-        assert all(pool.map(module, (3, 3.5, 4, 5)))
+    with ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(module, (3, 3.5, 4, 5, 5.5, 6, 6.5, 7)))
 
 
 def test_figures_are_those_of_closed_forms():

@@ -27,9 +27,9 @@ def stepping(folder, effects, name):
     # as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
     settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
-    printed = completed([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
-                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json", "--target-dir", folder],
-                   "cargo did not start", settings, cwd=WORKSPACE).stdout
+    printed = completed([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench",
+                         "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json",
+                         "--target-dir", folder], "cargo did not start", settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
              if message.get("executable") and message["target"]["name"] == "steps"]
     if not built:
@@ -135,7 +135,7 @@ def kind_of(mnemonic):
 def mnemonics(program):
     """Name of the instruction at each address of a program."""
     listing = completed(["objdump", "--disassemble", "--no-show-raw-insn", program],
-                   "objdump names the instructions: install it (apt-get install binutils)").stdout
+                        "objdump names the instructions: install it (apt-get install binutils)").stdout
     return dict(filter(None, map(disassembled, listing.splitlines())))
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from bevel_differential import Fmu
 from bevel_differential.scene_file import flat
 from calls import write_start
-from counting import NARROW, callgrind, counts, completed
+from counting import NARROW, callgrind, completed, counts
 from tools import WORKSPACE, say
 
 # where the packer puts the unit
@@ -61,7 +61,7 @@ def compiled(folder):
         say(place / len(files) / 2, f"compiling {file.name}")
         objects.append(folder / f"{file.stem}.o")
         completed(["gcc", "-O2", f"-I{headers}", f"-I{folder / 'sources'}", "-c", file, "-o", objects[-1]],
-             "gcc compiles the sources: install it (apt-get install gcc)")
+                  "gcc compiles the sources: install it (apt-get install gcc)")
     completed(["gcc", *objects, "-o", folder / "loop", "-lm", "-lpthread"], "gcc")
     return folder / "loop", Fmu(folder)
 

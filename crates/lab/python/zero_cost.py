@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from bevel_differential.text import markdown
-from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, executed, instructions, completed, stepping
+from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, completed, executed, instructions, stepping
 from tools import say
 
 SCENES = ("straight", "turn")

@@ -118,8 +118,7 @@ fn columns(found: &[PatternFindings], count: usize) -> Table {
 /// The table for the document.
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
-        "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure
-         \
+        "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure \
          at the sample nearest to its pitch point; peak: the greatest pressure at or above the pitch line over the \
          engagement.\n",
         columns(found, IN_DOCUMENT).markdown()
