@@ -1,7 +1,8 @@
 //! Methods of variable steps, chosen at run time: where equations are large, the loop of steps is compiled once for all of them.
 
 use super::{
-    DormandPrince, ErrorNorm, Linearisation, Method, Point, Radau, Rodas4, Rodas5P, SecondOrder, Statistics, Trial,
+    DormandPrince, ErrorNorm, Extension, Linearisation, Method, Point, Radau, Rodas4, Rodas5P, SecondOrder, Statistics,
+    Trial,
 };
 
 /// A method of variable steps.
@@ -38,13 +39,13 @@ impl Method for AnyMethod {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        to: (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
         match self {
-            Self::Rodas5P => Rodas5P.step(system, start, lin, h, norm, counts),
-            Self::Radau => Radau.step(system, start, lin, h, norm, counts),
-            Self::Rodas4 => Rodas4.step(system, start, lin, h, norm, counts),
-            Self::DormandPrince => DormandPrince.step(system, start, lin, h, norm, counts),
+            Self::Rodas5P => Rodas5P.step(system, start, lin, h, norm, to),
+            Self::Radau => Radau.step(system, start, lin, h, norm, to),
+            Self::Rodas4 => Rodas4.step(system, start, lin, h, norm, to),
+            Self::DormandPrince => DormandPrince.step(system, start, lin, h, norm, to),
         }
     }
 }

@@ -27,6 +27,9 @@ pub struct Extension<const N: usize> {
 }
 
 impl<const N: usize> Extension<N> {
+    /// No motion.
+    pub const NONE: Self = Self { start: Point::ZERO, end: Point::ZERO, coefficients: [Point::ZERO; 3] };
+
     /// The motion after a fraction of the step.
     #[inline]
     pub fn at(&self, fraction: f64) -> Point<N> {
@@ -77,11 +80,9 @@ pub struct Attempt {
 
 /// A step of small enough error that is not completed yet.
 #[derive(Clone, Copy, Debug)]
-pub struct Pending<const N: usize, P> {
+pub struct Pending<P> {
     /// How it came about.
     pub attempt: Attempt,
-    /// The motion in the step.
-    pub extension: Extension<N>,
     /// Ledger rates at its begin and halfway.
     pub ledger_rates: [P; 2],
     /// Kinetic and stored energy at its begin.
@@ -98,7 +99,9 @@ pub struct Course<const N: usize, P> {
     /// Its time [s].
     pub time: f64,
     /// The step from there on.
-    pub pending: Option<Pending<N, P>>,
+    pub pending: Option<Pending<P>>,
+    /// The motion in it; without a pending step, room for that of the next one.
+    pub extension: Extension<N>,
     /// Time at which these equations end, because they change [s]: no step is completed beyond it.
     pub end: f64,
     /// Time at which they are expected to end [s]: steps are fitted to it, but may go beyond.
@@ -113,7 +116,8 @@ impl<const N: usize, P> Course<N, P> {
     /// From `point` at `time` to `end` [s].
     pub fn new(point: Point<N>, time: f64, end: f64) -> Self {
         let resolution = 4.0 * f64::EPSILON * end.abs().max(time.abs()).max(1e-9);
-        Self { point, time, pending: None, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
+        let (pending, extension) = (None, Extension::NONE);
+        Self { point, time, pending, extension, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
     }
 
     /// Ends the equations at `end` [s]. A pending step is taken up to there, or dropped if that leaves nothing of it.

@@ -64,7 +64,7 @@ impl Method for DormandPrince {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        (counts, extension): (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
         let mut end = *start;
@@ -88,8 +88,9 @@ impl Method for DormandPrince {
         combine(&mut coefficients[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
         combine(&mut coefficients[2], &[-1.0], 1.0, &[quartic]);
         let size = norm.judge(&error, &end);
-        let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
-        Some(trial.looked_into(system, (time, h), norm, counts, |defect| {
+        *extension = Extension { start: *start, end, coefficients };
+        let trial = Trial { error, size, halfway: None };
+        Some(trial.looked_into(system, (extension, time, h), norm, counts, |defect| {
             let rates = std::mem::replace(defect, Point::ZERO);
             combine(defect, &[DURATION], h, &[rates]);
         }))

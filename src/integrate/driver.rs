@@ -5,7 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Attempt, Course, ErrorNorm, Linearisation, Method, Pending, Point, SecondOrder, Statistics, Trial};
+use super::{
+    Attempt, Course, ErrorNorm, Extension, Linearisation, Method, Pending, Point, SecondOrder, Statistics, Trial,
+};
 
 /// State of the step-size controller between calls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -121,7 +123,8 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
 }
 
 /// Integrates until the pending step of `course` contains `until` [s] or the equations end there, calling `observe` after
-/// each completed step with what it was while pending; it may end the integration early.
+/// each completed step with the motion that it was while pending, and the part of it that was taken; it may end the integration
+/// early.
 ///
 /// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
 /// completed, and thus leaves no trace.
@@ -132,7 +135,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     course: &mut Course<N, S::Rates>,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Rates>, &Pending<N, S::Rates>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Rates>, (&Extension<N>, f64)) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let SolverContext { tolerance, control, statistics, budget } = context;
     let resolution = course.resolution;
@@ -158,12 +161,12 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if done {
                 reached = course.end;
             }
-            let end = pending.extension.at(pending.part);
+            let end = course.extension.at(pending.part);
             let halfway = if pending.part == 1.0 {
                 pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;
-                system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
+                system.evaluate_at(&course.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
             begin = (!done).then(|| linearise(method, system, (&end, reached), &mut lin, Some(statistics)));
             let (last, energy) = match begin {
@@ -187,7 +190,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
             let step = Step { h, time: reached, start: &start, end: &end, ledger_rates };
-            let flow = observe(step, pending);
+            let flow = observe(step, (&course.extension, pending.part));
             course.pending = None;
             let flow = flow.map_err(Failure::Refused)?;
             if done || flow == AfterStep::Stop {
@@ -210,10 +213,11 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             (h, cut, to_kink) = (h * fraction, true, true);
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
-        let trial = method.step(system, (point, course.time), &lin, h, &norm, statistics);
+        let to = (&mut *statistics, &mut course.extension);
+        let trial = method.step(system, (point, course.time), &lin, h, &norm, to);
         let mut error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
-        if let Some(Trial { extension, halfway: Some(halfway), .. }) = trial {
-            let ends = ((point, course.time), (&extension.end, course.time + h));
+        if let Some(Trial { halfway: Some(halfway), .. }) = trial {
+            let ends = ((point, course.time), (&course.extension.end, course.time + h));
             if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
                 statistics.rejected_switch += 1;
                 cuts += 1;
@@ -227,7 +231,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
-                course.pending = Some(Pending { attempt, extension, ledger_rates, energy, part: 1.0 });
+                course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0 });
                 continue;
             }
         }

@@ -6,8 +6,6 @@ use crate::numeric::lanes;
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<const N: usize, P> {
-    /// The motion from the begin of the step to its end.
-    pub extension: Extension<N>,
     /// Estimate of the local error of its end.
     pub error: Point<N>,
     /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`].
@@ -30,14 +28,14 @@ pub struct Halfway<P> {
 const BETWEEN: f64 = 2.0;
 
 impl<const N: usize, P: Copy> Trial<N, P> {
-    /// The trial with a look at its middle, unless its end is in error already. Halfway in a step of size `h` from `time`
-    /// the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
+    /// The trial with a look at the middle of its motion, unless its end is in error already. Halfway in a step of size `h` from
+    /// `time` the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
     /// part of h.
     #[inline]
     pub fn looked_into<S: SecondOrder<N, Rates = P> + ?Sized>(
         self,
         system: &S,
-        (time, h): (f64, f64),
+        (extension, time, h): (&Extension<N>, f64, f64),
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
         solve: impl FnOnce(&mut Point<N>),
@@ -46,9 +44,9 @@ impl<const N: usize, P: Copy> Trial<N, P> {
             return self;
         }
         counts.evaluations += 1;
-        let middle = self.extension.at(0.5);
+        let middle = extension.at(0.5);
         let (acceleration, ledger_rates) = system.evaluate_at(&middle, time + 0.5 * h);
-        let mut error = self.extension.defect(&Point { q: system.rates(&middle.v), v: acceleration }, h);
+        let mut error = extension.defect(&Point { q: system.rates(&middle.v), v: acceleration }, h);
         solve(&mut error);
         let size = BETWEEN * norm.judge(&error, &middle);
         Self { halfway: Some(Halfway { size, ledger_rates }), ..self }
@@ -102,7 +100,8 @@ pub trait Method {
     }
 
     /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it fails (a singular
-    /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
+    /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations, and writes the
+    /// motion in the step, of several hundred bytes, to where it stays.
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
@@ -110,7 +109,7 @@ pub trait Method {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        to: (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>>;
 
     /// x^(1/(p+1)), to a per mille, which suffices for a step size.

@@ -67,7 +67,7 @@ impl Method for Radau {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        (counts, extension): (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
         let per_h = 1.0 / h;
         let shape = Shape::of(system);
@@ -148,8 +148,10 @@ impl Method for Radau {
         }
         let end = shifted(start, &z[2]);
         let size = norm.judge(&error, &end);
-        let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
-        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve((system, shape), defect)))
+        *extension = Extension { start: *start, end, coefficients };
+        let trial = Trial { error, size, halfway: None };
+        let solve = |defect: &mut Point<N>| real.solve((system, shape), defect);
+        Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
     }
 }
 

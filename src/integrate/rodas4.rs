@@ -5,7 +5,7 @@
 //! difference to the embedded solution. Smooth stiff forcing (Prothero–Robinson) lowers its order, which Rodas5P avoids.
 
 use super::rosenbrock::{self, Tableau};
-use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
+use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct Rodas4;
@@ -24,9 +24,9 @@ impl Method for Rodas4 {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        to: (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
-        rosenbrock::step(&RODAS4, system, (start, time), lin, h, norm, counts)
+        rosenbrock::step(&RODAS4, system, (start, time), (lin, h), norm, to)
     }
 }
 

@@ -5,7 +5,7 @@
 //! (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle, its error stays O(h⁴).
 
 use super::rosenbrock::{self, Tableau};
-use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
+use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct Rodas5P;
@@ -24,9 +24,9 @@ impl Method for Rodas5P {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        counts: &mut Statistics,
+        to: (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
-        rosenbrock::step(&RODAS5P, system, (start, time), lin, h, norm, counts)
+        rosenbrock::step(&RODAS5P, system, (start, time), (lin, h), norm, to)
     }
 }
 

@@ -51,10 +51,9 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
     tableau: &Tableau<S>,
     system: &E,
     (start, time): (&Point<N>, f64),
-    lin: &Linearisation<N, E::Rates>,
-    h: f64,
+    (lin, h): (&Linearisation<N, E::Rates>, f64),
     norm: &ErrorNorm<N>,
-    counts: &mut Statistics,
+    (counts, extension): (&mut Statistics, &mut Extension<N>),
 ) -> Option<Trial<N, E::Rates>> {
     let shape = Shape::of(system);
     let mut block = Block::EMPTY;
@@ -90,16 +89,20 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
         u[stage] = r;
     }
     let error = u[S - 1];
-    let (mut end, mut coefficients) = (y, [Point::ZERO; 3]);
+    let mut end = y;
     combine(&mut end, &[1.0], 1.0, &[error]);
     let size = norm.judge(&error, &end);
+    (extension.start, extension.end) = (*start, end);
     if size <= 1.0 {
-        for (coefficient, weights) in coefficients.iter_mut().zip(tableau.extension) {
-            combine(coefficient, weights, 1.0, &u);
+        for (k, coefficient) in extension.coefficients.iter_mut().enumerate() {
+            *coefficient = Point::ZERO;
+            if let Some(weights) = tableau.extension.get(k) {
+                combine(coefficient, weights, 1.0, &u);
+            }
         }
     }
-    let trial = Trial { extension: Extension { start: *start, end, coefficients }, error, size, halfway: None };
+    let trial = Trial { error, size, halfway: None };
     counts.evaluations += tableau.c.len() as u64;
     let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
-    Some(trial.looked_into(system, (time, h), norm, counts, solve))
+    Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
 }

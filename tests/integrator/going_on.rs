@@ -1,7 +1,7 @@
 //! Steps go on beyond the times that are asked for, and do not depend on them.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, Course, Pending, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
+    AfterStep, Control, Course, Extension, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
 };
 
 use super::methods::{Known, with_every_method, with_methods};
@@ -39,14 +39,14 @@ fn run_of<M: Known, S: SecondOrder<2>>(system: &S, start: Point<2>, times: &[f64
         let mut budget = 10_000;
         let context =
             SolverContext { tolerance: TOLERANCE, control: &mut control, statistics: counts, budget: &mut budget };
-        let observe = |step: Step<2, S::Rates>, _: &Pending<2, S::Rates>| {
+        let observe = |step: Step<2, S::Rates>, _: (&Extension<2>, f64)| {
             assert!(step.time < time, "nothing beyond {time} is completed");
             steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
             Ok::<_, ()>(AfterStep::Continue)
         };
         proceed(&M::METHOD, system, &mut course, time, context, observe).unwrap();
         let pending = course.pending.as_ref().unwrap();
-        let at = pending.extension.at((time - course.time) / pending.attempt.h);
+        let at = course.extension.at((time - course.time) / pending.attempt.h);
         seen.shown.push((time, at));
     }
     seen
@@ -108,7 +108,7 @@ fn a_step_is_completed_up_to_where_the_equations_end<M: Known>() {
         };
         go_to(&mut course);
         let pending = course.pending.as_ref().unwrap();
-        let shown = pending.extension.at((time - course.time) / pending.attempt.h);
+        let shown = course.extension.at((time - course.time) / pending.attempt.h);
         course.end_at(time);
         go_to(&mut course);
         assert!(course.pending.is_none());

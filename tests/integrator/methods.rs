@@ -1,8 +1,8 @@
 //! Every method with its theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, DormandPrince, ErrorNorm, Failure, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
-    SecondOrder, SolverContext, Statistics, Trial, advance,
+    AfterStep, Control, DormandPrince, ErrorNorm, Extension, Failure, Linearisation, Method, Point, Radau, Rodas4,
+    Rodas5P, SecondOrder, SolverContext, Statistics, advance,
 };
 
 /// Theoretical properties of a method.
@@ -82,17 +82,19 @@ macro_rules! with_every_method {
 }
 pub(crate) use with_every_method;
 
+/// A step: the motion in it, and the estimate of the error of its end.
+pub struct Tried<const N: usize> {
+    pub extension: Extension<N>,
+    pub error: Point<N>,
+}
+
 /// One step of size `h`. A method that needs no derivatives gets unusable ones.
-pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N, S::Rates> {
+pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Tried<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
 
 /// The same of a driven system from a time on.
-pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
-    s: &S,
-    (at, time): (&Point<N>, f64),
-    h: f64,
-) -> Trial<N, S::Rates> {
+pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time): (&Point<N>, f64), h: f64) -> Tried<N> {
     let lin = if M::METHOD.is_implicit() {
         s.linearise_at(at, time)
     } else {
@@ -100,7 +102,10 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], ledger_rates }
     };
     let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
-    M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()
+    let mut extension = Extension::NONE;
+    let to = (&mut Statistics::default(), &mut extension);
+    let error = M::METHOD.step(s, (at, time), &lin, h, &norm, to).unwrap().error;
+    Tried { extension, error }
 }
 
 /// `count` equal steps over `length`.

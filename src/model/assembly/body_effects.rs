@@ -31,7 +31,7 @@ impl BodyEffects {
         let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
         Self {
             has_brakes: friction.iter().any(|source| source.wheel.is_some()),
-            has_effects: p.effects.warm_up || !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
+            has_effects: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
             friction,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),

@@ -92,9 +92,13 @@ impl Model {
         let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
         warnings.extend(advice::warnings(parameters));
-        let body_effects = BodyEffects::new(parameters, &effects, &plan);
+        let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
-            GearContact::Ideal => Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects))),
+            GearContact::Ideal => {
+                // a formula has no steps that could be recorded
+                body_effects.has_effects |= parameters.effects.warm_up;
+                Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
+            }
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
                 let laws = Laws::new(parameters, &pair, &tooth, cache).map_err(|p| vec![p])?;
                 Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, body_effects), cache)))
@@ -196,7 +200,7 @@ fn teeth(
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
-    body_effects.has_effects |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
+    body_effects.has_effects |= in_detail || laws.bodies.is_some();
     let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
@@ -204,6 +208,7 @@ fn teeth(
     let effect_terms = EffectTerms {
         detailed,
         in_detail,
+        is_watched: BUILT && (p.effects.warm_up || p.effects.strength || p.effects.mesh_history),
         friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),

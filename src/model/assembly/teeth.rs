@@ -33,6 +33,8 @@ pub struct Teeth {
     pub base_pitch: f64,
     /// Largest approach of flanks: the working depth or half the base pitch, whichever is smaller [rad].
     pub deflection_limit: f64,
+    /// Whether completed steps have more to record than work and heat of contact.
+    pub records_more: bool,
     /// Elastic gear bodies that couple the tooth pairs; `None` where bodies are rigid.
     pub shared: Option<Arc<PairCouplings>>,
     /// Constants of the effects; boxed, so that the layout of `Teeth` is the same in every build.
@@ -45,6 +47,7 @@ impl Teeth {
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
         let is_plain = !self.effect_terms.body_effects.has_effects
+            && !self.effect_terms.is_watched
             && self.layout.plain() == Some(false)
             && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
@@ -78,6 +81,7 @@ impl Teeth {
             }
         }
         Self {
+            records_more: !mesh.engagement.corner_contact() || effect_terms.is_watched,
             mesh,
             plan,
             layout,
@@ -100,6 +104,8 @@ pub struct EffectTerms {
     pub detailed: Detailed,
     /// Whether an effect needs the mesh in detail even while no tooth is broken.
     pub in_detail: bool,
+    /// Whether steps feed temperatures, damage or histories, which act on no force themselves.
+    pub is_watched: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat_index: usize,
     /// Gaps of the tooth pairs before and after a tooth breaks.

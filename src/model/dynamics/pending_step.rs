@@ -26,9 +26,14 @@ pub struct PendingStep {
 }
 
 impl PendingStep {
-    /// Stores the step `pending`.
-    pub fn set<const N: usize>(&mut self, pending: &Pending<N, LedgerRates>, clock: Clock, inputs: &Inputs) {
-        let Extension { start, end, coefficients } = &pending.extension;
+    /// Stores the step `pending` with its motion.
+    pub fn set<const N: usize>(
+        &mut self,
+        (pending, extension): (&Pending<LedgerRates>, &Extension<N>),
+        clock: Clock,
+        inputs: &Inputs,
+    ) {
+        let Extension { start, end, coefficients } = extension;
         (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
         (self.ledger_rates, self.energy) = (pending.ledger_rates, pending.energy);
         store(start, &mut self.start);
@@ -41,10 +46,10 @@ impl PendingStep {
     /// Restores the point and the pending step of `course`; its times are left as they are.
     pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
-        let extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
+        course.extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
         let (attempt, ledger_rates, energy) = (self.attempt, self.ledger_rates, self.energy);
         course.point = start;
-        course.pending = Some(Pending { attempt, extension, ledger_rates, energy, part: 1.0 });
+        course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0 });
     }
 
     /// Gives degree of freedom `i` the motion of `first`.

@@ -1,11 +1,11 @@
 //! A step that is over, and the motion in it.
 
-use crate::integrate::{Extension, Pending, Point, SecondOrder, Step};
+use crate::integrate::{Extension, Point, SecondOrder, Step};
 use crate::model::dynamics::LARGEST;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
-/// A completed step, and the same while it was pending.
-pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<&'a Pending<N, LedgerRates>>);
+/// A completed step, the motion that it was while pending, and the part of it that was taken.
+pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<(&'a Extension<N>, f64)>);
 
 /// The motion in a completed step, for equations of any size.
 pub struct Passed {
@@ -21,17 +21,18 @@ pub struct Passed {
 
 impl Passed {
     /// The step `completed`, whose times count from `begin` [s].
-    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, pending): CompletedStep<N>, begin: f64) -> Self {
-        let (extension, part) = match pending {
-            Some(pending) => (pending.extension, pending.part),
-            None => (cubic(equations, step), 1.0),
+    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
+        let without;
+        let (Extension { start, end, coefficients }, part) = match motion {
+            Some(motion) => motion,
+            None => {
+                without = cubic(equations, step);
+                (&without, 1.0)
+            }
         };
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
-        let extension = Extension {
-            start: largest(&extension.start),
-            end: largest(&extension.end),
-            coefficients: extension.coefficients.each_ref().map(largest),
-        };
+        let coefficients = coefficients.each_ref().map(largest);
+        let extension = Extension { start: largest(start), end: largest(end), coefficients };
         Self { h: step.h, begin: begin + step.time - step.h, extension, part }
     }
 }

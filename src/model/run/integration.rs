@@ -6,7 +6,7 @@ use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, hints};
 use crate::contact::Law;
 use crate::integrate::{
-    self, AfterStep, AnyMethod, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
+    self, AfterStep, AnyMethod, Course, Extension, Failure, Rodas5P, SecondOrder, SolverContext, Step,
 };
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
@@ -53,7 +53,8 @@ pub fn budget(model: &Model) -> u64 {
             ((in_detail + on_bodies) * teeth.layout.groups).max(1)
         }
     };
-    let effects = if teeth.effect_terms.body_effects.has_effects { EFFECTS } else { 0 };
+    let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
+    let effects = if has_effects { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries
     let freedoms = teeth.layout.count();
     let steps = match model.parameters.solver.method {
@@ -192,11 +193,11 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         switched = false;
         let State { control, statistics, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
-        let mut observe = |step: Step<N, LedgerRates>, pending: Option<&Pending<N, LedgerRates>>| {
+        let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
             if !is_shown {
                 equations.check_deflection(step.end)?;
             }
-            equations.record(model, (&step, pending), &mut sums);
+            equations.record(model, (&step, motion), &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
@@ -213,8 +214,8 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
             other if FULL && ANY_METHOD && N > EXACT => {
                 by_any_method(&named(other), system, &mut course, clock.now, context, &mut observe)
             }
-            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
-                observe(step, Some(pending))
+            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, motion| {
+                observe(step, Some(motion))
             }),
         };
         equations.acting_mut().anchor(&anchors);
@@ -240,6 +241,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
     clock.time = course.time;
     match &course.pending {
         Some(pending) if outcome.is_ok() => {
+            let pending = (pending, &course.extension);
             state.pending_step.get_or_insert_default().set(pending, *clock, inputs);
         }
         _ => state.pending_step = None,
@@ -257,9 +259,9 @@ fn named(method: Method) -> AnyMethod {
     }
 }
 
-/// What looks at completed steps, each with what it was while pending.
+/// What looks at completed steps, each with the motion that it was while pending and the part of it that was taken.
 type Observer<'a, const N: usize> =
-    &'a mut dyn FnMut(Step<N, LedgerRates>, Option<&Pending<N, LedgerRates>>) -> Result<AfterStep, ExcessiveDeflection>;
+    &'a mut dyn FnMut(Step<N, LedgerRates>, Option<(&Extension<N>, f64)>) -> Result<AfterStep, ExcessiveDeflection>;
 
 /// Integrates by a method of variable steps.
 #[inline(never)]
@@ -271,7 +273,7 @@ fn by_any_method<const N: usize>(
     context: SolverContext,
     observe: Observer<N>,
 ) -> Result<(), Failure<ExcessiveDeflection>> {
-    integrate::proceed(method, system, course, until, context, |step, pending| observe(step, Some(pending)))
+    integrate::proceed(method, system, course, until, context, |step, motion| observe(step, Some(motion)))
 }
 
 fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> StepFailure {

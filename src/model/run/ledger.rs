@@ -10,6 +10,7 @@ use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::torque_means::TorqueMeans;
 use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, Watched};
+use crate::model::effect_kinds::BUILT;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
@@ -35,7 +36,7 @@ pub struct LedgerSums<'a> {
 pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
     /// Fails if the deflection of a tooth exceeds the limit; the error names mesh and deflection.
     fn check_deflection(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
-    /// Records a completed step. It comes with the pending step that it was before; fixed steps and steps of a host's solver are
+    /// Records a completed step. It comes with the motion that it was while pending; fixed steps and steps of a host's solver are
     /// never pending.
     fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
 }
@@ -53,22 +54,15 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
     }
 
     #[inline]
-    fn record(&self, model: &Model, (step, pending): CompletedStep<N>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
         add_to_ledger(step, sums.work, sums.heat, WITH_EFFECTS);
-        if !self.teeth.mesh.engagement.corner_contact() {
-            sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
-        }
-        if WITH_EFFECTS {
-            warm_up(model, &self.acting, step, sums);
+        if self.teeth.records_more {
+            self.record_more(model, (step, motion), sums);
         }
         if WITH_EFFECTS && self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             Cycle { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
-        }
-        if let (true, Some(watch)) = (WITH_EFFECTS, &model.watch) {
-            let passed = Passed::new(self, (step, pending), sums.begin);
-            watch_step(&self.largest(), (model, watch), &passed, sums.watched);
         }
     }
 }
@@ -98,6 +92,22 @@ impl LedgerEquations<MOST> for IdealEquations<'_> {
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
+    /// Records what few scenes ask for: jumps of elastic energy, temperatures, damage, histories. Nothing of it acts on a force, so
+    /// that plain equations serve scenes with these effects alone.
+    #[inline(never)]
+    fn record_more(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
+        if !self.teeth.mesh.engagement.corner_contact() {
+            sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
+        }
+        if BUILT {
+            warm_up(model, &self.acting, step, sums);
+        }
+        if let (true, Some(watch)) = (BUILT, &model.watch) {
+            let passed = Passed::new(self, (step, motion), sums.begin);
+            watch_step(&self.largest(), (model, watch), &passed, sums.watched);
+        }
+    }
+
     /// Elastic energy that deflected pairs gain or lose in a step where they enter or leave contact abruptly, without corner
     /// contact [J].
     #[inline(never)]
