@@ -3,15 +3,19 @@
 mod ways;
 
 use std::collections::HashMap;
+use std::sync::LazyLock;
 
 use crate::mirror::random::{self, Draw};
 use crate::mirror::scene::Step;
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation};
+use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{Situation, is_felt};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
 use ways::{Test, ways};
+
+/// Gears of starts before: most values do not shape them, and what does is tried against fresh ones in `gear_cache`.
+static GEARS: LazyLock<GearCache> = LazyLock::new(GearCache::default);
 
 /// Parameters and inputs of a scene, and its steps.
 #[derive(Clone)]
@@ -28,9 +32,15 @@ impl Run {
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
 
+    /// The simulation at its start.
+    fn started(&self) -> Result<Simulation, Vec<Problem>> {
+        let given = Given { cache: Some(&GEARS), ..Given::default() };
+        Simulation::start_with(&self.parameters, &self.inputs, 0.0, &given)
+    }
+
     /// Whether it can start.
     fn starts(&self) -> bool {
-        Simulation::start(&self.parameters, &self.inputs, 0.0).is_ok()
+        self.started().is_ok()
     }
 
     /// Bits of all outputs at the start and after each step; a step that fails is the last.
@@ -45,7 +55,7 @@ impl Run {
 
     /// The same, to the first point at which `go_on` says no of all bits so far.
     fn bits_while(&self, go_on: impl Fn(&[u64]) -> bool) -> Result<Vec<u64>, Vec<Problem>> {
-        let mut simulation = Simulation::start(&self.parameters, &self.inputs, 0.0)?;
+        let mut simulation = self.started()?;
         let mut bits = Vec::new();
         let mut read = |simulation: &mut Simulation| {
             bits.extend(table().rows.iter().filter_map(|row| match row.access {
@@ -255,7 +265,7 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     (p.scene.gear_contact, p.contact.law) = (contact, law);
     p.effects.corner_contact |= contact == GearContact::Solid;
     for _ in 0..8 {
-        let Err(problems) = Simulation::start(&run.parameters, &run.inputs, 0.0) else { return };
+        let Err(problems) = run.started() else { return };
         for problem in problems {
             let row = table().rows.iter().find(|row| row.name == problem.variable).unwrap();
             match row.access {
