@@ -129,14 +129,14 @@ def fresh(opened):
 @pytest.fixture(scope="session")
 def shared(opened):
     """The page that most tests use, one after the other."""
-    live = opened("scene=study_straight")
+    live = opened("scene=study_straight", ["covered.js", "sweep.js"])
     yield live
     close(live)
 
 
 @pytest.fixture
 def live(shared):
-    """The page that most tests use, with the straight scene; its picture stands still, and is drawn seldom."""
+    """The page that most tests use, with the straight scene; its picture stands still, and is not drawn."""
     shared.rest()
     shared.go("scene=study_straight")
     yield shared

@@ -1,17 +1,24 @@
+// What keeps a reader from pressing a control: the part that lies over it, null where there is none.
+window.coverOf = (control) => {
+  control.scrollIntoView({ block: "center" });
+  const { left, top, width, height } = control.getBoundingClientRect();
+  for (const [x, y] of [[0.5, 0.5], [0.1, 0.5], [0.9, 0.5], [0.5, 0.15], [0.5, 0.85]]) {
+    const over = document.elementFromPoint(left + x * width, top + y * height);
+    if (over && (over === control || control.contains(over) || over.closest("label")?.contains(control))) continue;
+    return over?.id || over?.parentElement?.id || over?.className || "a part without a name";
+  }
+  return null;
+};
+
+window.isSeen = (part) => part.checkVisibility({ visibilityProperty: true }) && part.getBoundingClientRect().width > 0;
+
 // Which controls a reader cannot press, as something else lies over them, and which boxes over the picture overlap.
 window.covered = () => {
   const found = [];
-  const isSeen = (part) => part.checkVisibility({ visibilityProperty: true }) && part.getBoundingClientRect().width > 0;
   for (const control of document.querySelectorAll("button, input, select, summary")) {
     if (!isSeen(control) || control.closest("#groups, #trace-list")) continue;
-    control.scrollIntoView({ block: "center" });
-    const { left, top, width, height } = control.getBoundingClientRect();
-    for (const [x, y] of [[0.5, 0.5], [0.1, 0.5], [0.9, 0.5], [0.5, 0.15], [0.5, 0.85]]) {
-      const over = document.elementFromPoint(left + x * width, top + y * height);
-      if (over && (over === control || control.contains(over) || over.closest("label")?.contains(control))) continue;
-      found.push(`${control.id || control.textContent} is under ${over?.id || over?.parentElement.id}`);
-      break;
-    }
+    const over = coverOf(control);
+    if (over !== null) found.push(`${control.id || control.textContent} is under ${over}`);
   }
   scrollTo(0, 0);
   const boxes = ["cameras", "figures", "meaning", "flank", "walk", "message"].map((id) => document.getElementById(id)).filter(isSeen);

@@ -1,5 +1,5 @@
 // Runs in the page before its program: notes what the page asks its worker for, and what the worker answers.
-window.ear = { asked: null, answers: {}, gears: [], workers: 0, pictures: 1 };
+window.ear = { asked: null, answers: {}, gears: [], workers: 0 };
 window.Worker = class extends Worker {
   constructor(...address) {
     super(...address);
@@ -23,9 +23,36 @@ window.Worker = class extends Worker {
   }
 };
 
-// Without a graphics card drawing takes most of the time: a test that does not look lowers the part of pictures that are drawn.
+// Without a graphics card drawing takes most of the time: while a test holds the pictures, the page gets a frame only when it is asked for.
 const soon = requestAnimationFrame;
-window.requestAnimationFrame = (draw) => (ear.pictures === 1 ? soon(draw) : setTimeout(() => soon(draw), 16 / ear.pictures));
+let held = null;
+window.requestAnimationFrame = (draw) => (held ? held.push(draw) : soon(draw));
+ear.hold = () => {
+  held ??= [];
+};
+ear.free = () => {
+  for (const draw of held ?? []) soon(draw);
+  held = null;
+};
+// The next frame.
+ear.frame = () => new Promise((done) => soon((now) => {
+  for (const draw of held?.splice(0) ?? []) draw(now);
+  done();
+}));
+
+// What the page shows of a variable: its value and its word in the address, messages at controls by variable, the message over the picture.
+ear.complaints = () => Object.fromEntries([...document.querySelectorAll(".fault")].filter((each) => !each.hidden)
+  .map((each) => [each.id.replace("fault ", ""), each.textContent]));
+ear.message = () => {
+  const message = document.getElementById("message");
+  return message.hidden ? "" : message.textContent;
+};
+ear.seen = (name) => ({
+  value: page.setup.value(name),
+  word: new URLSearchParams(location.hash.slice(1)).get(name),
+  complaints: ear.complaints(),
+  message: ear.message(),
+});
 
 // Of a gear's surface: the farthest corner from the apex and the nearest [mm], and how many triangles there are.
 function measured({ vertices, triangles }) {

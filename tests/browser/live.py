@@ -103,12 +103,15 @@ class Live:
 
     def complaints(self):
         """Texts of the messages that stand at controls, by the control's variable."""
-        return dict(self.ask("""[...document.querySelectorAll(".fault")].filter((each) => !each.hidden)
-            .map((each) => [each.id.replace("fault ", ""), each.textContent])"""))
+        return self.ask("ear.complaints()")
 
     def message(self):
         """The message over the picture, "" where there is none."""
-        return self.ask("document.getElementById('message').hidden ? '' : document.getElementById('message').textContent")
+        return self.ask("ear.message()")
+
+    def seen(self, name):
+        """What the page shows of a variable: value, word in the address, complaints, message."""
+        return self.ask("name => ear.seen(name)", name)
 
     def text(self, element):
         """Text of the element with this id."""
@@ -122,8 +125,8 @@ class Live:
         return {name: np.array(column, float) for name, column in zip(["time", *names], columns)}
 
     def rest(self):
-        """The picture stands still and is drawn seldom, for tests that do not look at it."""
-        self.ask("ear.pictures = 0.1")
+        """The picture stands still and is not drawn, for tests that do not look at it."""
+        self.ask("ear.hold()")
         self.pause()
 
     def pause(self):

@@ -12,9 +12,8 @@ FRAGMENT = f"scene={SCENE}&stop_time={STOP}"
 
 @pytest.fixture
 def short(live):
-    """The page with a run of a few points, and few pictures."""
+    """The page with a run of a few points."""
     live.go(FRAGMENT)
-    live.ask("ear.pictures = 0.02")
     return live
 
 
@@ -92,7 +91,7 @@ def subject(fmu, message):
     return name, message[message.index(f"{name}:"):]
 
 
-def check(live, fmu, answer, native, name, value):
+def check(fmu, native, name, value, answer, seen):
     """The page says what the native FMU says: nothing, or its message at a control. Returns whether the value was refused."""
     refusal = native.says(name, value)
     if refusal is None:
@@ -100,25 +99,43 @@ def check(live, fmu, answer, native, name, value):
         return False
     assert answer.get("refused") == refusal, f"{name} = {value}: {answer}"
     place, text = subject(fmu, refusal)
-    assert live.complaints().get(place) == text, f"{name} = {value}"
-    assert place in live.message()
+    assert seen["complaints"].get(place) == text, f"{name} = {value}"
+    assert place in seen["message"]
     return True
+
+
+def by_hand(live, name, given):
+    """Gives a value and takes it back, with keys and mouse: for both the worker's answer, and what the page shows then."""
+    kinds = ("started", "refused")
+    assert live.control(name).evaluate("control => coverOf(control)") is None, name
+    put = {"answer": live.put(name, given, *kinds), **live.seen(name)}
+    return [put, {"answer": live.back(name, *kinds), **live.seen(name)}]
+
+
+def given_and_back(live, cases):
+    """{name: as `by_hand`} for values {variable: what a reader gives}; by hand the first of each kind, the others within the page."""
+    hand = {variable.kind: variable.name for variable in reversed(cases)}.values()
+    swept = [{"name": each.name, "given": given} for each, given in cases.items() if each.name not in hand]
+    outcomes = live.ask("cases => sweep(cases)", swept)
+    return {case["name"]: outcome for case, outcome in zip(swept, outcomes)} | {
+        each.name: by_hand(live, each.name, given) for each, given in cases.items() if each.name in hand}
 
 
 def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found):
     native, refused = Native(fmu), []
     variables = settable(fmu)
-    for variable in variables:
+    before = short.ask("names => names.map((name) => page.setup.value(name))", [each.name for each in variables])
+    others = [another(variable, value) for variable, value in zip(variables, before)]
+    outcomes = given_and_back(short, {variable: given for variable, (given, _) in zip(variables, others)})
+    for variable, value, (_, wanted) in zip(variables, before, others):
         name = variable.name
-        before = short.value(name)
-        given, wanted = another(variable, before)
-        answer = short.put(name, given, "started", "refused")
-        assert short.value(name) == wanted, name
-        assert from_link(variable, short.link()[name]) == wanted, name
-        if check(short, fmu, answer, native, name, wanted):
+        put, back = outcomes[name]
+        assert put["value"] == wanted, name
+        assert put["word"] is not None and from_link(variable, put["word"]) == wanted, name
+        if check(fmu, native, name, wanted, put["answer"], put):
             refused.append(name)
-        assert "started" in short.back(name, "started", "refused"), name
-        assert short.value(name) == before and name not in short.link() and short.complaints() == {}
+        assert "started" in back["answer"], name
+        assert back["value"] == value and back["word"] is None and back["complaints"] == {}, name
     # most values are taken, or the check says little
     assert len(refused) < len(variables) / 4
     found(f"{len(variables)} variables; of {len(refused)} the FMU refuses the other value")
@@ -130,13 +147,14 @@ def test_a_value_beyond_the_range_shows_the_message_of_the_fmu_at_its_control(sh
     # the first of each kind and unit, and every third
     first = {(each.kind, each.unit): each for each in reversed(ranged)}.values()
     ranged = [each for k, each in enumerate(ranged) if k % 3 == 0 or each in first]
+    outcomes = given_and_back(short, {each: beyond(each)[0] for each in ranged})
     for variable in ranged:
-        text, value = beyond(variable)
-        answer = short.put(variable.name, text, "started", "refused")
-        assert check(short, fmu, answer, native, variable.name, value), f"{variable.name} = {text} is not refused"
-        assert variable.name in short.complaints()
-        assert "started" in short.back(variable.name, "started", "refused"), variable.name
-        assert short.complaints() == {} and short.message() == ""
+        name, (text, value) = variable.name, beyond(variable)
+        put, back = outcomes[name]
+        assert check(fmu, native, name, value, put["answer"], put), f"{name} = {text} is not refused"
+        assert name in put["complaints"]
+        assert "started" in back["answer"], name
+        assert back["complaints"] == {} and back["message"] == "", name
     assert "over" in short.answer()
     whole = sum(each.kind == "Integer" for each in ranged)
     found(f"{len(ranged)} variables, {whole} of them whole numbers")
@@ -163,7 +181,7 @@ def test_what_the_fmu_cannot_be_given_is_refused_at_its_control_and_not_simulate
 @pytest.mark.parametrize("text", ["nan", "inf", "-inf"])
 @pytest.mark.parametrize("name", ["geometry.module", "left.load_torque"])
 def test_numbers_that_are_not_finite_are_refused_in_the_words_of_the_fmu(short, fmu, name, text):
-    assert check(short, fmu, short.put(name, text), Native(fmu), name, float(text))
+    assert check(fmu, Native(fmu), name, float(text), short.put(name, text), short.seen(name))
     assert "started" in short.back(name, "started", "refused") and short.complaints() == {}
 
 
@@ -172,7 +190,7 @@ def test_values_that_do_not_fit_together_stand_at_the_control_that_can_mend_them
     native.values["scene.gear_contact"] = fmu.variable("scene.gear_contact").number("ideal")
     live.put("scene.gear_contact", "ideal")
     answer = live.put("effects.tooth_friction", True)
-    assert check(live, fmu, answer, native, "effects.tooth_friction", True)
+    assert check(fmu, native, "effects.tooth_friction", True, answer, live.seen("effects.tooth_friction"))
     before = live.ask("page.record.count")
     answer = live.put("scene.gear_contact", "tooth")
     assert "over" in answer and live.complaints() == {} and live.message() == ""

@@ -39,7 +39,7 @@ def shares(pixels):
 def sized(live):
     """The page in another window and theme; afterwards it is as it was."""
     live.go(SCENE)
-    live.ask("ear.pictures = 1")
+    live.ask("ear.free()")
     live.wait("page.view.differential.gears")
 
     def size(window, theme):

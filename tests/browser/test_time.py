@@ -11,7 +11,7 @@ def turn(live):
     """A run with speeds that change: over, and the picture at rest."""
     live.go("scene=one_wheel_on_ice&show=left.speed right.speed")
     live.pause()
-    live.ask("ear.pictures = 1")
+    live.ask("ear.free()")
     yield live
     live.pause()
 
