@@ -2,6 +2,9 @@
 
 use super::course::extended;
 
+/// Margin for rounding in how far a curve goes at most.
+const MARGIN: f64 = 1.001;
+
 /// A component of the continuous extension of a step, or a linear combination of components; see [`extended`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
@@ -25,20 +28,25 @@ impl Curve {
         [end - start + a, 2.0 * (b - a), 3.0 * (c - b), -4.0 * c]
     }
 
-    /// Visits the values at both ends of a span and at all extremes in between, perhaps at other places, too.
-    pub fn visit_extremes(&self, [from, to]: [f64; 2], mut visit: impl FnMut(f64)) {
-        visit(self.at(from));
-        visit(self.at(to));
+    /// Extends `extremes`, the least and the largest value so far, over a span.
+    pub fn extend(&self, extremes: &mut [f64; 2], [from, to]: [f64; 2]) {
+        let with = |[least, largest]: [f64; 2], value: f64| [least.min(value), largest.max(value)];
+        *extremes = with(with(*extremes, self.at(from)), self.at(to));
         let slope = self.slope();
         let slope_at = |t: f64| slope[0] + t * (slope[1] + t * (slope[2] + t * slope[3]));
         // between its own extremes the slope is monotonous
         let turns = quadratic_roots([slope[1], 2.0 * slope[2], 3.0 * slope[3]]).map(|t| t.clamp(from, to));
         let [first, second] = [turns[0].min(turns[1]), turns[0].max(turns[1])];
         for [low, high] in [[from, first], [first, second], [second, to]] {
-            if slope_at(low) * slope_at(high) < 0.0 {
-                visit(self.at(root(slope_at, [low, high])));
+            let slope = slope_at(low);
+            if slope * slope_at(high) < 0.0 {
+                // up to the extreme the slope falls: most of them lie within what was before, and need not be looked for
+                let farthest = self.at(low) + MARGIN * slope * (high - low);
+                if farthest < extremes[0] || farthest > extremes[1] {
+                    *extremes = with(*extremes, self.at(root(slope_at, [low, high])));
+                }
             } else if high < to {
-                visit(self.at(high));
+                *extremes = with(*extremes, self.at(high));
             }
         }
     }

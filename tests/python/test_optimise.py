@@ -17,6 +17,7 @@ from bevel_differential import DifferentialError, Fmu, Scene, cad
 from bevel_differential.command import main
 from bevel_differential.designs.farm import Farm
 from bevel_differential.designs.task import Row
+from bevel_differential.optimise import command as optimise_command
 from bevel_differential.optimise import front
 from bevel_differential.optimise.design_task import DesignRow, DesignTask, confirm
 from bevel_differential.optimise.pair import Pair, tool_room, violations
@@ -406,6 +407,19 @@ def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
     (folder / "out/evaluations.parquet").write_bytes(b"not a table")
     with pytest.raises(DifferentialError, match="no results to go on from"):
         Store(folder / "out", small, resume=True)
+
+
+def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder, fmu_file, monkeypatch):
+    def stop(line="", **_):
+        if line.startswith("generation 2 "):
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(optimise_command, "print", stop, raising=False)
+    given = [folder / "two.toml", "--out", folder / "out", "--workers", "0", "--population", "12", "--generations", "4"]
+    assert main(["optimise", *map(str, given), "--fmu", fmu_file]) == 130
+    front_of_two, _ = found(Problem.load(folder / "two.toml", fmu_file).sized(population=12, generations=2), folder / "two")
+    assert set(pd.read_csv(folder / "out/front.csv")["run"]) == {row.run for row in front_of_two}
+    assert not list((folder / "out").glob("*.part"))
 
 
 def command(folder, fmu_file, *arguments):

@@ -71,7 +71,15 @@ impl Acting {
 
 /// Bodies on which friction acts.
 fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl Iterator<Item = usize> {
-    of.bodies_that_stick().filter(|&i| of.acting().friction().on(i).is_on())
+    // as bits of a number, which few branches find
+    let mut left = of.acting().friction().bodies(of.sticking().len());
+    std::iter::from_fn(move || {
+        let body = left.trailing_zeros();
+        (left != 0).then(|| {
+            left &= left - 1;
+            body as usize
+        })
+    })
 }
 
 /// Equations of gears of any level, as what acts on them sees them.

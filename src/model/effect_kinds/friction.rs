@@ -105,6 +105,15 @@ impl Friction {
         }
     }
 
+    /// Bodies with friction, each a bit at its number among those that may stick; `planets` groups of planets may.
+    #[inline]
+    pub fn bodies(&self, planets: usize) -> u32 {
+        let of = |bits: u32, friction: &BodyFriction| if friction.is_on() { bits } else { 0 };
+        let planet_bits = ((1 << planets) - 1) << FRICTION_PLANETS;
+        let sides = of((1 << FRICTION_PLANETS) - 1, &self.side) | of(planet_bits, &self.planet);
+        sides | of(1 << FRICTION_WHEELS, &self.wheel[0]) | of(2 << FRICTION_WHEELS, &self.wheel[1])
+    }
+
     /// Whether anything may stick.
     pub fn is_any(&self) -> bool {
         self.side.is_on() || self.planet.is_on() || self.wheel[0].is_on() || self.wheel[1].is_on()

@@ -55,9 +55,10 @@ def _optimise(arguments, problem, out, store, workers):
     total = problem.generations * (problem.starts + (problem.starts > 1))
 
     def after_generation(generation, best):
+        # whoever reads the line finds the front
+        to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
         print(f"generation {generation} of {total}: {len(store.rows)} designs, {len(best)} on the front",
               flush=True)
-        to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 
     task = DesignTask(problem, thorough=True)
     with task.scene:

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 import pandas as pd
 
@@ -20,8 +21,10 @@ NO_CHANGE = {"+0.0 %", "-0.0 %"}
 
 
 def to_csv(confirmed: Iterable[Confirmed], problem: Problem, file: FileName) -> None:
-    """The front, SI; numbers read back to the same bits."""
-    pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(file, index=False)
+    """The front, SI; numbers read back to the same bits. The file is replaced as a whole, so that an interruption leaves the one before."""
+    part = Path(f"{file}.part")
+    pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(part, index=False)
+    part.replace(file)
 
 
 def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, DesignRow], problem: Problem) -> str:

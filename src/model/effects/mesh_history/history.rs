@@ -63,8 +63,7 @@ impl MeshHistory {
             if is_new {
                 *extremes = [curve.at(span[0]); 2];
             }
-            let [least, largest] = extremes;
-            curve.visit_extremes(span, |value| (*least, *largest) = (least.min(value), largest.max(value)));
+            curve.extend(extremes, span);
         }
     }
 
