@@ -20,12 +20,17 @@ fn curves() -> Vec<Curve> {
     all
 }
 
+fn extremes(curve: &Curve, span: [f64; 2]) -> [f64; 2] {
+    let mut extremes = [f64::INFINITY, f64::NEG_INFINITY];
+    curve.extend(&mut extremes, span);
+    extremes
+}
+
 #[test]
 fn extremes_are_those_of_a_dense_recording() {
     for curve in curves() {
         for [from, to] in [[0.0, 1.0], [0.3, 0.7], [0.0, 1e-3]] {
-            let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
-            curve.visit_extremes([from, to], |x| (least, largest) = (least.min(x), largest.max(x)));
+            let [least, largest] = extremes(&curve, [from, to]);
             let dense = (0..=2000).map(|k| curve.at(from + (to - from) * f64::from(k) / 2000.0));
             let (low, high) = dense.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
             assert!(least <= low + 1e-15 && least > low - 2e-5, "{curve:?}: {least} {low}");
@@ -47,9 +52,27 @@ fn a_crossing_is_where_the_curve_takes_the_value() {
 fn negated_curves_have_negated_extremes_to_the_last_bit() {
     for curve in curves() {
         let negated = Curve { start: -curve.start, end: -curve.end, coefficients: curve.coefficients.map(|b| -b) };
-        let [mut one, mut other] = [Vec::new(), Vec::new()];
-        curve.visit_extremes([0.0, 1.0], |x| one.push(x));
-        negated.visit_extremes([0.0, 1.0], |x| other.push(-x));
-        assert_eq!(one, other);
+        let [least, largest] = extremes(&curve, [0.0, 1.0]);
+        assert_eq!(extremes(&negated, [0.0, 1.0]), [-largest, -least]);
+    }
+}
+
+#[test]
+fn what_was_before_is_extended_by_no_more_and_no_less_than_the_curve_goes_beyond() {
+    for curve in curves() {
+        let [least, largest] = extremes(&curve, [0.0, 1.0]);
+        let range = largest - least;
+        // just within an extreme, just beyond it, and far from both
+        for inset in [-0.5, -1e-6, 0.0, 1e-6, 0.01, 0.2, 0.5] {
+            for before in [[least + inset * range, largest], [least, largest - inset * range]] {
+                let mut after = before;
+                curve.extend(&mut after, [0.0, 1.0]);
+                let expected = [before[0].min(least), before[1].max(largest)];
+                assert!(
+                    (0..2).all(|i| (after[i] - expected[i]).abs() < 1e-15),
+                    "{curve:?}: {after:?}, not {expected:?}"
+                );
+            }
+        }
     }
 }
