@@ -40,7 +40,7 @@ impl Curve {
         for [low, high] in [[from, first], [first, second], [second, to]] {
             let slope = slope_at(low);
             if slope * slope_at(high) < 0.0 {
-                // up to the extreme the slope falls: most of them lie within what was before, and need not be looked for
+                // up to the extreme the curve is nowhere steeper than here: most extremes lie within what was before, and need no search
                 let farthest = self.at(low) + MARGIN * slope * (high - low);
                 if farthest < extremes[0] || farthest > extremes[1] {
                     *extremes = with(*extremes, self.at(root(slope_at, [low, high])));
