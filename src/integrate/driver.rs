@@ -6,7 +6,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Attempt, Course, ErrorNorm, Extension, Linearisation, Method, Pending, Point, SecondOrder, Statistics, Trial,
+    Attempt, Course, ErrorNorm, Extension, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder,
+    Statistics, Trial,
 };
 
 /// State of the step-size controller between calls.
@@ -78,11 +79,9 @@ const LAST_STEPS: f64 = 3.0;
 const LARGEST_GROWTH: f64 = 6.0;
 /// Growth of the step that is tried after kinks, from one kink to the next.
 const AFTER_KINK_GROWTH: f64 = 4.0;
-/// Cuts at a switch after which each halves the step at least: where the distance from the switch jumps, as that of a held
-/// body whose speed turns round, a straight line through its ends does not find it.
+/// Number of attempts to find a switch by a straight line through the distances at both ends of a step. The line does not find
+/// the switch if the distance jumps, as it does for a held body whose speed reverses. Further attempts bisect the step.
 const CUTS_BY_LINE: u32 = 5;
-/// Rounding of the positions at the end of a step, relative to them.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
@@ -143,6 +142,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let mut after_rejection = false;
     let mut unbalanced = 0;
     let (mut in_a_row, mut cuts) = (0, 0);
+    // consecutive steps that were cut at a switch but ended before it
+    let mut short = 0;
     let mut switch_at = f64::INFINITY;
     let mut lin = Linearisation::default();
     // energies where it was taken, if that is where the next step begins
@@ -175,7 +176,12 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             };
             statistics.evaluations += u64::from(done);
             let ledger_rates = [pending.ledger_rates[0], halfway, last];
-            let imbalance = system.imbalance([pending.energy, energy], h, &ledger_rates) / (LEDGER * tolerance);
+            let ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
+            let mut imbalance = ledger.relative() / (LEDGER * tolerance);
+            if imbalance > 1.0 {
+                let floor = system.energy_floor([&course.point, &end], tolerance);
+                imbalance = imbalance.min(ledger.residual / floor);
+            }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
                 statistics.rejected_ledger += 1;
@@ -222,12 +228,14 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 statistics.rejected_switch += 1;
                 cuts += 1;
                 let most = if cuts > CUTS_BY_LINE { 0.5 } else { 1.0 };
-                switch_at = (h * fraction.min(most)).max(resolution);
+                let least = if short > CUTS_BY_LINE { 0.5 } else { 0.0 };
+                switch_at = (h * fraction.clamp(least, most)).max(resolution);
                 continue;
             }
             // not a number where either is not
             error = if halfway.size < error { error } else { halfway.size };
             if error <= 1.0 {
+                short = if h == switch_at { short + 1 } else { 0 };
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
@@ -277,7 +285,7 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 
 /// Whether positions change within `h` [s] by more than rounding: what stands on a kink does not get past it in steps to it.
 fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
-    point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > ROUNDING * q.abs())
+    point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs())
 }
 
 /// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.

@@ -31,4 +31,4 @@ pub use radau::Radau;
 pub use rodas4::Rodas4;
 pub use rodas5p::Rodas5P;
 pub use statistics::Statistics;
-pub use system::{Linearisation, Matrix, Point, SecondOrder};
+pub use system::{Imbalance, Linearisation, Matrix, POSITION_ROUNDING, Point, SecondOrder};

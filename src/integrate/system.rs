@@ -59,6 +59,29 @@ impl<const N: usize> Point<N> {
     }
 }
 
+/// Rounding of positions at the end of a step, relative to them.
+pub const POSITION_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Energy of a step that the ledger cannot account for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Imbalance {
+    /// Residual of the energy balance, beyond the rounding of kinetic energy.
+    pub residual: f64,
+    /// Energy exchanged in the step.
+    pub exchanged: f64,
+}
+
+impl Imbalance {
+    /// A ledger that closes.
+    pub const NONE: Self = Self { residual: 0.0, exchanged: 0.0 };
+
+    /// The residual over the energy exchanged.
+    #[inline]
+    pub fn relative(&self) -> f64 {
+        if self.residual > 0.0 { self.residual / self.exchanged.max(f64::MIN_POSITIVE) } else { 0.0 }
+    }
+}
+
 /// Accelerations with their exact derivatives at a point. It is large: within steps it is written where it stays.
 #[derive(Clone, Copy, Debug)]
 pub struct Linearisation<const N: usize, P> {
@@ -165,10 +188,16 @@ pub trait SecondOrder<const N: usize> {
         self.energy(at)
     }
 
-    /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the
-    /// energies at its ends and the ledger rates at begin, middle and end.
+    /// Imbalance of the ledger of a step of size `h`, from the energies at its ends and the ledger rates at its start, middle
+    /// and end.
     #[inline]
-    fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Rates; 3]) -> f64 {
+    fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Rates; 3]) -> Imbalance {
+        Imbalance::NONE
+    }
+
+    /// Energy that the ledger of a step between `ends` does not resolve, if the motion has the relative `tolerance`. It is
+    /// evaluated only if the ledger does not close otherwise.
+    fn energy_floor(&self, _ends: [&Point<N>; 2], _tolerance: f64) -> f64 {
         0.0
     }
 

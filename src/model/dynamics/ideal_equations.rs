@@ -3,12 +3,13 @@
 //! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the force of the
 //! constraint, λ_s = J_s ω̇_s − Q_s.
 
+use super::energy_floor::energy_floor;
 use super::{Acted, Acting, Jacobian, State};
-use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, MOST};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, PLANET, Plan};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, InputDerivatives, Inputs, Layout, PLANET, Plan};
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
@@ -178,8 +179,13 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         [0.5 * kinetic, self.stored_energy(at)]
     }
 
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> f64 {
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
         LedgerRates::imbalance::<true>(energies, h, ledger_rates)
+    }
+
+    fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64) -> f64 {
+        let free = self.under(&Inputs::ZERO, &InputDerivatives::ZERO);
+        energy_floor(self, ends, tolerance, |at| free.forces(at, &mut LedgerRates::default()).0)
     }
 
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::integrate::Step;
+use crate::integrate::{Imbalance, Step};
 use crate::model::scene::FRICTION_BODIES;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 
@@ -43,17 +43,17 @@ impl LedgerRates {
         self.heat.iter().chain(&rest).all(|x| x.is_finite())
     }
 
-    /// Residual of the energy balance of a step of size `h`, over the energy exchanged in the step: stored,
-    /// worked and turned into heat. Kinetic energy, most of which nothing ever touches, counts by its rounding alone.
+    /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored, worked and turned
+    /// into heat. Of the kinetic energy, most of which nothing ever touches, only the rounding counts.
     #[inline]
-    pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> f64 {
+    pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> Imbalance {
         let simpson = |of: &dyn Fn(&Self) -> f64| h / 6.0 * (of(a) + 4.0 * of(m) + of(b));
         let work = simpson(&|p| p.input);
         let heat = simpson(&|p| if ALL { p.heat.iter().sum() } else { p.heat[CONTACT_HEAT] });
         let gained = (after[0] - before[0]) + (after[1] - before[1]);
         let exchanged = before[1].max(after[1]) + work.abs() + heat.abs();
         let off = (gained - work + heat).abs() - ENERGY_ROUNDING * (before[0] + after[0]);
-        if off > 0.0 { off / exchanged.max(f64::MIN_POSITIVE) } else { 0.0 }
+        Imbalance { residual: off.max(0.0), exchanged }
     }
 }
 

@@ -6,6 +6,7 @@ pub mod acting;
 mod blocks;
 pub mod clock;
 pub mod cycle;
+mod energy_floor;
 pub mod equations;
 pub mod event;
 mod friction;

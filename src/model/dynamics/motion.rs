@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
-use super::{Acted, Equations, twists};
-use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
-use crate::model::scene::CARRIER;
+use super::{Acted, Equations, LARGEST, twists};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
@@ -172,12 +173,24 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> f64 {
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
         // pairs that come and go abruptly bring energy that no force gave
         if !self.teeth.mesh.engagement.corner_contact() {
-            return 0.0;
+            return Imbalance::NONE;
         }
         LedgerRates::imbalance::<WITH_EFFECTS>(energies, h, ledger_rates)
+    }
+
+    #[inline(never)]
+    fn energy_floor(&self, ends: [&Point<N>; 2], tolerance: f64) -> f64 {
+        let [start, end] = ends.map(|at| Point::of([&at.q, &at.v]));
+        let equations = self.largest();
+        let free = equations.under(&Inputs::ZERO, &InputDerivatives::ZERO);
+        energy_floor(&equations, [&start, &end], tolerance, |at| {
+            let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
+            free.act(at, &mut sum, &mut imposed, &mut LedgerRates::default(), None);
+            sum
+        })
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {

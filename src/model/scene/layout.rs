@@ -88,6 +88,11 @@ impl Layout {
         let others = self.has_pins || self.attached[ENDS..].contains(&true);
         (!others).then(|| self.has_ends())
     }
+    /// Number of bodies that degree of freedom `i` stands for: the planets of a group move alike.
+    pub fn bodies(&self, i: usize) -> f64 {
+        let of_planet = i.checked_sub(self.planet(0)).filter(|&k| k < self.groups * if self.has_pins { 2 } else { 1 });
+        of_planet.map_or(1.0, |k| self.members[k % self.groups])
+    }
     /// Degrees of freedom.
     #[inline]
     pub fn count(&self) -> usize {

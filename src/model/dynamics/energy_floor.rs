@@ -1,0 +1,55 @@
+//! Least energy that the balance of a step resolves.
+//!
+//! The balance is relative to the energy exchanged in the step. In a motion that decays to rest this energy decays along with
+//! the motion, so that the relative balance alone would resolve the decay to the last bit. The floor is the sum of two energies:
+//!
+//!   rounding    Σ (|F| at both ends) δ, with the force F of all springs on a body and the rounding δ of its position. A shift
+//!               by δ changes the stored energy by F δ, and no input does this work.
+//!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below tol/w.
+
+use super::Acted;
+use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
+use crate::model::scene::layout::LEFT;
+use crate::model::scene::{CARRIER, Layout};
+
+/// Returns the energy [J] below which the balance of a step between `ends` is not resolved, if the motion has the relative
+/// `tolerance`. `spring_forces` are the forces on all bodies at rest without inputs.
+pub fn energy_floor<const N: usize>(
+    equations: &(impl Acted<N> + SecondOrder<N>),
+    ends: [&Point<N>; 2],
+    tolerance: f64,
+    spring_forces: impl Fn(&Point<N>) -> [f64; N],
+) -> f64 {
+    let layout = equations.layout();
+    let rounding = roundings(layout, ends);
+    let shifted: f64 = ends
+        .iter()
+        .map(|at| {
+            let force = spring_forces(&at_rest(at));
+            (0..layout.count()).map(|i| layout.bodies(i) * force[i].abs() * rounding[i]).sum::<f64>()
+        })
+        .sum();
+    let rest = at_rest(ends[1]);
+    let unresolved = Point { v: equations.weights(&rest).v.map(|weight| tolerance / weight), ..rest };
+    let [kinetic, _] = equations.energy(&unresolved);
+    shifted + kinetic
+}
+
+fn at_rest<const N: usize>(at: &Point<N>) -> Point<N> {
+    Point { q: at.q, v: [0.0; N] }
+}
+
+/// Rounding of the absolute position of each body in a step between `ends` [rad; seats m]. Positions of side gears and pins are
+/// relative to the carrier, those of attached bodies to the body that they turn against.
+fn roundings<const N: usize>(layout: &Layout, [start, end]: [&Point<N>; 2]) -> [f64; N] {
+    let mut rounding: [f64; N] = std::array::from_fn(|i| POSITION_ROUNDING * start.q[i].abs().max(end.q[i].abs()));
+    let on_carrier =
+        [LEFT, LEFT + 1].into_iter().chain((0..layout.groups).filter(|_| layout.has_pins).map(|g| layout.pin(g)));
+    for i in on_carrier {
+        rounding[i] += rounding[CARRIER];
+    }
+    for (i, to) in layout.attached() {
+        rounding[i] += rounding[to];
+    }
+    rounding
+}
