@@ -102,6 +102,8 @@ pub trait Acted<const N: usize> {
     fn sticking(&self) -> &[f64];
     /// Loads of the meshes on the surfaces of side gears and planets at `at`, where friction depends on them.
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];
+    /// Accelerations at `at`, `time` [s] after the inputs were set.
+    fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N];
     /// Accelerations by inputs and effects alone.
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N];
 
@@ -324,8 +326,19 @@ pub trait Acted<const N: usize> {
         let surface_loads = self.surface_loads(at, time);
         bodies_with_friction(self).any(|i| {
             let (friction, state, _) = self.friction_on(i);
-            friction.is_due(state, &self.slip(at, i), &surface_loads[i])
+            friction.is_due(state, &self.slip(at, i), &surface_loads[i], self.stops(at, time, i))
         })
+    }
+
+    /// Returns true if body `i` slides at a speed of exactly zero at `at`, `time` [s] after the inputs were set, and does not
+    /// accelerate in the direction in which it slides.
+    fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
+        let direction = self.acting().friction_state[i].mode.direction();
+        if direction == 0.0 || self.slip(at, i).speed != 0.0 {
+            return false;
+        }
+        let v = self.acceleration_at(at, time);
+        direction * self.slip(&Point { q: at.q, v }, i).speed <= 0.0
     }
 
     /// Drags the anchors of bodies that slide along to `at`, with the ledger rates there.
@@ -346,7 +359,8 @@ pub trait Acted<const N: usize> {
         for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
             let (friction, &(mut state), count) = self.friction_on(i);
             if friction.is_on() {
-                friction.settle(&mut state, &self.slip(at, i), &surface_loads[i], count, heat);
+                let stops = self.stops(at, time, i);
+                friction.settle(&mut state, (&self.slip(at, i), &surface_loads[i]), stops, count, heat);
                 self.acting_mut().friction_state[i] = state;
             }
         }

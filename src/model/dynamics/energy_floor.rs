@@ -6,6 +6,8 @@
 //!   rounding    Σ (|F| at both ends) δ, with the force F of all springs on a body and the rounding δ of its position. A shift
 //!               by δ changes the stored energy by F δ, and no input does this work.
 //!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below tol/w.
+//!               It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster motion, a
+//!               small energy may be the beginning of a large one, as at the first touch of a blow.
 
 use super::Acted;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
@@ -31,8 +33,8 @@ pub fn energy_floor<const N: usize>(
         .sum();
     let rest = at_rest(ends[1]);
     let unresolved = Point { v: equations.weights(&rest).v.map(|weight| tolerance / weight), ..rest };
-    let [kinetic, _] = equations.energy(&unresolved);
-    shifted + kinetic
+    let [unresolved, kinetic] = [&unresolved, ends[1]].map(|at| equations.energy(at)[0]);
+    if tolerance * kinetic < unresolved { shifted + unresolved } else { shifted }
 }
 
 fn at_rest<const N: usize>(at: &Point<N>) -> Point<N> {

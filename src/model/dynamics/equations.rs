@@ -381,6 +381,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
         by_body(pressed.then(|| self.mesh_surface_loads(at, &self.all_loads::<f64>(at))).as_ref())
     }
 
+    fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        self.accelerate_at(at, time)
+    }
+
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
         let (mut sum, mut imposed, mut ledger_rates) = ([0.0; N], [0.0; N], LedgerRates::default());
         self.add_brakes(at, &mut sum);

@@ -161,6 +161,10 @@ impl Acted<MOST> for IdealEquations<'_> {
         [SurfaceLoad::default(); FRICTION_BODIES]
     }
 
+    fn acceleration_at(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
+        self.accelerate_at(at, time)
+    }
+
     fn acceleration_by_inputs(&self, at: &Point<MOST>) -> [f64; MOST] {
         let (sum, imposed) = self.forces(at, &mut LedgerRates::default());
         self.accelerations(&sum, &imposed)

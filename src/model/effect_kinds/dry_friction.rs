@@ -8,15 +8,23 @@
 
 use super::body_friction::BodyFriction;
 use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
+use crate::numeric::TAU;
 
 /// Damping of the spring over its stiffness τ, where the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
 /// How closely a step ends at the limit torque, relative to it.
 const LIMIT_TOLERANCE: f64 = 1e-5;
-/// How closely a step ends at zero speed [rad/s].
+/// How closely a step ends at zero speed [rad/s]. The error norm resolves speeds of bodies that stop to the same value: its
+/// floor is 1 rad/s, and the start value of the tolerance is 1e-6.
 pub const SPEED_TOLERANCE: f64 = 1e-6;
-/// Limit torque below which friction is none [N·m].
+/// Largest torque of the damping when a body begins to stick, relative to the limit torque: beyond the limit, the body would
+/// slide again at once. Weak and stiff friction stops at lower speeds than [`SPEED_TOLERANCE`] for this reason.
+const DAMPED_SHARE: f64 = 0.5;
+/// Least limit torque that holds a body [N·m]. A spring of 1e5 N·m/rad has this torque at a twist of 1e-14 rad, which is the
+/// rounding of angles; stiffer springs have more, see [`DryFriction::torque_resolution`].
 const NOTHING: f64 = 1e-9;
+/// Rounding of the position of a body, relative to it: that of the angles of carrier, side gear and half-shaft together.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Parts of a step within which a switch is looked for.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 /// Friction on a body: its parts, and the sources that know how they slide.
@@ -115,9 +123,10 @@ impl<'a> DryFriction<'a> {
         })
     }
 
-    /// Whether loads decide if a switch is due, or to what: while stuck, and once the speed of sliding has passed zero.
+    /// Returns true if the loads decide whether a switch is due, or to which state: while stuck, and once the speed of sliding
+    /// has reached zero.
     pub fn awaits_load(&self, state: &FrictionState, slip: &Slip) -> bool {
-        state.mode == Mode::Stuck || self.overshoot(state, slip, &SurfaceLoad::default()) > 0.0
+        state.mode.direction() * slip.speed <= 0.0
     }
 
     /// Shares `amount` out to the causes in proportion to their limit torques.
@@ -135,14 +144,26 @@ impl<'a> DryFriction<'a> {
         if state.mode == Mode::Stuck { 0.5 * state.stiffness * z * z } else { 0.0 }
     }
 
+    /// Torque of the spring that rounding of the position produces [N·m]. The angles of which the position is the sum are up
+    /// to a turn large, even if the position is small.
+    fn torque_resolution(&self, slip: &Slip) -> f64 {
+        NOTHING.max(self.of.stiffness * ROUNDING * slip.position.abs().max(TAU))
+    }
+
     /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m].
     fn excess(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         let torque = self.torque(state, slip, by);
         // a spring past its limit that is being unwound is cut back, it does not slide; a body that stands still when
         // its limit is lowered slides to where it is driven
-        let stands = self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE;
+        let stands = slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE;
         let sense = if stands { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
+    }
+
+    /// How closely a step ends at zero speed under the loads `by` [rad/s].
+    fn speed_tolerance(&self, by: &SurfaceLoad) -> f64 {
+        let damping = self.of.stiffness * self.of.damping_time;
+        SPEED_TOLERANCE.min(DAMPED_SHARE * self.breakaway(by) / damping)
     }
 
     /// Distance past the switch, as a fraction of the tolerance: negative before it, above 1 too far.
@@ -150,12 +171,9 @@ impl<'a> DryFriction<'a> {
         match state.mode {
             Mode::Stuck => {
                 let limit = self.breakaway(by);
-                self.excess(state, slip, by) / (LIMIT_TOLERANCE * limit + NOTHING)
+                self.excess(state, slip, by) / (LIMIT_TOLERANCE * limit + self.torque_resolution(slip))
             }
-            mode => {
-                let direction = if mode == Mode::Forward { 1.0 } else { -1.0 };
-                -direction * slip.speed / SPEED_TOLERANCE
-            }
+            mode => -mode.direction() * slip.speed / self.speed_tolerance(by),
         }
     }
 
@@ -169,12 +187,16 @@ impl<'a> DryFriction<'a> {
         if self.of.commanded && state.mode == Mode::Stuck {
             return self.crossing_of_command(state, start, end);
         }
-        let after = self.overshoot(state, end.0, end.1);
-        if after <= 1.0 || self.of.limit(end.1) <= NOTHING {
+        if !self.awaits_load(state, end.0) || self.of.limit(end.1) <= self.torque_resolution(end.0) {
             return None;
         }
-        // aim at the middle of the tolerance
-        let before = self.overshoot(state, start.0, start.1).min(0.0);
+        let after = self.overshoot(state, end.0, end.1);
+        if after <= 1.0 {
+            return None;
+        }
+        // aim at the middle of the tolerance; that of a sliding body is the tolerance under the loads at the end
+        let by = if state.mode == Mode::Stuck { start.1 } else { end.1 };
+        let before = self.overshoot(state, start.0, by).min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
@@ -185,42 +207,55 @@ impl<'a> DryFriction<'a> {
         start: (&Slip, &SurfaceLoad),
         end: (&Slip, &SurfaceLoad),
     ) -> Option<f64> {
-        let tolerance = LIMIT_TOLERANCE * self.breakaway(start.1).max(self.breakaway(end.1)) + NOTHING;
+        let limit = self.breakaway(start.1).max(self.breakaway(end.1));
+        let tolerance = LIMIT_TOLERANCE * limit + self.torque_resolution(end.0);
         let [before, after] = [start, end].map(|(slip, by)| self.excess(state, slip, by) / tolerance);
         let before = before.min(0.0);
         (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
-    /// The state after the switch that is due, if any.
-    fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> FrictionState {
+    /// The state after the switch that is due, if any. At a speed of exactly zero a sliding body sticks if it `stops`, that is,
+    /// if nothing accelerates it further in the direction of sliding.
+    fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
-        let due = self.overshoot(state, slip, by) > 0.0;
+        let due = match state.mode {
+            Mode::Stuck => self.excess(state, slip, by) > 0.0,
+            mode => mode.direction() * slip.speed < 0.0,
+        };
+        let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {
                 let z = slip.position - state.anchor;
                 let most = self.breakaway(by) / self.of.stiffness;
-                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + NOTHING / self.of.stiffness {
+                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + self.torque_resolution(slip) / self.of.stiffness {
                     after.anchor = slip.position - most * z.signum();
                 }
             }
+            _ if holds && (due || stops) => after.mode = Mode::Stuck,
             // a command of no torque holds nothing
-            mode if due && self.of.commanded && self.breakaway(by) <= NOTHING => after.mode = mode.reversed(),
-            _ if due => after.mode = Mode::Stuck,
+            mode if due => after.mode = mode.reversed(),
             _ => {}
         }
         after
     }
 
-    /// Whether a switch is due.
-    pub fn is_due(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> bool {
-        self.switched(state, slip, by) != *state
+    /// Returns true if a switch is due; see [`Self::switched`] for `stops`.
+    pub fn is_due(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> bool {
+        self.switched(state, slip, by, stops) != *state
     }
 
-    /// Switches where it is due; what the spring loses is heat of `count` bodies.
-    pub fn settle(&self, state: &mut FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) {
-        let before = std::mem::replace(state, self.switched(state, slip, by));
+    /// Switches if a switch is due; see [`Self::switched`] for `stops`. The energy that the springs of `count` bodies lose is heat.
+    pub fn settle(
+        &self,
+        state: &mut FrictionState,
+        (slip, by): (&Slip, &SurfaceLoad),
+        stops: bool,
+        count: f64,
+        heat: &mut [f64],
+    ) {
+        let before = std::mem::replace(state, self.switched(state, slip, by, stops));
         if *state != before {
             let lost = self.energy(&before, slip.position) - self.energy(state, slip.position);
             self.add_heat(count * lost, by, heat);

@@ -35,7 +35,7 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
     let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
     let mut heat = [0.0];
     let stopped = Slip { position: 0.501, speed: -1e-7 };
-    clutch.settle(&mut hold, &stopped, &pressed(1000.0), 1.0, &mut heat);
+    clutch.settle(&mut hold, (&stopped, &pressed(1000.0)), false, 1.0, &mut heat);
     assert_eq!(hold.mode, Mode::Stuck);
     assert!((clutch.torque(&hold, &Slip { speed: 0.0, ..stopped }, &pressed(1000.0)) - 11.0).abs() < 1e-9);
 }
@@ -63,11 +63,11 @@ fn a_held_body_slides_where_its_command_falls_below_its_torque() {
         let turn = Slip { position: 4.0 / STIFFNESS, speed };
         let part = brake.crossing(&hold, (&turn, &pressed(10.0)), (&turn, &pressed(0.0))).unwrap();
         assert!((part - 0.6).abs() < 1e-4, "{part}");
-        assert!(brake.is_due(&hold, &turn, &pressed(3.9)) && !brake.is_due(&hold, &turn, &pressed(4.1)));
+        assert!(brake.is_due(&hold, &turn, &pressed(3.9), false) && !brake.is_due(&hold, &turn, &pressed(4.1), false));
     }
     // a command of 0 N·m holds nothing: a body that reverses goes on sliding
     let mut slides = FrictionState { mode: Mode::Forward, ..hold };
-    brake.settle(&mut slides, &Slip { position: 0.0, speed: -0.1 }, &pressed(0.0), 1.0, &mut [0.0]);
+    brake.settle(&mut slides, (&Slip { position: 0.0, speed: -0.1 }, &pressed(0.0)), false, 1.0, &mut [0.0]);
     assert_eq!(slides.mode, Mode::Backward);
 }
 
