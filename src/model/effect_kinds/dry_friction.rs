@@ -23,8 +23,9 @@ const DAMPED_SHARE: f64 = 0.5;
 /// Least limit torque that holds a body [N·m]. A spring of 1e5 N·m/rad has this torque at a twist of 1e-14 rad, which is the
 /// rounding of angles; stiffer springs have more, see [`DryFriction::torque_resolution`].
 const NOTHING: f64 = 1e-9;
-/// Rounding of the position of a body, relative to it: that of the angles of carrier, side gear and half-shaft together.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Rounding of the position of a body, relative to it: half a unit in the last place for each of the angles of carrier, side gear
+/// and half-shaft, and for their sum.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Parts of a step within which a switch is looked for.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 /// Friction on a body: its parts, and the sources that know how they slide.
