@@ -74,8 +74,10 @@ pub struct Attempt {
     pub to_kink: bool,
     /// Whether a longer step was rejected just before.
     pub after_rejection: bool,
-    /// How many longer steps in a row were rejected for their ledger before it.
+    /// Number of consecutive attempts before this one that were rejected for their ledger.
     pub unbalanced: u32,
+    /// Size of the first of these attempts [s].
+    pub whole: f64,
 }
 
 /// A step of small enough error that is not completed yet.

@@ -87,7 +87,8 @@ const LARGEST_SHRINK: f64 = 5.0;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
 /// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
-/// Largest number of consecutive steps shortened for the ledger alone: an imbalance that remains does not depend on size.
+/// Number of consecutive attempts whose ledger does not close after which the step is taken at the size of the first of them: an
+/// imbalance that remains does not depend on the size.
 const UNBALANCED: u32 = 8;
 /// Least error remembered: a smaller one would make the predictive controller too cautious.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
@@ -140,7 +141,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let resolution = course.resolution;
     let ends = until + resolution >= course.end;
     let mut after_rejection = false;
-    let mut unbalanced = 0;
+    // consecutive attempts whose ledger did not close, and the size of the first of them
+    let (mut unbalanced, mut whole) = (0, 0.0);
     let (mut in_a_row, mut cuts) = (0, 0);
     // consecutive steps that were cut at a switch but ended before it
     let mut short = 0;
@@ -183,9 +185,16 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 imbalance = imbalance.min(ledger.residual / floor);
             }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
-                (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
+                unbalanced = pending.attempt.unbalanced + 1;
+                // the error of the whole step allows a longer one after it
+                after_rejection = unbalanced < UNBALANCED;
+                whole = if unbalanced == 1 { h } else { pending.attempt.whole };
                 statistics.rejected_ledger += 1;
-                control.next = h / (method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
+                control.next = if unbalanced < UNBALANCED {
+                    h / (method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
+                } else {
+                    whole
+                };
                 (course.pending, begin) = (None, None);
                 continue;
             }
@@ -237,7 +246,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if error <= 1.0 {
                 short = if h == switch_at { short + 1 } else { 0 };
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
-                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
+                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
                 course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0 });
                 continue;

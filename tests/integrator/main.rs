@@ -12,5 +12,6 @@ mod methods;
 mod numeric;
 mod order;
 mod problems;
+mod rest;
 mod stability;
 mod switches;

@@ -7,6 +7,9 @@ mod blocks;
 pub mod clock;
 pub mod cycle;
 mod energy_floor;
+#[cfg(test)]
+#[path = "tests/energy_floor.rs"]
+mod energy_floor_tests;
 pub mod equations;
 pub mod event;
 mod friction;
