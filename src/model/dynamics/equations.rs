@@ -322,16 +322,23 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
     #[inline]
     pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
-        let mut deepest = (f64::NEG_INFINITY, 0, 0);
+        self.deepest_of_touching(at).0
+    }
+
+    /// The same with the meshes whose flanks touch, one bit for each.
+    #[inline]
+    pub fn deepest_of_touching(&self, at: &Point<N>) -> ((f64, usize, usize), u8) {
+        let (mut deepest, mut touching) = ((f64::NEG_INFINITY, 0, 0), 0);
         for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
             for s in 0..2 {
                 let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
+                touching |= u8::from(approach > 0.0) << (2 * g + s);
                 if approach > deepest.0 {
                     deepest = (approach, g, s);
                 }
             }
         }
-        deepest
+        (deepest, touching)
     }
 }
 

@@ -25,6 +25,7 @@ mod on_bodies;
 mod pair_loads;
 pub mod pending_step;
 pub mod pv;
+pub mod rattle;
 pub mod sizes;
 pub mod state;
 pub mod torque_means;

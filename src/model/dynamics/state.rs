@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::event::{Event, Pause};
 use super::pending_step::PendingStep;
+use super::rattle::Rattle;
 use super::torque_means::TorqueMeans;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
@@ -32,6 +33,8 @@ pub struct State {
     pub control: Control,
     /// Solver statistics.
     pub statistics: Statistics,
+    /// Impacts of flanks, and the steps that they cost.
+    pub rattle: Rattle,
     /// Work of all inputs since the start [J].
     pub work: f64,
     /// Heat since the start by cause [J].
@@ -74,6 +77,7 @@ impl State {
             whole_periods: [0; MAX_DOF],
             control: Control::new(first_step),
             statistics: Statistics::default(),
+            rattle: Rattle::default(),
             work: 0.0,
             heat: [0.0; HEATS],
             thermal: Thermal::uniform(OilSpec::default().temperature),

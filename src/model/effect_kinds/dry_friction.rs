@@ -26,6 +26,9 @@ const NOTHING: f64 = 1e-9;
 /// Rounding of the position of a body, relative to it: half a unit in the last place for each of the angles of carrier, side gear
 /// and half-shaft, and for their sum.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
+/// Torque beyond the limit at which a body that stands still begins to slide, as a fraction of the tolerance. Steps end at half
+/// the tolerance.
+const STANDING: f64 = 0.25;
 /// Parts of a step within which a switch is looked for.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 /// Friction on a body: its parts, and the sources that know how they slide.
@@ -151,13 +154,17 @@ impl<'a> DryFriction<'a> {
         NOTHING.max(self.of.stiffness * ROUNDING * slip.position.abs().max(TAU))
     }
 
+    /// Returns true if a held body stands still, so that only its torque decides whether it begins to slide.
+    fn stands(&self, slip: &Slip) -> bool {
+        slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE
+    }
+
     /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m].
     fn excess(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         let torque = self.torque(state, slip, by);
         // a spring past its limit that is being unwound is cut back, it does not slide; a body that stands still when
         // its limit is lowered slides to where it is driven
-        let stands = slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE;
-        let sense = if stands { torque } else { slip.speed };
+        let sense = if self.stands(slip) { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
     }
 
@@ -221,7 +228,8 @@ impl<'a> DryFriction<'a> {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
         let due = match state.mode {
-            Mode::Stuck => self.excess(state, slip, by) > 0.0,
+            // a body that has just stopped may have the limit torque to the last bit
+            Mode::Stuck => self.overshoot(state, slip, by) > if self.stands(slip) { STANDING } else { 0.0 },
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);

@@ -84,7 +84,7 @@ pub fn check_settled(
     torque: [f64; 2],
     point: &Point<LARGEST>,
 ) -> Result<(), Problem> {
-    equations.check_deflection(point).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
+    equations.check_deflection(point).map(drop).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
 }
 
 /// [`press_sides`] with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On

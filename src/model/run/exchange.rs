@@ -198,7 +198,7 @@ impl Simulation {
                 let ledger_rates = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
                 let State { work, heat, thermal, torque_means, .. } = state;
-                let outcome = equations.check_deflection(&end);
+                let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
                     let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
                     equations.record(model, (&step, None), sums);

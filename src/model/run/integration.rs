@@ -3,10 +3,10 @@
 use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
-use super::{LedgerEquations, LedgerSums, StepFailure, hints};
+use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::contact::Law;
 use crate::integrate::{
-    self, AfterStep, AnyMethod, Course, Extension, Failure, Rodas5P, SecondOrder, SolverContext, Step,
+    self, AfterStep, AnyMethod, Course, Extension, Failure, Rodas5P, SecondOrder, SolverContext, Statistics, Step,
 };
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
@@ -170,6 +170,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
     let Integration { clock, begin, is_shown, pauses, inputs, watched } = integration;
+    let before = state.statistics;
     let mut course = Course {
         longest: LONGEST,
         resolution: RESOLUTION,
@@ -191,11 +192,11 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
     }
     while switched && outcome.is_ok() {
         switched = false;
-        let State { control, statistics, work, heat, torque_means, thermal, .. } = state;
+        let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
         let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
             if !is_shown {
-                equations.check_deflection(step.end)?;
+                rattle.add_step(equations.check_deflection(step.end)?);
             }
             equations.record(model, (&step, motion), &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
@@ -246,7 +247,7 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         }
         _ => state.pending_step = None,
     }
-    outcome.map_err(|failure| explain(failure, begin + clock.time, model))
+    outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
 /// The method of variable steps that `method` names.
@@ -276,7 +277,13 @@ fn by_any_method<const N: usize>(
     integrate::proceed(method, system, course, until, context, |step, motion| observe(step, Some(motion)))
 }
 
-fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> StepFailure {
+#[cold]
+fn explain(
+    failure: Failure<ExcessiveDeflection>,
+    time: f64,
+    (model, inputs, state): (&Model, &Inputs, &State),
+    before: &Statistics,
+) -> StepFailure {
     let solver = &model.parameters.solver;
     let tolerance = solver.relative_tolerance;
     let message = match failure {
@@ -290,10 +297,11 @@ fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> S
             solver.fixed_step
         ),
         Failure::TooManySteps => format!(
-            "{} attempts at steps were not enough for one communication step; shorten it, \
+            "{} attempts at steps were not enough for one communication step: {}; shorten it, \
              loosen solver.relative_tolerance = {tolerance:e}, or {}",
             budget(model),
-            hints::fewer_steps(&model.parameters)
+            effort::too_many_steps(model, inputs, state, before),
+            effort::fewer_steps(model, state)
         ),
     };
     StepFailure { time, message }

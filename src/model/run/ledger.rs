@@ -34,8 +34,9 @@ pub struct LedgerSums<'a> {
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
-    /// Fails if the deflection of a tooth exceeds the limit; the error names mesh and deflection.
-    fn check_deflection(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
+    /// Returns the meshes whose flanks touch, one bit for each. Fails if the deflection of a tooth exceeds the limit; the
+    /// error names mesh and deflection.
+    fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection>;
     /// Records a completed step. It comes with the motion that it was while pending; fixed steps and steps of a host's solver are
     /// never pending.
     fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
@@ -45,12 +46,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
     for Equations<'_, N, G, WITH_EFFECTS>
 {
     #[inline]
-    fn check_deflection(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
-        let (approach, g, side) = self.deepest(at);
+    fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection> {
+        let ((approach, g, side), touching) = self.deepest_of_touching(at);
         if approach > self.teeth.deflection_limit {
             return Err(ExcessiveDeflection { deflection: approach, planet: self.teeth.plan.group(g).planet, side });
         }
-        Ok(())
+        Ok(touching)
     }
 
     #[inline]
@@ -81,8 +82,8 @@ fn warm_up<const N: usize>(model: &Model, acting: &Acting, step: &Step<N, Ledger
 }
 
 impl LedgerEquations<MOST> for IdealEquations<'_> {
-    fn check_deflection(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
-        Ok(())
+    fn check_deflection(&self, _: &Point<MOST>) -> Result<u8, ExcessiveDeflection> {
+        Ok(0)
     }
 
     fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {

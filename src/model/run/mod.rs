@@ -2,6 +2,7 @@
 
 mod carried;
 mod completed_step;
+mod effort;
 mod equilibrium;
 mod events;
 mod exchange;

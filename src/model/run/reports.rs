@@ -1,7 +1,7 @@
 //! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
 //! above its limit.
 
-use super::Simulation;
+use super::{Simulation, effort};
 use crate::declaration::units::W_PER_MM2;
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
@@ -29,6 +29,7 @@ pub struct Reported {
     pv: [bool; PV_LIMITS.len()],
     outside: [bool; OUTSIDE.len()],
     start: bool,
+    rattle: bool,
 }
 
 impl Simulation {
@@ -48,6 +49,12 @@ impl Simulation {
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }
             }
+        }
+        if !reported.rattle
+            && let Some(problem) = effort::rattle_warning(&self.model, &self.state)
+        {
+            reported.rattle = true;
+            found.push(problem);
         }
         for ((effect, variable), reported) in PV_LIMITS.into_iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
             if let Some(problem) = self.above_pv_limit(effect, variable) {

@@ -1,0 +1,52 @@
+//! Rattle: flanks that nothing presses touch and part again and again. Each impact costs steps; they are counted here.
+
+use serde::{Deserialize, Serialize};
+
+/// Number of steps after an impact that belong to it: contact, parting, and the vibration that follows.
+const STEPS_OF_AN_IMPACT: u32 = 64;
+
+/// Counts of impacts and of the steps that they cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rattle {
+    /// Number of times that flanks of a mesh touched after they had been apart.
+    pub impacts: u64,
+    /// Number of steps that belong to impacts.
+    pub steps: u64,
+    /// Number of steps that still belong to the last impact.
+    left: u32,
+    /// Meshes whose flanks touch, one bit for each.
+    touching: u8,
+}
+
+impl Rattle {
+    /// Adds a completed step, at whose end the meshes of the bits `touching` touch.
+    #[inline]
+    pub fn add_step(&mut self, touching: u8) {
+        if touching & !self.touching != 0 {
+            self.impacts += 1;
+            self.left = STEPS_OF_AN_IMPACT;
+        }
+        if self.left > 0 {
+            self.left -= 1;
+            self.steps += 1;
+        }
+        self.touching = touching;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_near_impacts_are_counted_and_no_others() {
+        let mut rattle = Rattle::default();
+        // loaded from the start on: one impact
+        (0..1000).for_each(|_| rattle.add_step(0b11));
+        assert_eq!((rattle.impacts, rattle.steps), (1, 64));
+        // the second mesh parts and touches every ten steps
+        (0..1000).for_each(|k| rattle.add_step(if k % 10 < 5 { 0b01 } else { 0b11 }));
+        assert_eq!(rattle.impacts, 101);
+        assert_eq!(rattle.steps, 64 + 995);
+    }
+}

@@ -1,0 +1,140 @@
+//! Where the steps of a run go: into rattle, or, if too many are attempted, into a criterion that keeps rejecting them.
+
+use super::hints;
+use crate::integrate::{Point, SecondOrder, Statistics};
+use crate::model::assembly::{Gears, Model};
+use crate::model::dynamics::rattle::Rattle;
+use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::{Acted, State};
+use crate::model::effect_kinds::Mode;
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout};
+use crate::model::setup::Parameters;
+use crate::problem::Problem;
+
+/// Number of steps, and of impacts, below which nothing is said about rattle: a start, or a few reversals of the torque.
+const FEW_STEPS: u64 = 10_000;
+const FEW_IMPACTS: u64 = 100;
+
+/// Returns the warning that most steps went into rattle, if they did: how many, and what ends the rattle.
+pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
+    let (Rattle { impacts, steps, .. }, all) = (state.rattle, state.statistics.accepted);
+    if all < FEW_STEPS || impacts < FEW_IMPACTS || 2 * steps < all {
+        return None;
+    }
+    Some(problem!(
+        "solver.steps",
+        "{:.0} % of the {all} steps so far went into rattle: flanks that nothing presses have touched again {impacts} times; {}; \
+         reported once",
+        100.0 * steps as f64 / all as f64,
+        what_ends_rattle(&model.parameters)
+    ))
+}
+
+/// Friction or drag that the scene lacks, or more of it.
+fn what_ends_rattle(p: &Parameters) -> &'static str {
+    let washers = p.scene.gear_contact != GearContact::Solid;
+    match (washers && !p.effects.thrust_friction, !p.effects.bearing_drag) {
+        (true, true) => {
+            "real planets and carriers are braked by washers, pins and bearings, which end the rattle: \
+             effects.thrust_friction = true and effects.bearing_drag = true"
+        }
+        (true, false) => "friction of washers and pins ends the rattle of planets: effects.thrust_friction = true",
+        (false, true) => "drag of the carrier's bearings ends the rattle: effects.bearing_drag = true",
+        (false, false) => {
+            "more drag ends the rattle sooner: raise bearing_drag.carrier_torque and bearing_drag.side_torque"
+        }
+    }
+}
+
+/// Returns what kept the solver from advancing: the criterion that rejected most steps since the counts `before`, and the body
+/// whose motion changes fastest, with its effect.
+pub fn too_many_steps(model: &Model, inputs: &Inputs, state: &State, before: &Statistics) -> String {
+    let now = &state.statistics;
+    let rejected = [
+        (now.rejected_error - before.rejected_error, "because their error was too large"),
+        (now.rejected_ledger - before.rejected_ledger, "because their energy ledger did not close"),
+        (now.rejected_invalid - before.rejected_invalid, "because a value was not finite"),
+        (now.rejected_switch - before.rejected_switch, "because dry friction switched within them"),
+    ];
+    let (most, why) = rejected.into_iter().max_by_key(|(count, _)| *count).unwrap_or_default();
+    let accepted = now.accepted - before.accepted;
+    let fastest = fastest(model, inputs, state);
+    if most >= accepted {
+        format!("{most} of them were rejected {why}; {fastest}")
+    } else {
+        let size = state.control.last;
+        format!("{accepted} of them were accepted, the last with a size of {size:.1e} s; {fastest}")
+    }
+}
+
+/// Body whose velocity changes fastest, in units of what the error norm resolves, with its motion and its friction.
+fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
+    with_equations!(model, state, inputs, |equations| {
+        let at: Point<N> = state.point();
+        let (rates, weights) = (equations.evaluate(&at).0, equations.weights(&at).v);
+        let change = |i: usize| (rates[i] * weights[i]).abs();
+        let Some(i) = (0..equations.degrees_of_freedom()).max_by(|&i, &j| change(i).total_cmp(&change(j))) else {
+            return String::new();
+        };
+        let layout = equations.layout();
+        let (name, unit) = name_of(layout, i);
+        format!(
+            "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
+            at.v[i],
+            rates[i],
+            friction_of(layout, state, i)
+        )
+    })
+}
+
+/// Name of the body of degree of freedom `i`, and the unit of its position.
+fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
+    if let Some((_, to)) = layout.attached().find(|&(body, _)| body == i) {
+        return (format!("the {} wheel", SIDES[to]), "rad");
+    }
+    let planets = layout.planet(0)..layout.planet(0) + layout.groups;
+    let name = match i {
+        0 | 1 => format!("the {} side gear", SIDES[i]),
+        CARRIER => "the carrier".into(),
+        _ if planets.contains(&i) => format!("planet group {}", i - planets.start + 1),
+        _ if layout.has_pins && i < planets.start => {
+            return (format!("the {} axial seat", SIDES[i - layout.seat(0)]), "m");
+        }
+        _ => format!("the pins of planet group {}", i - planets.end + 1),
+    };
+    (name, "rad")
+}
+
+const SIDES: [&str; 2] = ["left", "right"];
+
+/// What dry friction does with the body of degree of freedom `i`, if it acts there.
+fn friction_of(layout: &Layout, state: &State, i: usize) -> String {
+    let body_of = |k: usize| match k {
+        0..FRICTION_PLANETS => k,
+        FRICTION_PLANETS..FRICTION_WHEELS => layout.planet(k - FRICTION_PLANETS),
+        _ if layout.has_ends() => layout.end(k - FRICTION_WHEELS),
+        _ => k - FRICTION_WHEELS,
+    };
+    (0..FRICTION_BODIES)
+        .filter(|&k| state.friction[k].stiffness > 0.0 && body_of(k) == i)
+        .map(|k| {
+            let does = if state.friction[k].mode == Mode::Stuck { "holds" } else { "brakes" };
+            let what = match k {
+                0..FRICTION_PLANETS => "a clutch, a washer or the lock",
+                FRICTION_PLANETS..FRICTION_WHEELS => "its pins or washers (effects.thrust_friction)",
+                _ => "the brake (effects.wheel_brake)",
+            };
+            format!("; {what} {does} it")
+        })
+        .collect()
+}
+
+/// What makes steps fewer where too many were attempted.
+pub fn fewer_steps(model: &Model, state: &State) -> String {
+    let has_teeth = matches!(model.gears, Gears::Teeth(_));
+    match rattle_warning(model, state) {
+        Some(_) => what_ends_rattle(&model.parameters).into(),
+        None if has_teeth => hints::fewer_steps(&model.parameters).into(),
+        None => "look at the inputs".into(),
+    }
+}
