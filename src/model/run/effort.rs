@@ -23,7 +23,7 @@ pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
     }
     Some(problem!(
         "solver.steps",
-        "{:.0} % of the {all} steps so far went into rattle: flanks that nothing presses have touched again {impacts} times; {}; \
+        "{:.0} percent of the {all} steps so far went into rattle: flanks that nothing presses have touched again {impacts} times; {}; \
          reported once",
         100.0 * steps as f64 / all as f64,
         what_ends_rattle(&model.parameters)
