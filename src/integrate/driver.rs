@@ -181,7 +181,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             let ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
             let mut imbalance = ledger.relative() / (LEDGER * tolerance);
             if imbalance > 1.0 {
-                let floor = system.energy_floor([&course.point, &end], tolerance);
+                // copies, so that both points may stay in registers
+                let ends = [course.point, end];
+                let floor = system.energy_floor([&ends[0], &ends[1]], tolerance);
                 imbalance = imbalance.min(ledger.residual / floor);
             }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {

@@ -3,8 +3,8 @@
 //! The balance is relative to the energy exchanged in the step. In a motion that decays to rest this energy decays along with
 //! the motion, so that the relative balance alone would resolve the decay to the last bit. The floor is the sum of two energies:
 //!
-//!   rounding    Σ (|F| at both ends) δ, with the force F of all springs on a body and the rounding δ of its position. A shift
-//!               by δ changes the stored energy by F δ, and no input does this work.
+//!   rounding    Σ |F| δ, with the force F of all springs on a body at the end of the step, and the rounding δ of the body's
+//!               position. A shift by δ changes the stored energy by F δ, and no input does this work.
 //!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below tol/w.
 //!               It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster motion, a
 //!               small energy may be the beginning of a large one, as at the first touch of a blow.
@@ -15,30 +15,21 @@ use crate::model::scene::layout::LEFT;
 use crate::model::scene::{CARRIER, Layout};
 
 /// Returns the energy [J] below which the balance of a step between `ends` is not resolved, if the motion has the relative
-/// `tolerance`. `spring_forces` are the forces on all bodies at rest without inputs.
+/// `tolerance`. `spring_forces` are the forces on all bodies at rest without inputs, and `kinetic_energy` is in J.
 pub fn energy_floor<const N: usize>(
     equations: &(impl Acted<N> + SecondOrder<N>),
-    ends: [&Point<N>; 2],
+    [start, end]: [&Point<N>; 2],
     tolerance: f64,
     spring_forces: impl Fn(&Point<N>) -> [f64; N],
+    kinetic_energy: impl Fn(&Point<N>) -> f64,
 ) -> f64 {
     let layout = equations.layout();
-    let rounding = roundings(layout, ends);
-    let shifted: f64 = ends
-        .iter()
-        .map(|at| {
-            let force = spring_forces(&at_rest(at));
-            (0..layout.count()).map(|i| layout.bodies(i) * force[i].abs() * rounding[i]).sum::<f64>()
-        })
-        .sum();
-    let rest = at_rest(ends[1]);
+    let (rest, rounding) = (Point { q: end.q, v: [0.0; N] }, roundings(layout, [start, end]));
+    let force = spring_forces(&rest);
+    let shifted: f64 = (0..layout.count()).map(|i| layout.bodies(i) * force[i].abs() * rounding[i]).sum();
     let unresolved = Point { v: equations.weights(&rest).v.map(|weight| tolerance / weight), ..rest };
-    let [unresolved, kinetic] = [&unresolved, ends[1]].map(|at| equations.energy(at)[0]);
-    if tolerance * kinetic < unresolved { shifted + unresolved } else { shifted }
-}
-
-fn at_rest<const N: usize>(at: &Point<N>) -> Point<N> {
-    Point { q: at.q, v: [0.0; N] }
+    let unresolved = kinetic_energy(&unresolved);
+    if tolerance * kinetic_energy(end) < unresolved { shifted + unresolved } else { shifted }
 }
 
 /// Rounding of the absolute position of each body in a step between `ends` [rad; seats m]. Positions of side gears and pins are

@@ -116,6 +116,11 @@ impl<'a> IdealEquations<'a> {
         self.torques_of(&sum, &self.accelerations(&sum, &imposed), ledger_rates.drive)
     }
 
+    /// Kinetic energy [J].
+    fn kinetic_energy(&self, at: &Point<MOST>) -> f64 {
+        0.5 * (0..self.count()).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
+    }
+
     /// Energy of half-shafts and stuck friction [J].
     fn stored_energy(&self, at: &Point<MOST>) -> f64 {
         let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&self.body_motion(at))).sum();
@@ -179,8 +184,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     }
 
     fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
-        let kinetic: f64 = (0..self.count()).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum();
-        [0.5 * kinetic, self.stored_energy(at)]
+        [self.kinetic_energy(at), self.stored_energy(at)]
     }
 
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
@@ -189,7 +193,8 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64) -> f64 {
         let free = self.under(&Inputs::ZERO, &InputDerivatives::ZERO);
-        energy_floor(self, ends, tolerance, |at| free.forces(at, &mut LedgerRates::default()).0)
+        let spring_forces = |at: &Point<MOST>| free.forces(at, &mut LedgerRates::default()).0;
+        energy_floor(self, ends, tolerance, spring_forces, |at| self.kinetic_energy(at))
     }
 
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {

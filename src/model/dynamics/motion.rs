@@ -186,11 +186,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         let [start, end] = ends.map(|at| Point::of([&at.q, &at.v]));
         let equations = self.largest();
         let free = equations.under(&Inputs::ZERO, &InputDerivatives::ZERO);
-        energy_floor(&equations, [&start, &end], tolerance, |at| {
+        let spring_forces = |at: &Point<LARGEST>| {
             let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
             free.act(at, &mut sum, &mut imposed, &mut LedgerRates::default(), None);
             sum
-        })
+        };
+        energy_floor(&equations, [&start, &end], tolerance, spring_forces, |at| equations.kinetic_energy(at))
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
