@@ -51,7 +51,7 @@ pub fn integrate(
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
-        let (begin, events) = (state.time(), state.event.count);
+        let (begin, events) = (state.time(), state.events.count());
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             to_end(model, inputs, (state, watched), stop, &mut budget)
@@ -65,7 +65,7 @@ pub fn integrate(
         }
         break_tooth(model, inputs, state);
         let pauses = if state.time() < until {
-            way.pauses && state.event.count != events
+            way.pauses && state.events.count() != events
         } else {
             // the equations end at the end of this part, so the next part starts a new clock
             way.is_part && state.pending_step.is_none()
