@@ -181,13 +181,23 @@ impl Instance {
 
     /// Event iteration of either kind of instance. The first iteration changes all that is due; each reports one event.
     pub fn update_discrete_states(&mut self) -> CallResult<Iteration> {
-        let update = if self.now.kind == Kind::ModelExchange {
-            self.new_discrete_states()?
-        } else {
+        let update = if self.now.kind == Kind::CoSimulation {
             self.apply_commands()?;
             Update { states_changed: false, next: None }
+        } else if self.only_reports()? {
+            Update { states_changed: false, next: self.simulation()?.next_event() }
+        } else {
+            self.new_discrete_states()?
         };
         Ok(Iteration { update, is_needed: self.publish_next()? })
+    }
+
+    /// True if an iteration in model exchange only reports an event of the iterations before. Nothing changes twice at a time,
+    /// so the iteration ends.
+    fn only_reports(&mut self) -> CallResult<bool> {
+        let published = self.now.discrete.map(|discrete| discrete.event.count);
+        let simulation = self.simulation()?;
+        Ok(simulation.is_accepted() && published.is_some_and(|count| count != simulation.events().count()))
     }
 
     /// Applies the inputs now if they cause an event. Otherwise, they act from the next step on.

@@ -226,6 +226,16 @@ impl Simulation {
         Ok(due)
     }
 
+    /// True if the present time and inputs are those of the last completed step or event.
+    pub fn is_accepted(&self) -> bool {
+        self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
+    }
+
+    /// Time of the next event that is known already [s].
+    pub fn next_event(&self) -> Option<f64> {
+        next_change(&self.model, &self.state)
+    }
+
     /// An event: commands, friction and teeth change to what is due.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         // events whose time is known come without a step that is completed
