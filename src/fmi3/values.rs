@@ -107,6 +107,7 @@ pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: O
     for (reference, value) in references.iter().zip(values.iter()) {
         value.write(match known(reference)? {
             Item::EventPlace => instance.discrete()?.event.number(),
+            Item::EventCount => i32::try_from(instance.discrete()?.event.count).unwrap_or(i32::MAX),
             Item::Row(_) if is_int32(reference)? => instance.get_integer(reference)?,
             _ => return Err(other_type(reference, "Int32")),
         });

@@ -26,6 +26,8 @@ pub enum Item {
     EventTime,
     /// The last event in words.
     EventText,
+    /// Number of the last event since the start.
+    EventCount,
     /// An event indicator.
     Indicator(usize),
     /// One row of the table for each planet of the scene.
@@ -48,10 +50,10 @@ pub struct Added {
 /// Names of [`Happening`], by their numbers, with what they say.
 pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
     ("nothing", c"nothing has happened yet", Happening::Nothing),
-    ("wheel_stops", c"a wheel comes to rest and its brake holds it", Happening::WheelStops),
-    ("wheel_breaks_loose", c"a wheel begins to turn against its brake", Happening::WheelBreaksLoose),
-    ("clutch_sticks", c"a clutch, a washer or the lock begins to stick", Happening::ClutchSticks),
-    ("clutch_slips", c"a clutch, a washer or the lock begins to slip", Happening::ClutchSlips),
+    ("wheel_stops", c"a brake begins to hold a wheel", Happening::WheelStops),
+    ("wheel_breaks_loose", c"a brake no longer holds a wheel", Happening::WheelBreaksLoose),
+    ("clutch_sticks", c"a clutch, a washer or the lock begins to hold", Happening::ClutchSticks),
+    ("clutch_slips", c"a clutch, a washer or the lock no longer holds", Happening::ClutchSlips),
     ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
 ];
 
@@ -66,7 +68,7 @@ pub fn planet_count() -> u32 {
     *PLACE.get_or_init(|| place("geometry.planet_count") as u32)
 }
 
-/// Which of the masks of what dry friction holds a row is, if it is one: these change at events alone.
+/// Index of the `held.*` output in row `index`, or `None` for other rows. These outputs change only at events.
 pub fn held(index: usize) -> Option<usize> {
     static PLACES: OnceLock<[usize; 3]> = OnceLock::new();
     let places = PLACES.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(place));
@@ -96,6 +98,8 @@ pub fn added() -> &'static [Added] {
             item: Item::Indicator(k),
         }));
         added.extend(arrays());
+        // last, so that all others keep their value references
+        added.push(own("event.count", "Number of the last event since the start; 0 = none", Item::EventCount));
         added
     })
 }

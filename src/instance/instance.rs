@@ -108,8 +108,8 @@ impl Instance {
                 Kind::ModelExchange => simulation.start_model_exchange(),
             }
         }
+        self.publish()?;
         if self.allowed.events {
-            self.publish()?;
             self.now.phase = Phase::Event;
         }
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Events)) {
@@ -179,7 +179,7 @@ impl Instance {
 
     /// After an internal error only the parameters are reliable.
     pub fn fail(&mut self) {
-        self.now.simulation = None;
+        (self.now.simulation, self.now.discrete) = (None, None);
         self.now.phase = Phase::Error;
     }
 
@@ -278,7 +278,9 @@ impl Instance {
             )));
         }
         self.now = snapshot.clone();
-        Ok(())
+        // the host that saved the state may not have handled events, or this host does not
+        let lacks_values = self.now.discrete.is_none() && self.now.phase.is_running();
+        if lacks_values || !self.allowed.events { self.publish() } else { Ok(()) }
     }
 }
 

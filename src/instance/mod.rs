@@ -41,4 +41,4 @@ pub use panic_guard::catch;
 pub(crate) use phase::calls;
 pub use phase::{LegalCall, Phase};
 pub use snapshot::Snapshot;
-pub use steps::{Allowed, Discrete, Ended};
+pub use steps::{Allowed, Discrete, Ended, Iteration};

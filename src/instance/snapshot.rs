@@ -12,7 +12,7 @@ use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 13;
+const VERSION: u32 = 14;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -36,8 +36,8 @@ pub struct Snapshot {
     pub start_time: f64,
     /// Stop time [s], if the host gave one.
     pub stop_time: Option<f64>,
-    /// Outputs that change at events alone, as the host that handles events has them.
-    pub discrete: Discrete,
+    /// Published values of the outputs that change only at events, if the host handles events.
+    pub discrete: Option<Discrete>,
     /// Whether the host set the solver's tolerance itself.
     pub tolerance_chosen: bool,
     /// The simulation; none before initialisation, or when something was set since it was built.
@@ -58,7 +58,7 @@ impl Snapshot {
             derivatives_set: 0,
             start_time: 0.0,
             stop_time: None,
-            discrete: Discrete::default(),
+            discrete: None,
             tolerance_chosen: false,
             simulation: None,
         }
@@ -139,6 +139,7 @@ impl Snapshot {
             || state.as_ref().is_some_and(|both| !both.0.is_valid() || !both.1.is_valid())
             || accepted.as_ref().is_some_and(|a| !a.is_valid())
             || self.input_derivatives.is_some_and(|c| !c.is_finite())
+            || self.discrete.is_some_and(|d| !d.is_finite())
         {
             return Err("the state has values that are not finite".into());
         }

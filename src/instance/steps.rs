@@ -9,7 +9,7 @@ use crate::model::{Event, StepFailure, Update, Way, six_digits};
 /// What the host of a co-simulation allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Allowed {
-    /// It handles events in event mode.
+    /// It handles events in event mode. Hosts of model exchange always do.
     pub events: bool,
     /// A step may end at an event.
     pub early_return: bool,
@@ -17,13 +17,29 @@ pub struct Allowed {
     pub update: [usize; 2],
 }
 
-/// Outputs that change only at events, where the host handles events.
+/// Outputs that change only at events if the host handles events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Discrete {
-    /// The last event.
+    /// The last event that was reported to the host.
     pub event: Event,
-    /// Bit masks of the bodies that dry friction holds: side gears, planets, wheels.
+    /// Numbers of bodies that dry friction holds: side gears, groups of planets, wheels.
     pub held: [f64; 3],
+}
+
+impl Discrete {
+    /// True if all numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.event.time.is_finite() && self.held.iter().all(|held| held.is_finite())
+    }
+}
+
+/// Result of an event iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// Result of the event.
+    pub update: Update,
+    /// True if there are more events to report, so that the host iterates again.
+    pub is_needed: bool,
 }
 
 /// How a step, or a part of it, ended.
@@ -48,13 +64,17 @@ impl Instance {
         Err(CallError::error("this call is for co-simulation, but the instance is for model exchange"))
     }
 
-    /// A step from `point` over `h` to `until` [s], or to the first event if the host allows early return; `in_parts`: only up to
-    /// the end of the solver's next step.
+    /// A step from `point` over `h` to `until` [s], or to the first event if the host allows early return. Inputs that were set
+    /// may cause an event at `point`. With `in_parts`, only up to the end of the solver's next step.
     pub fn step_to_event(&mut self, [point, h, until]: [f64; 3], in_parts: bool) -> CallResult<Ended> {
         self.check_co_simulation()?;
-        let stop = self.now.stop_time;
+        let (stop, may_end_early) = (self.now.stop_time, self.allowed.early_return);
         let simulation = self.simulation()?;
         check_step(simulation.time(), stop, point, h)?;
+        // a command that changes what friction holds is an event at the start of the step
+        if may_end_early && simulation.begin() && simulation.time() < until {
+            return self.ended(until, in_parts);
+        }
         let next = if in_parts { simulation.next_solver_time() } else { Ok(None) };
         match next.map_err(|failure| self.step_failed(&failure))? {
             Some(next) if next < until => self.move_on(next, true),
@@ -71,13 +91,19 @@ impl Instance {
                 return Err(self.step_failed(&failure));
             }
         }
+        self.ended(until, is_part)
+    }
+
+    /// Returns how a step to `until` [s], or a part of a step, has ended at the present.
+    fn ended(&mut self, until: f64, is_part: bool) -> CallResult<Ended> {
         let simulation = self.simulation()?;
-        let (time, count) = (simulation.time(), simulation.last_event().count);
+        let (time, count) = (simulation.time(), simulation.events().count());
         self.warn_while_running();
         if self.now.stop_time.is_some_and(|stop| time >= stop) {
             self.warn_at_end();
         }
-        let (early, event) = (time < until, allowed.events && count != self.now.discrete.event.count);
+        let event = self.allowed.events && self.now.discrete.is_none_or(|reported| reported.event.count != count);
+        let early = time < until;
         let is_done = early || !is_part;
         Ok(Ended { time, event: event && is_done, early, is_done })
     }
@@ -95,19 +121,36 @@ impl Instance {
         ))
     }
 
-    /// Gives outputs that change only at events their present values.
-    pub fn publish(&mut self) -> CallResult {
+    /// Present values of the outputs that change only at events.
+    fn present(&mut self) -> CallResult<Discrete> {
         let simulation = self.simulation()?;
-        self.now.discrete = Discrete { event: *simulation.last_event(), held: simulation.ledger().held };
+        Ok(Discrete { event: *simulation.events().last(), held: simulation.ledger().held })
+    }
+
+    /// Publishes the present values of the outputs that change only at events, if the host handles events.
+    pub fn publish(&mut self) -> CallResult {
+        self.now.discrete = if self.allowed.events { Some(self.present()?) } else { None };
         Ok(())
     }
 
-    /// Outputs that change only at events: as published where the host handles events, else their present values.
-    pub fn discrete(&mut self) -> CallResult<Discrete> {
-        if !self.allowed.events {
-            self.publish()?;
+    /// Publishes the next event that was not published yet, and what friction holds now. Returns true if more events remain.
+    fn publish_next(&mut self) -> CallResult<bool> {
+        let mut reported = self.present()?;
+        let events = *self.simulation()?.events();
+        if let Some(before) = self.now.discrete {
+            reported.event = *events.after(before.event.count).unwrap_or(events.last());
         }
-        Ok(self.now.discrete)
+        self.now.discrete = Some(reported);
+        Ok(reported.event.count != events.count())
+    }
+
+    /// Outputs that change only at events: published values if the host handles events, otherwise present values. Before the
+    /// end of initialisation nothing is published.
+    pub fn discrete(&mut self) -> CallResult<Discrete> {
+        match self.now.discrete {
+            Some(reported) if self.allowed.events => Ok(reported),
+            _ => self.present(),
+        }
     }
 
     /// Enters event mode: in model exchange, or between steps of co-simulation.
@@ -136,13 +179,35 @@ impl Instance {
         Ok(())
     }
 
-    /// Event iteration, of either kind of instance: one iteration is always enough.
-    pub fn update_discrete_states(&mut self) -> CallResult<Update> {
-        if self.now.kind == Kind::ModelExchange {
-            return self.new_discrete_states();
+    /// Event iteration of either kind of instance. The first iteration changes all that is due; each reports one event.
+    pub fn update_discrete_states(&mut self) -> CallResult<Iteration> {
+        let update = if self.now.kind == Kind::CoSimulation {
+            self.apply_commands()?;
+            Update { states_changed: false, next: None }
+        } else if self.only_reports()? {
+            Update { states_changed: false, next: self.simulation()?.next_event() }
+        } else {
+            self.new_discrete_states()?
+        };
+        Ok(Iteration { update, is_needed: self.publish_next()? })
+    }
+
+    /// True if an iteration in model exchange only reports an event of the iterations before. Nothing changes twice at a time,
+    /// so the iteration ends.
+    fn only_reports(&mut self) -> CallResult<bool> {
+        let published = self.now.discrete.map(|discrete| discrete.event.count);
+        let simulation = self.simulation()?;
+        Ok(simulation.is_accepted() && published.is_some_and(|count| count != simulation.events().count()))
+    }
+
+    /// Applies the inputs now if they cause an event. Otherwise, they act from the next step on.
+    fn apply_commands(&mut self) -> CallResult {
+        let simulation = self.simulation()?;
+        let mut begun = simulation.clone();
+        if begun.begin() {
+            *simulation = begun;
         }
-        self.publish()?;
-        Ok(Update { states_changed: false, next: None })
+        Ok(())
     }
 
     /// Structural parameters may be set from here on.

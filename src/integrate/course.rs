@@ -78,6 +78,8 @@ pub struct Attempt {
     pub unbalanced: u32,
     /// Size of the first of these attempts [s].
     pub whole: f64,
+    /// Number of consecutive steps up to this one that were cut at a switch but ended before it.
+    pub short: u32,
 }
 
 /// A step of small enough error that is not completed yet.

@@ -155,6 +155,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     loop {
         if let Some(pending) = &course.pending {
             let Attempt { h: size, error, cut, to_kink, .. } = pending.attempt;
+            short = pending.attempt.short;
             let h = size * pending.part;
             let mut reached = course.time + h;
             let done = course.end - reached <= resolution;
@@ -248,7 +249,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if error <= 1.0 {
                 short = if h == switch_at { short + 1 } else { 0 };
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
-                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole };
+                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole, short };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
                 course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0 });
                 continue;

@@ -25,7 +25,7 @@ pub use assembly::gear_cache::{GearCache, Share};
 pub use assembly::inertias::Inertias;
 pub use assembly::model::Given;
 pub use dynamics::accepted::Accepted;
-pub use dynamics::event::{Event, Happening, Way};
+pub use dynamics::event::{Event, Events, Happening, Way};
 pub use dynamics::state::State;
 pub use dynamics::watched::Watched;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};

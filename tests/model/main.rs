@@ -3,6 +3,7 @@
 mod angular_momentum;
 mod assembled_jacobian;
 mod body_compliance;
+mod commands;
 #[path = "../common/mod.rs"]
 mod common;
 mod communication;

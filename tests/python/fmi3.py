@@ -76,12 +76,25 @@ class Unit3:
         """(event handling needed, terminate, early return, last successful time)."""
         return self.raw.doStep(time, size)
 
-    def handle_event(self):
-        """Event mode and back; whether continuous states changed and the next event."""
+    def event(self):
+        """The last event as published: kind, place, time and number."""
+        return tuple(self.read(["event.kind", "event.place", "event.time", "event.count"]))
+
+    def update(self):
+        """Iterates in event mode. Returns the events that were reported, none if nothing has happened."""
+        reported, more = [], True
+        while more:
+            more = self.raw.updateDiscreteStates()[0]
+            reported.append(self.event())
+        return [event for event in reported if event[-1] > 0]
+
+    def handle_event(self, values=None):
+        """Sets `values` in event mode, iterates and returns to step mode. Returns the events that were reported."""
         self.raw.enterEventMode()
-        found = self.raw.updateDiscreteStates()
+        self.set(values or {})
+        reported = self.update()
         self.raw.enterStepMode()
-        return found
+        return reported
 
     def sensitivity(self, unknowns, knowns, seed, adjoint=False):
         """Directional derivative, or its adjoint."""

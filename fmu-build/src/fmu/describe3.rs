@@ -135,7 +135,7 @@ fn added_variable(reference: usize, added: &Added) -> Element {
             .with("variability", "continuous")
             .with("unit", units::SECOND.name),
         Item::EventKind => event("Enumeration").with("declaredType", EVENT),
-        Item::EventPlace => event("Int32"),
+        Item::EventPlace | Item::EventCount => event("Int32"),
         Item::EventTime => event("Float64").with("unit", units::SECOND.name),
         Item::EventText => event("String"),
         Item::Planets(members) => array(members, Element::new("Dimension").with("valueReference", planet_count())),
@@ -167,7 +167,7 @@ fn structure(table: &Table) -> Element {
         Item::Planets(members) | Item::Pairs(members) => {
             Some(unknown("Output", reference, members.iter().flat_map(|&index| of(index)).collect()))
         }
-        Item::EventKind | Item::EventPlace | Item::EventTime | Item::EventText => {
+        Item::EventKind | Item::EventPlace | Item::EventTime | Item::EventText | Item::EventCount => {
             Some(unknown("Output", reference, Vec::new()))
         }
         _ => None,

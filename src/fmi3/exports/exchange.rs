@@ -3,6 +3,7 @@
 use super::*;
 #[cfg(feature = "full")]
 use crate::instance::EVENT_INDICATORS;
+use crate::instance::Iteration;
 #[cfg(feature = "full")]
 use crate::model::STATES;
 
@@ -46,7 +47,7 @@ counts! {
     fmi3GetNumberOfContinuousStates GetNumberOfContinuousStates STATES;
 }
 
-/// fmi3UpdateDiscreteStates. One iteration is always enough.
+/// fmi3UpdateDiscreteStates. Hosts iterate until all events are reported; usually there is one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
     c: ComponentPointer,
@@ -70,8 +71,8 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
         };
         // SAFETY: as above
         let time = unsafe { host.output_value("nextEventTime", next_event)? };
-        let update = instance.update_discrete_states()?;
-        let values = [false, false, false, update.states_changed, update.next.is_some()];
+        let Iteration { update, is_needed } = instance.update_discrete_states()?;
+        let values = [is_needed, false, false, update.states_changed, update.next.is_some()];
         for (flag, value) in flags.into_iter().zip(values) {
             flag.write(Boolean::from(value));
         }

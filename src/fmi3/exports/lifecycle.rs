@@ -26,7 +26,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     environment: *mut c_void,
     message: Option<LogMessage>,
 ) -> ComponentPointer {
-    let allowed = Allowed::default();
+    let allowed = Allowed { events: true, ..Allowed::default() };
     // SAFETY: the host's promise, see the module
     let made =
         catch(|| unsafe { instantiate(Kind::ModelExchange, [name, token], logging, environment, message, allowed) });

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::effect_kinds::{FrictionState, Mode};
+use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs};
 
 /// What happens.
@@ -12,19 +12,19 @@ pub enum Happening {
     /// Nothing has happened yet.
     #[default]
     Nothing = 0,
-    /// A wheel comes to rest and its brake holds it.
+    /// A brake begins to hold a wheel: the wheel comes to rest, or the brake is applied at standstill.
     WheelStops = 1,
-    /// A wheel begins to turn against its brake.
+    /// A brake no longer holds a wheel: the wheel breaks loose, or the brake is released at standstill.
     WheelBreaksLoose = 2,
-    /// A clutch, washer or lock begins to stick.
+    /// A clutch, washer or lock begins to stick, or the lock is closed at standstill.
     ClutchSticks = 3,
-    /// It begins to slip.
+    /// A clutch, washer or lock begins to slip, or the lock is opened while it sticks.
     ClutchSlips = 4,
     /// The tooth of the tooth fault breaks.
     ToothBreaks = 5,
 }
 
-/// The last event.
+/// An event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// What happened.
@@ -33,12 +33,21 @@ pub struct Event {
     pub place: u8,
     /// Time [s].
     pub time: f64,
-    /// How many events there were so far.
+    /// Number of the event since the start, from 1; 0 before the first event.
     pub count: u32,
 }
 
-/// Where the motion stopped on its way to a communication point, and from where the rest of the way is reckoned: the last
-/// communication point, so that a stop between changes no rounding.
+/// Number of events that a simulation remembers.
+pub const REMEMBERED: usize = 8;
+
+/// The last events, newest first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Events {
+    recent: [Event; REMEMBERED],
+}
+
+/// Point at which the motion paused: at an event on the way to a communication point, or at the start of a step whose inputs
+/// already act. The remaining interval still counts from the last communication point, so a pause does not change rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pause {
     /// The last communication point on the integrator's clock [s].
@@ -66,11 +75,6 @@ pub struct Way {
 }
 
 impl Event {
-    /// Records what happens at `time` [s].
-    pub fn record(&mut self, what: Happening, place: usize, time: f64) {
-        *self = Self { what, place: place as u8, time, count: self.count.wrapping_add(1) };
-    }
-
     /// Number of the side (1 left, 2 right) or of the group of planets at which it happened; 0 for teeth.
     pub fn number(&self) -> i32 {
         let place = usize::from(self.place);
@@ -82,20 +86,125 @@ impl Event {
         };
         (place - first) as i32 + 1
     }
+}
 
-    /// Records how friction changes at `time` [s]. Returns whether a surface begins or ceases to stick.
-    pub fn record_friction(&mut self, [before, after]: [&[FrictionState; FRICTION_BODIES]; 2], time: f64) -> bool {
-        let sticks = |of: &[FrictionState; FRICTION_BODIES], i: usize| of[i].mode == Mode::Stuck;
-        let count = self.count;
-        for i in (0..FRICTION_BODIES).filter(|&i| sticks(before, i) != sticks(after, i)) {
-            let happening = match (i >= FRICTION_WHEELS, sticks(after, i)) {
-                (true, true) => Happening::WheelStops,
-                (true, false) => Happening::WheelBreaksLoose,
-                (false, true) => Happening::ClutchSticks,
-                (false, false) => Happening::ClutchSlips,
+impl Events {
+    /// The last event.
+    pub fn last(&self) -> &Event {
+        &self.recent[0]
+    }
+
+    /// Number of events since the start.
+    pub fn count(&self) -> u32 {
+        self.last().count
+    }
+
+    /// The first remembered event after event number `count`; `None` if that was the last one.
+    pub fn after(&self, count: u32) -> Option<&Event> {
+        let new = self.count().wrapping_sub(count);
+        let is_new = |event: &&Event| self.count().wrapping_sub(event.count) < new;
+        self.recent.iter().rev().find(is_new)
+    }
+
+    /// True if all times are finite.
+    pub fn is_finite(&self) -> bool {
+        self.recent.iter().all(|event| event.time.is_finite())
+    }
+
+    /// Records what happens at `time` [s].
+    pub fn record(&mut self, what: Happening, place: usize, time: f64) {
+        let event = Event { what, place: place as u8, time, count: self.count().wrapping_add(1) };
+        self.recent.rotate_right(1);
+        self.recent[0] = event;
+    }
+
+    /// Records at `time` [s] which bodies friction begins or ceases to hold, given its states `before` and `after`. Bodies that
+    /// move but have no members, beyond the scene's `groups` of planets, cause no event. Returns true if there is an event.
+    pub fn record_friction(
+        &mut self,
+        [before, after]: [&[FrictionState; FRICTION_BODIES]; 2],
+        groups: usize,
+        time: f64,
+    ) -> bool {
+        let count = self.count();
+        let is_body = |i: &usize| !(FRICTION_PLANETS + groups..FRICTION_WHEELS).contains(i);
+        for i in (0..FRICTION_BODIES).filter(is_body) {
+            let happening = match (i >= FRICTION_WHEELS, before[i].holds(), after[i].holds()) {
+                (_, false, false) | (_, true, true) => continue,
+                (true, _, true) => Happening::WheelStops,
+                (true, _, false) => Happening::WheelBreaksLoose,
+                (false, _, true) => Happening::ClutchSticks,
+                (false, _, false) => Happening::ClutchSlips,
             };
             self.record(happening, i, time);
         }
-        self.count != count
+        self.count() != count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::effect_kinds::Mode;
+
+    /// Numbers of the events that a reader finds who has seen event number `seen`.
+    fn found(events: &Events, mut seen: u32) -> Vec<u32> {
+        let mut all = Vec::new();
+        while let Some(event) = events.after(seen) {
+            seen = event.count;
+            all.push(seen);
+        }
+        all
+    }
+
+    #[test]
+    fn events_are_found_in_order_and_the_oldest_are_forgotten() {
+        let mut events = Events::default();
+        assert_eq!(events.after(0), None);
+        for k in 1..=11 {
+            events.record(Happening::WheelStops, FRICTION_WHEELS, f64::from(k));
+        }
+        assert_eq!((events.count(), events.last().time), (11, 11.0));
+        assert_eq!(found(&events, 0), [4, 5, 6, 7, 8, 9, 10, 11]);
+        assert_eq!(found(&events, 9), [10, 11]);
+        assert_eq!(found(&events, 11), []);
+    }
+
+    #[test]
+    fn numbers_of_events_may_wrap() {
+        let mut events = Events { recent: [Event { count: u32::MAX - 1, ..Event::default() }; REMEMBERED] };
+        for _ in 0..3 {
+            events.record(Happening::ToothBreaks, 0, 1.0);
+        }
+        assert_eq!(found(&events, u32::MAX - 1), [u32::MAX, 0, 1]);
+    }
+
+    #[test]
+    fn only_bodies_that_friction_begins_or_ceases_to_hold_cause_events() {
+        let free = FrictionState::default();
+        let held = FrictionState { stiffness: 1e5, ..free };
+        let slides = FrictionState { mode: Mode::Forward, ..held };
+        let (left, right) = (FRICTION_WHEELS, FRICTION_WHEELS + 1);
+        let changes = [
+            (left, free, held, Happening::WheelStops),
+            (right, held, free, Happening::WheelBreaksLoose),
+            (right, slides, held, Happening::WheelStops),
+            (left, held, slides, Happening::WheelBreaksLoose),
+            (0, free, held, Happening::ClutchSticks),
+            (1, held, free, Happening::ClutchSlips),
+            (left, free, slides, Happening::Nothing),
+            (left, slides, free, Happening::Nothing),
+            (0, held, FrictionState { stiffness: 2e5, ..held }, Happening::Nothing),
+            // the fourth group of three planets has no members
+            (FRICTION_PLANETS + 3, slides, held, Happening::Nothing),
+        ];
+        for (place, from, to, what) in changes {
+            let (mut before, mut after, mut events) = ([slides; FRICTION_BODIES], [slides; _], Events::default());
+            (before[place], after[place]) = (from, to);
+            let is_event = what != Happening::Nothing;
+            assert_eq!(events.record_friction([&before, &after], 3, 0.5), is_event, "{place}: {from:?} to {to:?}");
+            let expected = Event { what, place: place as u8, time: 0.5, count: 1 };
+            assert_eq!(*events.last(), if is_event { expected } else { Event::default() });
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::event::{Event, Pause};
+use super::event::{Events, Pause};
 use super::pending_step::PendingStep;
 use super::rattle::Rattle;
 use super::torque_means::TorqueMeans;
@@ -61,8 +61,8 @@ pub struct State {
     pub held_before: f64,
     /// The integrator's step that contains the present time. Work, heat, friction and damage are those at the beginning of it.
     pub pending_step: Option<PendingStep>,
-    /// The last event.
-    pub event: Event,
+    /// The last events.
+    pub events: Events,
     /// From where the way to the next communication point is reckoned, after a stop on it.
     pub pause: Option<Pause>,
 }
@@ -91,7 +91,7 @@ impl State {
             held_since: None,
             held_before: f64::INFINITY,
             pending_step: None,
-            event: Event::default(),
+            events: Events::default(),
             pause: None,
         }
     }
@@ -212,12 +212,12 @@ impl State {
     pub fn is_valid(&self) -> bool {
         self.is_valid_without_pending_step()
             && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
-            && self.event.time.is_finite()
+            && self.events.is_finite()
             && self.pause.as_ref().is_none_or(Pause::is_finite)
     }
 
-    /// The same without the pending step, the event and the pause, for the end of an integration. There the pending step is finite,
-    /// because it has passed the error test.
+    /// Checks all but the pending step, the events and the pause, for the end of an integration. There the pending step is
+    /// finite, because it has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
         let numbers = [
             self.time,
@@ -261,6 +261,7 @@ impl BodyEffects {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::dynamics::event::Happening;
     use crate::model::scene::Inputs;
 
     #[test]
@@ -275,13 +276,14 @@ mod tests {
     }
 
     #[test]
-    fn a_state_whose_event_or_pause_holds_no_number_is_not_valid() {
+    fn a_state_whose_events_or_pause_contain_no_number_is_not_valid() {
         let mut good = State::at_rest(0.0, 1e-3);
         good.pause = Some(Pause { now: 0.0, time: 0.0, inputs: Inputs::ZERO });
         assert!(good.is_valid());
         for bad in [f64::NAN, f64::INFINITY] {
             let mut states = [good; 4];
-            states[0].event.time = bad;
+            states[0].events.record(Happening::ToothBreaks, 0, bad);
+            states[0].events.record(Happening::ToothBreaks, 0, 0.0);
             let [_, now, time, inputs] = states.each_mut().map(|state| state.pause.as_mut().unwrap());
             (now.now, time.time, inputs.inputs.planet_spin) = (bad, bad, bad);
             assert!(states.iter().all(|state| !state.is_valid()), "{bad}");

@@ -44,3 +44,10 @@ pub struct FrictionState {
     /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
     pub stiffness: f64,
 }
+
+impl FrictionState {
+    /// True if friction holds the body.
+    pub fn holds(&self) -> bool {
+        self.stiffness > 0.0 && self.mode == Mode::Stuck
+    }
+}

@@ -6,6 +6,7 @@ use crate::model::assembly::Model;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::{Acted, State};
+use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};
 use crate::model::setup::CONTACT_HEAT;
 
@@ -19,7 +20,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
         state.is_tooth_broken = true;
-        state.event.record(Happening::ToothBreaks, 0, state.time());
+        state.events.record(Happening::ToothBreaks, 0, state.time());
         state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
     }
 }
@@ -31,7 +32,15 @@ pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     if !model.body_effects().act_in(state) {
         return;
     }
+    let before = state.friction;
     switch_friction(model, inputs, state);
+    record_holds(model, &before, state);
+}
+
+/// Records as events which bodies friction begins or ceases to hold now, compared with the friction `before`.
+pub fn record_holds(model: &Model, before: &[FrictionState; FRICTION_BODIES], state: &mut State) {
+    let (after, time) = (state.friction, state.time());
+    state.events.record_friction([before, &after], model.ideal.plan.groups().len(), time);
 }
 
 /// Lets friction start and end on bodies. Wheels held by more than the limit torque of their brakes begin to slide.

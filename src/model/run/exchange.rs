@@ -6,7 +6,7 @@
 
 use crate::FULL;
 
-use super::events::{apply_changes, break_tooth, energy, have_brakes_changed};
+use super::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
 use super::progress::complete;
 use super::timeline::{breaks_tooth, next_change};
 use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
@@ -226,6 +226,16 @@ impl Simulation {
         Ok(due)
     }
 
+    /// True if the present time and inputs are those of the last completed step or event.
+    pub fn is_accepted(&self) -> bool {
+        self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
+    }
+
+    /// Time of the next event that is known already [s].
+    pub fn next_event(&self) -> Option<f64> {
+        next_change(&self.model, &self.state)
+    }
+
     /// An event: commands, friction and teeth change to what is due.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         // events whose time is known come without a step that is completed
@@ -242,12 +252,14 @@ impl Simulation {
         // the energy of a jump of imposed speeds is impulsive work of the input
         state.work += energy(model, inputs, state) - energy(model, inputs, &before);
         apply_changes(model, inputs, state);
+        let friction = state.friction;
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
                 equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
                 state.friction = equations.acting().friction_state;
             }
         });
+        record_holds(model, &friction, state);
         break_tooth(model, inputs, state);
         let next = next_change(model, state);
         let states_changed = before.q != state.q || before.v != state.v;

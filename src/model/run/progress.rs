@@ -51,7 +51,7 @@ pub fn integrate(
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
-        let (begin, events) = (state.time(), state.event.count);
+        let (begin, events) = (state.time(), state.events.count());
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             to_end(model, inputs, (state, watched), stop, &mut budget)
@@ -64,7 +64,13 @@ pub fn integrate(
             return Ok(());
         }
         break_tooth(model, inputs, state);
-        if way.pauses && state.event.count != events && state.time() < until {
+        let pauses = if state.time() < until {
+            way.pauses && state.events.count() != events
+        } else {
+            // the equations end at the end of this part, so the next part starts a new clock
+            way.is_part && state.pending_step.is_none()
+        };
+        if pauses {
             let now = state.pending_step.as_ref().map_or(0.0, |step| step.clock.now);
             state.pause = Some(Pause { now, time: state.time(), inputs: *inputs });
             return Ok(());

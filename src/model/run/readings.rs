@@ -7,7 +7,7 @@ use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
 use crate::model::dynamics::{IdealEquations, Largest, State, Watched};
-use crate::model::effect_kinds::{Changes, Mode};
+use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::{LedgerReadings, Motion, resultants};
@@ -171,9 +171,10 @@ impl Simulation {
         if let Some(network) = &self.model.thermal {
             thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }
+        // these follow the recorded events: completing the step may switch friction before its event is recorded
         let held = |range: std::ops::Range<usize>| {
-            let friction = state.friction[range].iter();
-            friction.filter(|f| f.stiffness > 0.0 && f.mode == Mode::Stuck).count() as f64
+            let friction = self.state.friction[range].iter();
+            friction.filter(|friction| friction.holds()).count() as f64
         };
         LedgerReadings {
             heat: state.heat,

@@ -7,7 +7,7 @@ use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
 use super::{StepFailure, imposed, start, start_report, timeline};
 use crate::model::assembly::{Gears, Given, Model};
-use crate::model::dynamics::event::{Event, Way};
+use crate::model::dynamics::event::{Events, Pause, Way};
 use crate::model::dynamics::{Accepted, Largest, State, Watched};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
@@ -71,7 +71,10 @@ impl Simulation {
             }
         }
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
+        let events = simulation.state.events;
         apply_changes(&simulation.model, inputs, &mut simulation.state);
+        // what friction holds from the start on is no event
+        simulation.state.events = events;
         let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
         if let Some(preload) = &preload {
             let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
@@ -122,6 +125,7 @@ impl Simulation {
     pub fn set_input_derivatives(&mut self, input_derivatives: Option<InputDerivatives>) {
         if input_derivatives != self.state.input_derivatives {
             self.state.input_derivatives = input_derivatives;
+            self.state.pause = None;
             self.forces = None;
         }
     }
@@ -138,6 +142,8 @@ impl Simulation {
         if self.model.thermal.is_none() {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
         }
+        // the next step begins again under the new parameters
+        self.state.pause = None;
         self.watched.last_loads = None;
         self.forces = None;
     }
@@ -147,26 +153,40 @@ impl Simulation {
         self.advance_by(until, Way::default())
     }
 
-    /// The last event.
-    pub fn last_event(&self) -> &Event {
-        &self.state.event
+    /// The last events.
+    pub fn events(&self) -> &Events {
+        &self.state.events
     }
 
-    /// Integrates to `until` [s], or to the first event where the way `pauses`, or a part of the way to a communication point. The way
-    /// on from there has the same bits as without a stop.
+    /// Applies the inputs at the present if they have changed, as the next step would at its start. Returns true if this is an
+    /// event. The next step then continues from here, with the same bits as if the step had applied the inputs.
+    pub fn begin(&mut self) -> bool {
+        let Self { model, state, watched, inputs, .. } = self;
+        let act_already = match &state.pending_step {
+            Some(pending_step) => pending_step.inputs == *inputs && state.input_derivatives.is_none(),
+            None => state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs),
+        };
+        if act_already {
+            return false;
+        }
+        let count = state.events.count();
+        begin_anew(model, inputs, (state, watched));
+        state.pause = Some(Pause { now: 0.0, time: state.time(), inputs: *inputs });
+        self.forces = None;
+        state.events.count() != count
+    }
+
+    /// Integrates to `until` [s], or to the first event if the way `pauses`, or a part of the way to a communication point. The
+    /// motion continues from there with the same bits as without a stop. An event at the start, see [`Self::begin`], does not
+    /// pause the motion.
     pub fn advance_by(&mut self, until: f64, way: Way) -> Result<(), StepFailure> {
         self.forces = None;
+        self.begin();
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
-        let holds = state.pending_step.as_ref().is_some_and(|pending_step| pending_step.inputs == *inputs);
-        let goes_on = state.pending_step.is_none() && state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs);
-        if holds && state.input_derivatives.is_none() {
-            if timeline::move_within(model, state, (until, way)) {
-                progress::keep_together(model, state);
-                return Ok(());
-            }
-        } else if !goes_on {
-            begin_anew(model, inputs, (state, watched));
+        if state.pending_step.is_some() && timeline::move_within(model, state, (until, way)) {
+            progress::keep_together(model, state);
+            return Ok(());
         }
         if let Gears::Ideal(ideal) = &model.gears
             && !ideal.body_effects.act_in(state)
@@ -178,6 +198,7 @@ impl Simulation {
                 (state.q, state.v, state.work) = (q, v, work);
                 return Err(StepFailure::not_finite(state.time()));
             }
+            state.pause = None;
             timeline::arrive(state, until, state.time() + h)?;
             state.statistics.accepted += 1;
             state.control.last = h;

@@ -81,8 +81,12 @@ pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -
     moves
 }
 
-/// Inputs, or something else, have changed: from now on inputs hold.
+/// Inputs, or something else, have changed: from now on inputs hold. A further change at the same time, such as a reaction to an
+/// event, does not end an interval.
 pub fn begin_holding(state: &mut State) {
+    if state.held_since == Some(state.time()) {
+        return;
+    }
     state.held_before = state.held_since.map_or(f64::INFINITY, |since| state.time() - since);
     state.held_since = Some(state.time());
 }
