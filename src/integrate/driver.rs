@@ -184,7 +184,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if imbalance > 1.0 {
                 // copies, so that both points may stay in registers
                 let ends = [course.point, end];
-                let floor = system.energy_floor([&ends[0], &ends[1]], tolerance);
+                let floor = system.energy_floor([&ends[0], &ends[1]], tolerance, ledger.residual);
                 imbalance = imbalance.min(ledger.residual / floor);
             }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {

@@ -195,9 +195,9 @@ pub trait SecondOrder<const N: usize> {
         Imbalance::NONE
     }
 
-    /// Energy that the ledger of a step between `ends` does not resolve, if the motion has the relative `tolerance`. It is
-    /// evaluated only if the ledger does not close otherwise.
-    fn energy_floor(&self, _ends: [&Point<N>; 2], _tolerance: f64) -> f64 {
+    /// Energy that the ledger of a step between `ends` does not resolve, if the motion has the relative `tolerance`; may be less
+    /// if it is below the `residual` of the ledger. It is evaluated only if the ledger does not close otherwise.
+    fn energy_floor(&self, _ends: [&Point<N>; 2], _tolerance: f64, _residual: f64) -> f64 {
         0.0
     }
 

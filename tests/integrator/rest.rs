@@ -77,7 +77,7 @@ impl SecondOrder<1> for Far {
     }
 
     /// Energy by rounding of the position, and energy of the speed that the error norm does not resolve.
-    fn energy_floor(&self, [start, end]: [&Point<1>; 2], tolerance: f64) -> f64 {
+    fn energy_floor(&self, [start, end]: [&Point<1>; 2], tolerance: f64, _: f64) -> f64 {
         let rounding = POSITION_ROUNDING * FAR;
         let shifted = (Self::force(start).abs() + Self::force(end).abs()) * rounding;
         let unresolved = tolerance * OMEGA;

@@ -12,24 +12,34 @@
 use super::Acted;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
 use crate::model::scene::layout::LEFT;
-use crate::model::scene::{CARRIER, Layout};
+use crate::model::scene::{CARRIER, Layout, MAX_DOF};
 
-/// Returns the energy [J] below which the balance of a step between `ends` is not resolved, if the motion has the relative
-/// `tolerance`. `spring_forces` are the forces on all bodies at rest without inputs, and `kinetic_energy` is in J.
+/// Share of the kinetic energy that rounding of positions changes at most in moving gears. A larger residual is an error of the
+/// step, and the forces of the springs need not be evaluated.
+const ROUNDED_SHARE: f64 = 1e-9;
+
+/// Returns the energy [J] below which a `residual` [J] of the balance of a step between `ends` is not resolved, if the motion has
+/// the relative `tolerance`. `spring_forces` are the forces on all bodies at the end, at rest and without inputs, and
+/// `kinetic_energy` is in J.
 pub fn energy_floor<const N: usize>(
     equations: &(impl Acted<N> + SecondOrder<N>),
     [start, end]: [&Point<N>; 2],
     tolerance: f64,
-    spring_forces: impl Fn(&Point<N>) -> [f64; N],
+    residual: f64,
+    spring_forces: impl Fn() -> [f64; MAX_DOF],
     kinetic_energy: impl Fn(&Point<N>) -> f64,
 ) -> f64 {
     let layout = equations.layout();
-    let (rest, rounding) = (Point { q: end.q, v: [0.0; N] }, roundings(layout, [start, end]));
-    let force = spring_forces(&rest);
-    let shifted: f64 = (0..layout.count()).map(|i| layout.bodies(i) * force[i].abs() * rounding[i]).sum();
+    let rest = Point { q: end.q, v: [0.0; N] };
     let unresolved = Point { v: equations.weights(&rest).v.map(|weight| tolerance / weight), ..rest };
-    let unresolved = kinetic_energy(&unresolved);
-    if tolerance * kinetic_energy(end) < unresolved { shifted + unresolved } else { shifted }
+    let [unresolved, kinetic] = [&unresolved, end].map(kinetic_energy);
+    let is_near_rest = tolerance * kinetic < unresolved;
+    if !is_near_rest && residual > ROUNDED_SHARE * kinetic {
+        return 0.0;
+    }
+    let (force, rounding) = (spring_forces(), roundings(layout, [start, end]));
+    let shifted: f64 = (0..layout.count()).map(|i| layout.bodies(i) * force[i].abs() * rounding[i]).sum();
+    if is_near_rest { shifted + unresolved } else { shifted }
 }
 
 /// Rounding of the absolute position of each body in a step between `ends` [rad; seats m]. Positions of side gears and pins are

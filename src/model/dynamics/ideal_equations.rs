@@ -191,10 +191,14 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         LedgerRates::imbalance::<true>(energies, h, ledger_rates)
     }
 
-    fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64) -> f64 {
-        let free = self.under(&Inputs::ZERO, &InputDerivatives::ZERO);
-        let spring_forces = |at: &Point<MOST>| free.forces(at, &mut LedgerRates::default()).0;
-        energy_floor(self, ends, tolerance, spring_forces, |at| self.kinetic_energy(at))
+    fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64, residual: f64) -> f64 {
+        let spring_forces = || {
+            let rest = Point { q: ends[1].q, v: [0.0; MOST] };
+            let free = self.under(&Inputs::ZERO, &InputDerivatives::ZERO);
+            let (force, _) = free.forces(&rest, &mut LedgerRates::default());
+            std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
+        };
+        energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {

@@ -182,16 +182,15 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline(never)]
-    fn energy_floor(&self, ends: [&Point<N>; 2], tolerance: f64) -> f64 {
-        let [start, end] = ends.map(|at| Point::of([&at.q, &at.v]));
-        let equations = self.largest();
-        let free = equations.under(&Inputs::ZERO, &InputDerivatives::ZERO);
-        let spring_forces = |at: &Point<LARGEST>| {
+    fn energy_floor(&self, ends: [&Point<N>; 2], tolerance: f64, residual: f64) -> f64 {
+        let spring_forces = || {
+            let free = self.largest().under(&Inputs::ZERO, &InputDerivatives::ZERO);
+            let rest = Point::of([&ends[1].q, &[0.0; N]]);
             let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
-            free.act(at, &mut sum, &mut imposed, &mut LedgerRates::default(), None);
-            sum
+            free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default(), None);
+            std::array::from_fn(|i| sum[i])
         };
-        energy_floor(&equations, [&start, &end], tolerance, spring_forces, |at| equations.kinetic_energy(at))
+        energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {

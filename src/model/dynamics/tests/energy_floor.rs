@@ -43,7 +43,7 @@ fn the_floor_exceeds_what_rounding_of_a_position_changes_and_not_by_much() {
                     largest = largest.max((stored(&shifted) - stored(&at)).abs() / MAGNIFIED);
                 }
             }
-            [largest, equations.energy_floor([&at, &at], 0.0)]
+            [largest, equations.energy_floor([&at, &at], 0.0, 0.0)]
         });
         println!("{contact:?}: shifts change {largest:e} J, floor {floor:e} J");
         assert!(largest > 1e-17 && largest <= floor, "{contact:?}: {largest:e} J, floor {floor:e} J");
@@ -61,7 +61,7 @@ fn unresolved_speeds_count_near_rest_only() {
     with_equations!(&model, state, &inputs, |equations| {
         let moving_at = |speed: f64| -> Point<N> { Point { v: [speed; N], ..state.point() } };
         let floor =
-            |speed: f64, tolerance: f64| equations.energy_floor([&moving_at(speed), &moving_at(speed)], tolerance);
+            |speed: f64, tolerance: f64| equations.energy_floor([&moving_at(speed), &moving_at(speed)], tolerance, 0.0);
         let (tolerance, still) = (1e-6, floor(0.0, 0.0));
         // the norm does not resolve 1e-6 rad/s: kinetic energy of both wheels, of the gears and the carrier at this speed
         let [kinetic, _] = equations.energy(&moving_at(tolerance));
