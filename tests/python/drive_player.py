@@ -14,8 +14,8 @@ SIDES = ("left", "right")
 BODIES = ("carrier.speed", *(f"{side}.{what}" for side in SIDES for what in ("speed", "wheel_speed")),
           *(f"planet[{i}].spin_speed" for i in range(1, 5)))
 # read at every communication point
-READ = (*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque")), "held.wheels", "mesh.frequency", "power.in", "power.out",
-        "solver.steps", "solver.rejected", "solver.energy_residual")
+READ = (*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque")), "held.wheels",
+        "mesh.frequency", "power.in", "power.out", "solver.steps", "solver.rejected", "solver.energy_residual")
 # communication points at which all outputs are read, at most
 LOOKS = 100
 # Attempts at steps after which a drive is given up, and more of them in each simulated second: far more than any drive is granted.
@@ -24,7 +24,7 @@ GIVEN_UP, GIVEN_UP_PER_SECOND = 500_000, 100_000
 
 @dataclass
 class Played:
-    """What a drive did until it finished or failed.
+    """Record of a drive until it finished or failed.
 
     `time`: communication points that were reached [s]; `values`: values at these points by the names that were read; `failure`: the
     message of the failed call, None if the drive finished; `not_finite`: outputs that were no finite numbers; `heat`: sum of all heat

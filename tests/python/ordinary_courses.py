@@ -43,7 +43,7 @@ class Course:
         return float(self.random.uniform(low, high))
 
     def starts(self, **inputs):
-        """Inputs by their short names that the course begins with."""
+        """Sets inputs, by their short names, with which the course begins."""
         for short, value in inputs.items():
             for name in NAMES[short]:
                 self.now[name], self.points[name] = value, [[0.0, value]]
@@ -54,7 +54,7 @@ class Course:
         self.speeds, self.track = [self.begin] * 2, [[0.0, self.begin]]
 
     def go(self, seconds, over=0.0, **inputs):
-        """A phase: inputs by their short names change within `over` and then stay."""
+        """Phase in which inputs, by their short names, change within `over` and then stay."""
         over, seconds = over * self.pace, max(over, seconds) * self.pace
         for short, value in inputs.items():
             for name in NAMES[short]:
@@ -98,7 +98,7 @@ class Course:
         return FIRM * sum(map(abs, acting)) + self.vehicle.bias + 0.1 * self.vehicle.wheel
 
     def hold(self, seconds, sides=SIDES):
-        """Holds wheels by their brakes. The course promises that they stand from `SETTLING` on; parking is not shortened."""
+        """Holds wheels by their brakes, and promises that they stand after `SETTLING`."""
         firm = self.firm()
         brakes = {f"{side}_brake": max(firm, self.now[f"{side}.brake_torque"]) for side in sides}
         self.go(max(seconds, 0.1), over=0.05, **brakes)
@@ -239,5 +239,4 @@ def locked(c):
     c.go(0.5, over=0.1, drive=0.0)
 
 
-PARKING = (park, park_for_an_hour)
 MANOEUVRES = (launch, reversal, stop, uneven_stop, hill, reverse, stop_and_go, park, blocked, creep, turn, locked)

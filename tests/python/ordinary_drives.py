@@ -30,7 +30,7 @@ PARKING_STEPS = {1e-2: 0.3, 0.1: 0.3, 1.0: 0.4}
 SHORT = 0.1
 # shares: carriers driven by speed, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
 BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
-# shortest hold that is checked [s]; inputs that are held through a step begin up to a step late
+# shortest hold that is checked [s]
 SHORTEST_HOLD = 0.2
 # variables that change their sign in a mirrored drive
 SIGNED = (DRIVE, SPEED, *(f"{side}.load_torque" for side in SIDES))
@@ -47,7 +47,7 @@ def drives(seed, count, levels, first=0):
 
 
 def drive(seed, index, levels):
-    """One drive. The manoeuvres take turns; everything else is drawn."""
+    """Drive `index` of a seed. The manoeuvres take turns; everything else is drawn."""
     random = np.random.default_rng([seed, index])
     manoeuvre = MANOEUVRES[index % len(MANOEUVRES)]
     contact, law = (chosen(random, CONTACTS).split() + ["impact"])[:2]
@@ -64,7 +64,8 @@ def drive(seed, index, levels):
     by_speed = bool(random.random() < BY_SPEED)
     driven = vehicle(random, by_speed)
     start = differential(random, driven, contact, law, levels)
-    course = Course(random, driven, SHORT if step < 1e-3 or contact == "solid" else 1.0)
+    short = not parking and (step < 1e-3 or contact == "solid")
+    course = Course(random, driven, SHORT if short else 1.0)
     manoeuvre(course)
     if manoeuvre is locked:
         start["lock.torque"] = 6.0 * driven.peak
@@ -74,12 +75,13 @@ def drive(seed, index, levels):
         "event_mode": fmi == "3.0" and bool(random.random() < EVENTS), "stop": step * math.ceil(course.time / step - ROUNDING),
         "step": step, "slopes": fmi == "2.0" and bool(random.random() < SLOPES),
         "start": start | beginning(random, course, by_speed, method), "inputs": inputs(course, by_speed),
-        "holds": [late for hold in course.holds if (late := hold | {"from": hold["from"] + step})["to"] - late["from"] >= SHORTEST_HOLD]}
+        # inputs that are held through a step are up to a step late
+        "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
     return image(readable(made)) if mirrored else readable(made)
 
 
 def chosen(random, shares):
-    """A key, drawn by its share."""
+    """Key of `shares`, drawn by its share."""
     return list(shares)[int(random.choice(len(shares), p=np.array([*shares.values()]) / sum(shares.values())))]
 
 
@@ -104,7 +106,7 @@ def inputs(course, by_speed):
 
 
 def readable(drive):
-    """The drive with rounded values and times."""
+    """Drive with rounded values and times."""
     def rounded(value):
         return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
 
@@ -117,9 +119,10 @@ def readable(drive):
 
 
 def image(drive):
-    """The mirrored drive: all speeds and torques change their sign, brakes and lock do not."""
-    start = {name: -value if name in SIGNED else value for name, value in drive["start"].items()}
-    mirrored = {name: [[time, -value] for time, value in points] if name in SIGNED else points
+    """Mirrored drive: all speeds and torques change their sign, brakes and lock do not."""
+    # a difference makes no zero with a sign
+    start = {name: 0.0 - value if name in SIGNED else value for name, value in drive["start"].items()}
+    mirrored = {name: [[time, 0.0 - value] for time, value in points] if name in SIGNED else points
                 for name, points in drive["inputs"].items()}
     return drive | {"start": start, "inputs": mirrored}
 

@@ -40,6 +40,7 @@ class Vehicle:
 
 
 def vehicle(random, by_speed):
+    """Vehicle of any size, evenly by the logarithm of its weight."""
     wheel = LIGHTEST * (HEAVIEST / LIGHTEST) ** random.random()
     pull, grip = random.uniform(3.0, 12.0), random.uniform(5.0, 20.0)
     slope = random.uniform(-5.0, 5.0) if random.random() < 0.7 else 0.0
@@ -58,8 +59,10 @@ def differential(random, vehicle, contact, law, levels):
         values["contact.law"] = law
     if contact == "solid":
         values["solid.facets"] = int(random.integers(4, 9))
-    values |= gears(random, vehicle.size) if contact != "ideal" else {}
-    values |= teeth(random, vehicle.size, law) if contact in ("tooth", "solid") else {}
+    if contact != "ideal":
+        values |= gears(random, vehicle.size) | damping(random, vehicle.size)
+    if contact in ("tooth", "solid") and law == "impact":
+        values["contact.stiffness"] = 1.8246342e10 * sqrt(vehicle.size)
     for name, (share, drawn) in EFFECTS.items():
         if random.random() < share and contact in levels[name]:
             values |= drawn(random, vehicle, contact, law)
@@ -75,12 +78,11 @@ def gears(random, size):
     return values
 
 
-def teeth(random, size, law):
-    """Stiffness and damping of similar teeth: the law of damping is the study's, or restitution."""
-    values = {"contact.stiffness": 1.8246342e10 * sqrt(size)} if law == "impact" else {}
+def damping(random, size):
+    """Damping of similar teeth by the study's law, or by restitution."""
     if random.random() < 0.3:
-        return values | {"contact.damping_model": "restitution", "contact.restitution": random.uniform(0.3, 0.9)}
-    return values | {"contact.damping": 5e4 * size**2, "contact.penetration_depth": 1e-4 * size}
+        return {"contact.damping_model": "restitution", "contact.restitution": random.uniform(0.3, 0.9)}
+    return {"contact.damping": 5e4 * size**2, "contact.penetration_depth": 1e-4 * size}
 
 
 def brake(random, vehicle):
@@ -170,7 +172,8 @@ def final_drive(random, vehicle, _contact, _law):
 
 
 def warm_up(random, _vehicle, _contact, _law):
-    return {"effects.warm_up": True, "oil.temperature": random.uniform(253.0, 363.0), "warm_up.ambient_temperature": random.uniform(253.0, 303.0)}
+    return {"effects.warm_up": True, "oil.temperature": random.uniform(253.0, 363.0),
+            "warm_up.ambient_temperature": random.uniform(253.0, 303.0)}
 
 
 def strength(_random, _vehicle, _contact, _law):

@@ -65,7 +65,8 @@ class Worker:
     def verdicts(self, found):
         """Puts all verdicts of the share into the queue `found`, then None."""
         while self.next < self.count:
-            command = [sys.executable, os.path.abspath(__file__), "work", self.file, *map(str, (self.seed, self.next, self.count))]
+            numbers = map(str, (self.seed, self.next, self.count))
+            command = [sys.executable, os.path.abspath(__file__), "work", self.file, *numbers]
             process = subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             end = self._follow(process, found)
             if self.next < self.count:
@@ -120,9 +121,10 @@ def report(file, folder, seed, records):
     rows = [HEAD]
     for record in sorted(records, key=lambda record: -(record["seconds"] or 0.0))[:SHOWN]:
         drive = drives[record["number"]]
+        counted = ["–" if record[name] is None else str(record[name]) for name in ("impacts", "swings")]
         rows.append([str(drive["seed"]), str(drive["index"]), described(drive), significant(record["seconds"] or 0.0, 2),
-                     significant(drive["stop"], 3), str(record["steps"]), str(record["granted"]),
-                     *("–" if record[name] is None else str(record[name]) for name in ("impacts", "swings")), significant(record["residual"], 2)])
+                     significant(drive["stop"], 3), str(record["steps"]), str(record["granted"] or "–"), *counted,
+                     significant(record["residual"], 2)])
     lines = ["The drives that take most time:", "", *aligned(rows, left=3)]
     violated = [record for record in records if record["problems"]]
     rows = [["seed", "index", "drive", "requirement"]]

@@ -30,7 +30,7 @@ const COMMANDS: [&[&str]; 23] = [
     &["drivetrain", "--quick"],
     &["fuzz", "--calls", "100000"],
     &["questions"],
-    &["drives"],
+    &["drives", "--count", "300"],
     &["memcheck"],
     &["hosts"],
     &["platforms"],
