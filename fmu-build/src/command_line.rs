@@ -20,7 +20,7 @@ pub const PACKAGE: &str = "bevel-differential";
 /// The commands of the Python package; those who type one here are told where it is.
 pub const IN_THE_PACKAGE: [&str; 6] = ["scene", "loads", "report", "accuracy", "geometry", "pattern"];
 /// The commands of the laboratory; those who type one here are told where it is.
-pub const IN_THE_LABORATORY: [&str; 26] = [
+pub const IN_THE_LABORATORY: [&str; 27] = [
     "cost",
     "solids",
     "stiffness",
@@ -32,6 +32,7 @@ pub const IN_THE_LABORATORY: [&str; 26] = [
     "drivetrain",
     "patterns",
     "test-python",
+    "drives",
     "test-wheel",
     "test-page",
     "zero-cost",

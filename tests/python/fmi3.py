@@ -1,6 +1,9 @@
 """A unit of FMI 3.0 driven by fmpy, call by call, with names for value references."""
 
+import atexit
+import shutil
 from ctypes import POINTER, c_bool, c_double, c_int32, c_int64, c_uint, c_uint64
+from functools import cache
 
 import numpy as np
 from fmpy import extract, read_model_description
@@ -10,12 +13,19 @@ KINDS = {"Float64": c_double, "Int32": c_int32, "Enumeration": c_int64, "UInt64"
 CALLS = {"Float64": "Float64", "Int32": "Int32", "Enumeration": "Int64", "UInt64": "UInt64", "Boolean": "Boolean"}
 
 
+@cache
+def extracted(file):
+    """Folder of an archive and its model description. An archive is extracted once per process, which removes the folder at its end."""
+    folder = extract(file)
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder, read_model_description(folder)
+
+
 class Unit3:
     """One instance. `variables` by name; values are SI, numbers of literals, bool."""
 
     def __init__(self, file, kind="CoSimulation", **options):
-        self.folder = extract(str(file))
-        self.description = read_model_description(self.folder)
+        self.folder, self.description = extracted(str(file))
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
         self.messages = []
         make = {"CoSimulation": FMU3Slave, "ModelExchange": FMU3Model}[kind]

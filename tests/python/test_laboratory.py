@@ -2,6 +2,7 @@
 
 import os
 import math
+import queue
 import sys
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from bevel_differential.text import markdown
 sys.path.append(str(Path(__file__).parents[2] / "crates" / "lab" / "python"))
 import counting  # noqa: E402
 import coupling  # noqa: E402
+import drives  # noqa: E402
 import fuzz  # noqa: E402
 import hosts  # noqa: E402
 import ladder  # noqa: E402
@@ -194,6 +196,15 @@ def test_tallies_of_processes_add_up():
     page = fuzz.page([tally(0.5), tally(1.5)])
     assert "| all                         |    40 | 16 |      12 |       8 |     4 | 100000.0 |      1500.0 |" in page
     assert "longest call: fmi2DoStep, 1.500 s of the processor (call 2 of the round with seed 9); simulations started: 10;" in page
+
+
+def test_a_drive_whose_process_ends_is_reported_and_the_next_one_follows(capfd):
+    found = queue.Queue()
+    drives.Worker("no such file", 1, 0, 3).verdicts(found)
+    records = [found.get() for _ in range(found.qsize())]
+    assert records.pop() is None
+    assert [record["number"] for record in records] == [0, 2]
+    assert all("the process ended with 1" in record["problems"][0] for record in records)
 
 
 def test_numbers_keep_their_significant_digits():

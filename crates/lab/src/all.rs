@@ -16,7 +16,7 @@ use fmu_build::tools::progress::Progress;
 const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 22] = [
+const COMMANDS: [&[&str]; 23] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time", "--quick"],
@@ -30,6 +30,7 @@ const COMMANDS: [&[&str]; 22] = [
     &["drivetrain", "--quick"],
     &["fuzz", "--calls", "100000"],
     &["questions"],
+    &["drives", "--count", "300"],
     &["memcheck"],
     &["hosts"],
     &["platforms"],

@@ -1,6 +1,6 @@
-//! Commands that fail if the library breaks a promise: about calls, memory, effects that are off, steps in real time, other
-//! hosts and platforms, compilers of C, browsers, machines without Rust. Two more look for changes of the source that no test
-//! notices, and for wrong coefficients that the evidence does not show.
+//! Commands that fail if the library breaks a promise: about calls, ordinary drives, memory, effects that are off, steps in real
+//! time, other hosts and platforms, compilers of C, browsers, machines without Rust. Two more look for changes of the source that
+//! no test notices, and for wrong coefficients that the evidence does not show.
 
 pub mod fuzz;
 pub mod memcheck;
@@ -17,6 +17,7 @@ use crate::tools::command::Command;
 pub fn commands() -> Vec<Command> {
     vec![
         Command::of("test-python", python_tests::TestPythonCommand::run),
+        scripts::DRIVES.command(),
         scripts::WHEEL.command(),
         Command::of("test-page", page::TestPageCommand::run),
         scripts::ZERO_COST.command(),

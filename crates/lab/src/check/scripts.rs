@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use bevel_differential::model::EFFECTS;
 use clap::{Arg, ArgMatches, value_parser};
+use fmu_build::command_line::LABORATORY;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
@@ -155,6 +156,32 @@ pub const COEFFICIENTS: Script = Script {
     sections: &[("docs/coefficients.csv", "", "coefficients.csv")],
     ..DEFAULTS
 };
+
+/// Ordinary drives at random, held to the requirements of daily life: they finish in balance, held wheels stand, and steps are few.
+pub const DRIVES: Script = Script {
+    name: "drives",
+    about: "Checks random ordinary drives: launches, stops, holds, turns and parking of vehicles from a pedal car to a truck",
+    more: Some("Drives come by turns from three seeds. A drive that violates a requirement is written as JSON."),
+    options: || {
+        let index = Arg::new("index").long("index").value_name("INDEX").value_parser(value_parser!(u64));
+        vec![
+            number("count", "COUNT", "1000", "How many drives"),
+            number("seed", "SEED", "1", "The first of the three seeds"),
+            index.help("Only this drive of the first seed, in detail"),
+        ]
+    },
+    file: "crates/lab/python/drives.py",
+    doing: "driving",
+    folder: Some("drives"),
+    given: &[Given::Fmu, Given::Folder, Given::Value("seed"), Given::Value("count"), Given::Made(one_drive)],
+    ..DEFAULTS
+};
+
+/// How users call the command, and the index of a single drive.
+fn one_drive(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
+    let index = options.get_one::<u64>("index").map(|index| index.to_string().into());
+    Ok(std::iter::once(format!("{LABORATORY} drives").into()).chain(index).collect())
+}
 
 /// The packaged FMU in other hosts: each host on each scene, all compared with fmpy.
 pub const HOSTS: Script = Script {

@@ -1,0 +1,144 @@
+"""Ordinary drives, drawn by a seed: what a host of the FMU does with a pedal car, a car or a truck in daily life.
+
+A drive is plain data and has a JSON form, so that players in other languages can repeat it:
+
+    seed, index, manoeuvre, mirrored    where it comes from
+    fmi           "2.0" or "3.0"
+    event_mode    true if a host of FMI 3.0 handles events within a step
+    stop, step    stop time and communication step [s]
+    slopes        true if the host gives derivatives of inputs; otherwise inputs are held through each step
+    start         start values by name, SI; enumerations by literal
+    inputs        points [time, value] by name; lines between points, and two points at one time are a jump
+    holds         {"from", "to", "wheels"}: from when to when which wheels must stand by their brakes
+
+The host sets all inputs to their values at 0 before the start, and at each communication point to their values at that time
+(`sampled`)."""
+
+import math
+
+import numpy as np
+from ordinary_courses import DRIVE, LOCK, MANOEUVRES, SIDES, SPEED, Course, locked, park, park_for_an_hour
+from ordinary_vehicles import differential, vehicle
+
+# levels of gear contact with their laws, by share
+CONTACTS = {"ideal": 0.14, "lumped": 0.14, "tooth impact": 0.22, "tooth line": 0.22, "tooth line_weber": 0.22, "solid impact": 0.06}
+METHODS = {"adaptive": 0.88, "fixed_step": 0.06, "radau": 0.06}
+# communication steps [s]: the shortest one only for short drives, 1 s for parking
+STEPS = {1e-4: 0.08, 1e-3: 0.3, 1e-2: 0.62}
+PARKING_STEPS = {1e-2: 0.3, 0.1: 0.3, 1.0: 0.4}
+# pace of short drives, and of those of solid teeth, whose steps cost ten times as much
+SHORT = 0.1
+# shares: carriers driven by speed, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
+BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
+# shortest hold that is checked [s]
+SHORTEST_HOLD = 0.2
+# variables that change their sign in a mirrored drive
+SIGNED = (DRIVE, SPEED, *(f"{side}.load_torque" for side in SIDES))
+# A point of an input belongs to a communication point that is closer than this share of a step.
+ROUNDING = 1e-6
+# digits of values, and decimals of times: enough for any drive, and still readable
+DIGITS, DECIMALS = 6, 6
+
+
+def drives(seed, count, levels, first=0):
+    """Drives `first` to `count` of a seed. `levels`: levels of gear contact that each effect accepts, by its name."""
+    for index in range(first, count):
+        yield drive(seed, index, levels)
+
+
+def drive(seed, index, levels):
+    """Drive `index` of a seed. The manoeuvres take turns; everything else is drawn."""
+    random = np.random.default_rng([seed, index])
+    manoeuvre = MANOEUVRES[index % len(MANOEUVRES)]
+    contact, law = (chosen(random, CONTACTS).split() + ["impact"])[:2]
+    parking = manoeuvre is park
+    step = chosen(random, PARKING_STEPS if parking else STEPS)
+    if contact == "solid" and not parking:
+        step = min(step, 1e-3)
+    method = chosen(random, METHODS)
+    if parking and method == "fixed_step":
+        # a minute of fixed steps is half a million steps
+        method = "adaptive"
+    if parking and random.random() < HOUR:
+        manoeuvre, step = park_for_an_hour, 1.0
+    by_speed = bool(random.random() < BY_SPEED)
+    driven = vehicle(random, by_speed)
+    start = differential(random, driven, contact, law, levels)
+    short = not parking and (step < 1e-3 or contact == "solid")
+    course = Course(random, driven, SHORT if short else 1.0)
+    manoeuvre(course)
+    if manoeuvre is locked:
+        start["lock.torque"] = 6.0 * driven.peak
+    fmi, mirrored = "3.0" if random.random() < THREE else "2.0", bool(random.random() < MIRRORED)
+    made = {
+        "seed": seed, "index": index, "manoeuvre": manoeuvre.__name__, "mirrored": mirrored, "fmi": fmi,
+        "event_mode": fmi == "3.0" and bool(random.random() < EVENTS), "stop": step * math.ceil(course.time / step - ROUNDING),
+        "step": step, "slopes": fmi == "2.0" and bool(random.random() < SLOPES),
+        "start": start | beginning(random, course, by_speed, method), "inputs": inputs(course, by_speed),
+        # inputs that are held through a step are up to a step late
+        "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
+    return image(readable(made)) if mirrored else readable(made)
+
+
+def chosen(random, shares):
+    """Key of `shares`, drawn by its share."""
+    return list(shares)[int(random.choice(len(shares), p=np.array([*shares.values()]) / sum(shares.values())))]
+
+
+def beginning(random, course, by_speed, method):
+    """Start values of the motion and the method."""
+    mode = str(random.choice(["rolling", "equilibrium"] if course.begin else ["rest", "rolling", "equilibrium"]))
+    values = {"scene.carrier_drive": "speed" if by_speed else "torque", "scene.start": mode}
+    if not by_speed and mode != "rest":
+        values[SPEED] = course.begin
+    return values if method == "adaptive" else values | {"solver.method": method}
+
+
+def inputs(course, by_speed):
+    """Inputs of a course. A carrier that is driven by speed gets the speeds that the course estimates in place of its torque."""
+    found = {name: points or [[0.0, course.now[name]]] for name, points in course.points.items()}
+    if not course.points[LOCK]:
+        del found[LOCK]
+    if by_speed:
+        del found[DRIVE]
+        found[SPEED] = course.track
+    return found
+
+
+def readable(drive):
+    """Drive with rounded values and times."""
+    def rounded(value):
+        return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+
+    def line(points):
+        return [[round(time, DECIMALS), rounded(value)] for time, value in points]
+
+    holds = [hold | {end: round(hold[end], DECIMALS) for end in ("from", "to")} for hold in drive["holds"]]
+    return drive | {"stop": round(drive["stop"], DECIMALS), "start": {name: rounded(value) for name, value in drive["start"].items()},
+                    "inputs": {name: line(points) for name, points in drive["inputs"].items()}, "holds": holds}
+
+
+def image(drive):
+    """Mirrored drive: all speeds and torques change their sign, brakes and lock do not."""
+    # a difference makes no zero with a sign
+    start = {name: 0.0 - value if name in SIGNED else value for name, value in drive["start"].items()}
+    mirrored = {name: [[time, 0.0 - value] for time, value in points] if name in SIGNED else points
+                for name, points in drive["inputs"].items()}
+    return drive | {"start": start, "inputs": mirrored}
+
+
+def times(drive):
+    """Communication points [s]."""
+    return drive["step"] * np.arange(round(drive["stop"] / drive["step"]) + 1)
+
+
+def sampled(drive):
+    """Values of all inputs at the communication points, by name."""
+    return {name: np.interp(times(drive), *on_points(points, drive["step"])) for name, points in drive["inputs"].items()}
+
+
+def on_points(points, step):
+    """Times and values of an input's points, with times that differ from a communication point by rounding only moved there."""
+    at, values = np.transpose(points)
+    nearest = np.round(at / step)
+    return np.where(np.abs(at / step - nearest) < ROUNDING, step * nearest, at), values
