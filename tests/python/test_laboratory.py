@@ -198,7 +198,7 @@ def test_tallies_of_processes_add_up():
     assert "longest call: fmi2DoStep, 1.500 s of the processor (call 2 of the round with seed 9); simulations started: 10;" in page
 
 
-def test_a_drive_whose_process_ends_is_reported_and_the_next_one_follows(capfd):
+def test_a_drive_whose_process_ends_is_reported_and_the_next_one_follows():
     found = queue.Queue()
     drives.Worker("no such file", 1, 0, 3).verdicts(found)
     records = [found.get() for _ in range(found.qsize())]
