@@ -8,6 +8,14 @@ TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "car
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
 # seconds of a scene that are compared
 LONGEST = 0.5
+# a small car that launches, brakes to a stop, waits, backs away and stops again: inputs over time, and how long it takes [s]
+CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True,
+       "inertia.left_end": 12.0, "inertia.right_end": 12.0, "inertia.carrier": 0.1, "left.load_torque": 0.0, "right.load_torque": 0.0,
+       "carrier.torque_command": 0.0}
+BRAKES = ([0.0, 1.2, 1.3, 3.2, 3.3, 4.4, 4.5, 6.0], [0.0, 0.0, 300.0, 300.0, 0.0, 0.0, 300.0, 300.0])
+COURSE = {"carrier.torque_command": ([0.0, 0.1, 1.0, 1.1, 3.3, 3.4, 4.2, 4.3, 6.0], [0.0, 400.0, 400.0, 0.0, 0.0, -200.0, -200.0, 0.0, 0.0]),
+          "left.brake_torque": BRAKES, "right.brake_torque": BRAKES}
+DRIVE = 6.0
 
 
 def all_scenes(folder, effects):
@@ -28,6 +36,9 @@ def all_scenes(folder, effects):
     for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
         friction = {"effects.tooth_friction": True, "tooth_friction.law": law}
         yield f"turn, friction {law}", TURN | friction, [], [], 0.05
+    for name, gears in [("ideal", {"scene.gear_contact": "ideal"}), ("tooth", {"contact.law": "line", "effects.thrust_friction": True})]:
+        tables = [{"input": each, "time": time, "value": value} for each, (time, value) in COURSE.items()]
+        yield f"drive, {name}", CAR | gears, [], tables, DRIVE
     # gear bodies need a law that follows from the teeth
     yield "all effects, impact", together | {"effects.body_compliance": False}, [], [], 0.1
     yield "all effects, line", together | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05

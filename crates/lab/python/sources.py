@@ -29,7 +29,8 @@ from tools import WORKSPACE, say
 # what the sources do without
 SOLID, METHODS = "solid", ("radau", "rodas4", "dormand_prince")
 # scenes of a quick check: levels, fixed steps, friction that sticks, half-shafts, elastic bodies
-QUICK = ("study, turn, tooth", "study, turn, lumped", "turn, fixed_step", "all effects, line", "scenes/hil.toml", "scenes/locked.toml")
+QUICK = ("study, turn, tooth", "study, turn, lumped", "turn, fixed_step", "all effects, line", "scenes/hil.toml", "scenes/locked.toml",
+         "drive, ideal", "drive, tooth")
 # scenes that fmpy runs with what it builds
 BY_FMPY = ("study, turn, tooth", "scenes/hil.toml", "scenes/study_turning.toml")
 # what the sources may call of the C library; processors without an instruction that rounds take floor and trunc from there
