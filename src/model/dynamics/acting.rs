@@ -7,7 +7,7 @@ use super::ledger_rates::LedgerRates;
 use super::{Jacobian, State};
 use crate::integrate::Point;
 use crate::model::assembly::BodyEffects;
-use crate::model::effect_kinds::dry_friction::DryFriction;
+use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,
@@ -330,11 +330,11 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Returns true if body `i` slides at a speed of exactly zero at `at`, `time` [s] after the inputs were set, and does not
-    /// accelerate in the direction in which it slides.
+    /// Returns true if body `i` slides at a speed near zero at `at`, `time` [s] after the inputs were set, and does not accelerate in
+    /// the direction in which it slides.
     fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
         let direction = self.acting().friction_state[i].mode.direction();
-        if direction == 0.0 || self.slip(at, i).speed != 0.0 {
+        if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {
             return false;
         }
         let v = self.acceleration_at(at, time);

@@ -222,8 +222,8 @@ impl<'a> DryFriction<'a> {
         (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
-    /// The state after the switch that is due, if any. At a speed of exactly zero a sliding body sticks if it `stops`, that is,
-    /// if nothing accelerates it further in the direction of sliding.
+    /// The state after the switch that is due, if any. Near zero speed, where a host's event or a jump of an imposed speed may put
+    /// it, a sliding body sticks if it `stops`, that is, if nothing accelerates it further in the direction of sliding.
     fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
@@ -233,6 +233,7 @@ impl<'a> DryFriction<'a> {
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
+        let stops = stops && slip.speed.abs() <= self.speed_tolerance(by);
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {
