@@ -138,3 +138,52 @@ pub fn fewer_steps(model: &Model, state: &State) -> String {
         None => "look at the inputs".into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Simulation;
+    use crate::model::assembly::Given;
+    use crate::model::scene::{CarrierDrive, Start};
+
+    /// Wheels that brakes hold, shortly after the carrier began to press on them.
+    fn held() -> (Model, Inputs, State) {
+        let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+        (parameters.scene.gear_contact, parameters.scene.start) = (GearContact::Ideal, Start::Rest);
+        parameters.scene.carrier_drive = CarrierDrive::Torque;
+        parameters.effects.wheel_brake = true;
+        (parameters.inertia.left_end, parameters.inertia.right_end) = (1.0, 1.0);
+        (inputs.carrier_torque, inputs.load_torque, inputs.brake_torque) = (100.0, [0.0; 2], [200.0; 2]);
+        let mut simulation = Simulation::start(&parameters, &inputs, 0.0).unwrap();
+        simulation.advance(1e-3).unwrap();
+        (Model::new(&parameters, &Given::default()).unwrap(), inputs, *simulation.state())
+    }
+
+    #[test]
+    fn a_failure_names_the_criterion_the_body_its_motion_and_its_friction() {
+        let (model, inputs, mut state) = held();
+        state.statistics = Statistics { rejected_ledger: 1002, rejected_error: 3, ..Statistics::default() };
+        let text = too_many_steps(&model, &inputs, &state, &Statistics::default());
+        assert!(text.starts_with("1002 of them were rejected because their energy ledger did not close"), "{text}");
+        assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
+        let layout = &model.ideal.plan.layout();
+        assert_eq!(friction_of(layout, &state, 1), "; the brake (effects.wheel_brake) holds it");
+        assert_eq!(friction_of(layout, &state, CARRIER), "");
+        let before = state.statistics;
+        state.statistics.accepted += 77;
+        let text = too_many_steps(&model, &inputs, &state, &before);
+        assert!(text.starts_with("77 of them were accepted, the last with a size of"), "{text}");
+        assert_eq!(fewer_steps(&model, &state), "look at the inputs");
+    }
+
+    #[test]
+    fn rattle_is_reported_if_it_takes_most_of_many_steps() {
+        let (model, _, mut state) = held();
+        (state.statistics.accepted, state.rattle.impacts, state.rattle.steps) = (20_000, 200, 15_000);
+        let warning = rattle_warning(&model, &state).unwrap().to_string();
+        assert!(warning.starts_with("solver.steps: 75 percent of the 20000 steps"), "{warning}");
+        assert!(warning.contains("200 times") && warning.contains("effects.thrust_friction = true"), "{warning}");
+        state.rattle.steps = 9_000;
+        assert_eq!(rattle_warning(&model, &state), None);
+    }
+}

@@ -86,3 +86,49 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
         assert!((heat.iter().sum::<f64>() - (before - after)).abs() < 1e-12);
     }
 }
+
+#[test]
+fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_on() {
+    let (clutch, sources, by) = (clutch(), [FrictionSource::new(0)], pressed(10.0));
+    let clutch = DryFriction::new(&clutch, &sources);
+    for mode in [Mode::Forward, Mode::Backward] {
+        let wound = mode.direction() * 10.0 / STIFFNESS;
+        let slides = FrictionState { mode, anchor: -wound, stiffness: STIFFNESS };
+        for speed in [0.0, -0.0, 1e-15 * mode.direction()] {
+            let slip = Slip { position: 0.0, speed };
+            assert!(clutch.is_due(&slides, &slip, &by, true), "{mode:?} at {speed:e} rad/s stops");
+            assert!(!clutch.is_due(&slides, &slip, &by, false), "{mode:?} at {speed:e} rad/s was just released");
+            let mut state = slides;
+            clutch.settle(&mut state, (&slip, &by), true, 1.0, &mut [0.0]);
+            assert_eq!(state.mode, Mode::Stuck);
+            // its spring has the limit torque to the last bit, which does not release it again
+            assert!(!clutch.is_due(&state, &Slip { position: 0.0, speed: 0.0 }, &by, false));
+        }
+        // beyond the tolerance of the speed the sign of the speed decides
+        let fast = Slip { position: 0.0, speed: 1e-3 * mode.direction() };
+        assert!(!clutch.is_due(&slides, &fast, &by, true));
+    }
+}
+
+#[test]
+fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
+    // rounding of an angle of a turn, 2.8e-15 rad, is 2.8e-6 N·m in this spring: far beyond a hundred thousandth of 1 mN·m
+    let stiff = 1e9;
+    let mut body = BodyFriction::commanded(DAMPING_TIME, 0);
+    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], stiff, false);
+    let (sources, by) = ([FrictionSource::new(0)], pressed(1e-3));
+    let brake = DryFriction::new(&body, &sources);
+    for sign in [1.0, -1.0] {
+        let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: stiff };
+        let at = |torque: f64| Slip { position: sign * torque / stiff, speed: 0.0 };
+        assert!(!brake.is_due(&hold, &at(1e-3 + 5e-7), &by, false));
+        assert_eq!(brake.crossing(&hold, (&at(0.9e-3), &by), (&at(1e-3 + 2e-6), &by)), None);
+        assert!(brake.is_due(&hold, &at(1e-3 + 1e-5), &by, false));
+        assert!(brake.crossing(&hold, (&at(0.9e-3), &by), (&at(1e-3 + 1e-4), &by)).is_some());
+        // the step ends at a speed whose damping torque the limit bears: 1e5 N·m·s/rad at 1e-6 rad/s would be 100 times the limit
+        let slides = FrictionState { mode: Mode::Forward, anchor: 0.0, stiffness: stiff };
+        let moving = |speed: f64| Slip { position: 0.0, speed };
+        assert!(brake.crossing(&slides, (&moving(1e-3), &by), (&moving(-4e-9), &by)).is_none());
+        assert!(brake.crossing(&slides, (&moving(1e-3), &by), (&moving(-1e-7), &by)).is_some());
+    }
+}
