@@ -4,7 +4,6 @@ The vehicles are the passenger car of `Car` with other masses and radii. Gears, 
 of the FMU, and the requirements are the same."""
 
 import os
-from math import sqrt
 
 import numpy as np
 import pytest
@@ -47,7 +46,7 @@ def scaled(mass, radius):
 def vehicle(motor, tyre, body):
     """The vehicle for which gears and effects are drawn."""
     wheel, drive = tyre.inertia + 0.5 * body.mass * tyre.radius**2, motor.ratio * motor.peak
-    size = max((0.5 * drive / (0.5 * Motor().ratio * Motor().peak)) ** (1.0 / 3.0), 0.33)
+    size = max((drive / (Motor().ratio * Motor().peak)) ** (1.0 / 3.0), 0.33)
     return Vehicle(wheel=wheel, carrier=motor.inertia * motor.ratio**2, pull=0.5 * drive / wheel,
                    grip=tyre.friction * tyre.load * tyre.radius / wheel, slope=0.0, peak=0.5 * drive, size=size, by_speed=False)
 
@@ -87,7 +86,9 @@ def judged(car, record, start, heats):
         # the stop itself takes less than half of its phase, so both wheels stand from its end
         standing(drive, played, {"from": begin + STOPPED, "to": begin + WAITED, "wheels": SIDES}, verdict)
         for end in (begin + PULLED, begin + WAITED):
-            first, last = np.searchsorted(record["time"], [end - 0.5 * (WAITED - STOPPED) + ROCKS, end - STEP])
+            calm = end - 0.5 * (WAITED - STOPPED) + ROCKS
+            standing(drive, played, {"from": calm, "to": end - STEP, "wheels": SIDES}, verdict)
+            first, last = np.searchsorted(record["time"], [calm, end - STEP])
             more = attempts[last] - attempts[first] - PER_POINT * (last - first)
             at_rest.append(more / (record["time"][last] - record["time"][first]))
     verdict.demand(max(at_rest) <= PER_SECOND_AT_REST, f"{max(at_rest):.0f} steps a second at rest")
