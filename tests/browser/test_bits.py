@@ -1,19 +1,12 @@
 """The same bits in Chromium, in node and in the native FMU: nothing is rounded, no tolerance."""
 
-import base64
-import json
-import lzma
-import re
-import subprocess
-
 import numpy as np
 import pytest
 from bevel_differential import Scene
 
-from conftest import named_file
-from live import HERE, address_of
+from live import address_of
+from node_runs import run_in_node
 
-WEB = HERE.parents[1] / "fmu-build" / "page" / "web"
 SCENES = ["study_straight", "study_turning", "torque_bias", "clunk"]
 # the page records the first of them for its picture, and the last because they are drawn
 OUTPUTS = ["left.angle", "left.speed", "right.speed", "carrier.speed", "planet[1].spin_angle", "planet[1].left_normal_force",
@@ -22,12 +15,6 @@ OUTPUTS = ["left.angle", "left.speed", "right.speed", "carrier.speed", "planet[1
 
 def bits(numbers):
     return np.ascontiguousarray(numbers, np.float64).view(np.uint64)
-
-
-def library_of(page_file):
-    """The library in WebAssembly that is packed into the page."""
-    packed = re.search(r'<script[^>]*id="library"[^>]*>([^<]*)<', page_file.read_text(encoding="utf-8"))[1]
-    return lzma.decompress(base64.b64decode(packed))
 
 
 @pytest.fixture(scope="module")
@@ -45,16 +32,9 @@ def in_chromium(shared):
 @pytest.fixture(scope="module")
 def in_node(in_chromium, fmu, page_file, tmp_path_factory):
     """{scene: {output: bits}}."""
-    folder = tmp_path_factory.mktemp("node")
-    (folder / "library.wasm").write_bytes(library_of(page_file))
     references = [fmu.variable(output).reference for output in OUTPUTS]
     scenes = {name: {"scene": scene, "references": references} for name, (_, scene) in in_chromium.items()}
-    (folder / "scenes.json").write_text(json.dumps(scenes))
-    files = [WEB, folder / "library.wasm", folder / "scenes.json", folder / "records.json"]
-    ran = subprocess.run([named_file("NODE"), HERE / "runner.mjs", *files], capture_output=True, text=True)
-    assert ran.returncode == 0, ran.stderr
-    rows = json.loads((folder / "records.json").read_text())
-    columns = {name: np.array([[int(number, 16) for number in row] for row in rows[name]], np.uint64).T for name in SCENES}
+    columns = run_in_node(page_file, tmp_path_factory.mktemp("node"), scenes)
     return {name: dict(zip(["time", *OUTPUTS], columns[name])) for name in SCENES}
 
 
