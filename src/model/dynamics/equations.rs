@@ -325,7 +325,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         self.deepest_of_touching(at).0
     }
 
-    /// The same with the meshes whose flanks touch, one bit for each.
+    /// Largest approach of any flank pair as in [`Self::deepest`], and the meshes whose flanks touch, one bit for each.
     #[inline]
     pub fn deepest_of_touching(&self, at: &Point<N>) -> ((f64, usize, usize), u8) {
         let (mut deepest, mut touching) = ((f64::NEG_INFINITY, 0, 0), 0);

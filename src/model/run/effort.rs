@@ -1,4 +1,4 @@
-//! Where the steps of a run go: into rattle, or, if too many are attempted, into a criterion that keeps rejecting them.
+//! Steps of a run by their cause: rattle, or, if too many are attempted, a criterion that keeps rejecting them.
 
 use super::hints;
 use crate::integrate::{Point, SecondOrder, Statistics};
@@ -107,7 +107,7 @@ fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
 
 const SIDES: [&str; 2] = ["left", "right"];
 
-/// What dry friction does with the body of degree of freedom `i`, if it acts there.
+/// Dry friction on the body of degree of freedom `i`: which friction holds or brakes it. Empty if none acts.
 fn friction_of(layout: &Layout, state: &State, i: usize) -> String {
     let body_of = |k: usize| match k {
         0..FRICTION_PLANETS => k,
@@ -129,7 +129,7 @@ fn friction_of(layout: &Layout, state: &State, i: usize) -> String {
         .collect()
 }
 
-/// What makes steps fewer where too many were attempted.
+/// Returns what makes steps fewer if too many were attempted.
 pub fn fewer_steps(model: &Model, state: &State) -> String {
     let has_teeth = matches!(model.gears, Gears::Teeth(_));
     match rattle_warning(model, state) {

@@ -73,7 +73,7 @@ impl Simulation {
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
         let events = simulation.state.events;
         apply_changes(&simulation.model, inputs, &mut simulation.state);
-        // what friction holds from the start on is no event
+        // friction that holds from the start on causes no event
         simulation.state.events = events;
         let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
         if let Some(preload) = &preload {
