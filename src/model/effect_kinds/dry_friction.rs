@@ -154,7 +154,8 @@ impl<'a> DryFriction<'a> {
         NOTHING.max(self.of.stiffness * ROUNDING * slip.position.abs().max(TAU))
     }
 
-    /// Returns true if a held body stands still, so that only its torque decides whether it begins to slide.
+    /// Returns true if a body stands still. Then its torque decides whether it begins to slide, and not its speed. The torque of
+    /// other friction than a commanded one changes with the motion itself, so its bodies stand at a speed of exactly zero only.
     fn stands(&self, slip: &Slip) -> bool {
         slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE
     }
@@ -222,8 +223,8 @@ impl<'a> DryFriction<'a> {
         (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
-    /// The state after the switch that is due, if any. Near zero speed, where a host's event or a jump of an imposed speed may put
-    /// it, a sliding body sticks if it `stops`, that is, if nothing accelerates it further in the direction of sliding.
+    /// The state after the switch that is due, if any. A sliding body that stands, where a host's event or a jump of an imposed
+    /// speed may put it, sticks if it `stops`, that is, if nothing accelerates it further in the direction of sliding.
     fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
@@ -233,7 +234,7 @@ impl<'a> DryFriction<'a> {
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
-        let stops = stops && slip.speed.abs() <= self.speed_tolerance(by);
+        let stops = stops && self.stands(slip) && slip.speed.abs() <= self.speed_tolerance(by);
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {
