@@ -82,7 +82,7 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
             "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
             at.v[i],
             rates[i],
-            friction_of(layout, state, i)
+            friction_on(state, i, |k| Acted::<N>::freedom_of(&equations, k))
         )
     })
 }
@@ -107,16 +107,11 @@ fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
 
 const SIDES: [&str; 2] = ["left", "right"];
 
-/// Dry friction on the body of degree of freedom `i`: which friction holds or brakes it. Empty if none acts.
-fn friction_of(layout: &Layout, state: &State, i: usize) -> String {
-    let body_of = |k: usize| match k {
-        0..FRICTION_PLANETS => k,
-        FRICTION_PLANETS..FRICTION_WHEELS => layout.planet(k - FRICTION_PLANETS),
-        _ if layout.has_ends() => layout.end(k - FRICTION_WHEELS),
-        _ => k - FRICTION_WHEELS,
-    };
+/// Dry friction on the body of degree of freedom `i`: which friction holds or brakes it. Empty if none acts. `freedom_of` gives the
+/// degree of freedom of each body that may stick.
+fn friction_on(state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> String {
     (0..FRICTION_BODIES)
-        .filter(|&k| state.friction[k].stiffness > 0.0 && body_of(k) == i)
+        .filter(|&k| state.friction[k].stiffness > 0.0 && freedom_of(k) == i)
         .map(|k| {
             let does = if state.friction[k].mode == Mode::Stuck { "holds" } else { "brakes" };
             let what = match k {
@@ -166,9 +161,11 @@ mod tests {
         let text = too_many_steps(&model, &inputs, &state, &Statistics::default());
         assert!(text.starts_with("1002 of them were rejected because their energy ledger did not close"), "{text}");
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
-        let layout = &model.ideal.plan.layout();
-        assert_eq!(friction_of(layout, &state, 1), "; the brake (effects.wheel_brake) holds it");
-        assert_eq!(friction_of(layout, &state, CARRIER), "");
+        with_equations!(&model, &state, &inputs, |equations| {
+            let friction = |i: usize| friction_on(&state, i, |k| Acted::<N>::freedom_of(&equations, k));
+            assert_eq!(friction(1), "; the brake (effects.wheel_brake) holds it");
+            assert_eq!(friction(CARRIER), "");
+        });
         let before = state.statistics;
         state.statistics.accepted += 77;
         let text = too_many_steps(&model, &inputs, &state, &before);
