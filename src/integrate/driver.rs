@@ -185,7 +185,10 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 // copies, so that both points may stay in registers
                 let ends = [course.point, end];
                 let floor = system.energy_floor([&ends[0], &ends[1]], tolerance, ledger.residual);
-                imbalance = imbalance.min(ledger.residual / floor);
+                // without a floor, a host that traps divisions by zero would stop here
+                if floor > 0.0 {
+                    imbalance = imbalance.min(ledger.residual / floor);
+                }
             }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 unbalanced = pending.attempt.unbalanced + 1;
