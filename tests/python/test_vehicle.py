@@ -1,7 +1,7 @@
 """The car around the differential: against all its equations at once, its mirror, and what it refuses."""
 
 import runpy
-from math import atan, pi, sin, sqrt, tanh
+from math import atan, pi, sin, tanh
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +9,7 @@ import pytest
 from bevel_differential import DifferentialError
 from bevel_differential.command import main
 from bevel_differential.vehicle import UNITS, Body, Car, Motor, Tyre
+from bevel_differential.vehicle.equations import motor_torque
 from scipy.integrate import solve_ivp
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -38,6 +39,11 @@ def magic(tyre, slip):
     return peak * sin(tyre.shape * atan(tyre.slip_stiffness / (tyre.shape * peak) * slip))
 
 
+def allowed(motor, carrier):
+    """Largest torque of the motor: its peak, and its power over its speed."""
+    return min(motor.peak, motor.peak * motor.knee / max(motor.ratio * carrier, 1e-9))
+
+
 def reference(speed, motor, body):
     """All equations as one system, by a solver with variable steps at 1e-10: Willis' equation as a constraint."""
     mass_matrix = np.array([[CARRIER + motor.inertia * motor.ratio**2 + 2 * SIDE + LEFT.inertia + RIGHT.inertia,
@@ -58,14 +64,14 @@ def reference(speed, motor, body):
             forces.append(magic(tyre, slip + fading / tyre.slip_stiffness * creep))
             slips.append((creep - abs(centre) * slip) / tyre.relaxation)
         load_l, load_r = (tyre.radius * force for tyre, force in zip((LEFT, RIGHT), forces))
-        drive = motor.ratio * torque
+        limit = allowed(motor, carrier)
+        drive = motor.ratio * min(torque, limit)
         alpha = np.linalg.solve(mass_matrix, [drive - load_l - load_r, RATIO * (load_r - load_l)])
         y_front = limits[0] * tanh(body.front_stiffness * front / limits[0])
         y_rear = limits[1] * tanh(body.rear_stiffness * rear / limits[1])
         delta = steer(time)
         against = body.drag * v * abs(v) + body.rolling * body.mass * g * tanh(v / body.breakaway)
-        asked = min(request(time), motor.peak) / sqrt(1.0 + (motor.ratio * carrier / motor.knee) ** 2)
-        return [(asked - torque) / motor.lag, *alpha, *slips, (sum(forces) - y_front * delta - against) / body.mass + w * r,
+        return [(min(request(time), limit) - torque) / motor.lag, *alpha, *slips, (sum(forces) - y_front * delta - against) / body.mass + w * r,
                 (y_front + y_rear) / body.mass - v * r,
                 (body.front * y_front - body.rear * y_rear + 0.5 * body.track * (forces[1] - forces[0])) / body.yaw_inertia,
                 (v * delta - w - body.front * r - abs(v) * front) / body.relaxation,
@@ -74,7 +80,7 @@ def reference(speed, motor, body):
     begin = [0.0, speed / LEFT.radius, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0, 0.0]
     y = solve_ivp(rates, (0.0, END), begin, "LSODA", rtol=1e-10, atol=1e-12).y[:, -1]
     wheels = y[1] + RATIO * y[2], y[1] - RATIO * y[2]
-    return dict(zip(OUTPUTS, [y[0], *wheels, y[3], y[4], y[5], y[6], y[7]]))
+    return dict(zip(OUTPUTS, [min(y[0], allowed(motor, y[1])), *wheels, y[3], y[4], y[5], y[6], y[7]]))
 
 
 @pytest.mark.parametrize("speed", [0.0, 15.0])
@@ -128,11 +134,51 @@ def test_a_controller_sets_inputs_and_requests(fmu_file):
     assert 0.0 < record["body.speed"][-1] < free["body.speed"][-1]
 
 
+PEAK, KNEE = 250.0, 500.0
+LIMITED = {"ratio": 9.0, "inertia": 0.03, "peak": PEAK, "knee": KNEE, "lag": 0.03}
+
+
+@pytest.mark.parametrize("turns", [0.0, 0.5, 1.0, 1.6, 4.0])
+@pytest.mark.parametrize("asked", [25.0, 125.0, PEAK, 1e4])
+@pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (1, -1), (-1, -1)])
+def test_a_motor_gives_the_request_up_to_its_torque_and_its_power_in_all_four_quadrants(turns, asked, signs):
+    """Below the knee the peak torque is the limit, above it the power of the knee."""
+    given = motor_torque(Motor(**LIMITED), signs[0] * asked, signs[1] * turns * KNEE)
+    limit = PEAK if turns <= 1.0 else PEAK / turns
+    assert given == pytest.approx(signs[0] * min(asked, limit), rel=1e-15)
+
+
+@pytest.mark.parametrize("request_", [1e4, PEAK, -PEAK])
+@pytest.mark.parametrize("speed", [0.0, 10.0, 30.0, -30.0])
+def test_the_power_of_the_motor_is_never_above_its_limit_and_reaches_it(fmu_file, request_, speed):
+    """From the first instant, driving and braking, forward and backward, though the torque follows with a lag."""
+    # slippery, so that the wheels spin up faster than the lag
+    tyre = Tyre(friction=0.1 if speed == 0.0 else 0.9)
+    car = Car(IDEAL, motor=Motor(**LIMITED), left=tyre, right=tyre, fmu=fmu_file)
+    record = car.run(["motor.torque", "motor.speed"], 0.6, 1e-3, request=request_, speed=speed)
+    torque, turns = record["motor.torque"], record["motor.speed"]
+    power, limit = np.abs(torque * turns), PEAK * KNEE
+    assert np.abs(torque).max() <= PEAK * (1.0 + 1e-12) and power.max() <= limit * (1.0 + 1e-12)
+    assert np.all(np.sign(torque[1:]) == np.sign(request_))
+    if abs(speed) == 30.0:
+        # 30 m/s are 808 rad/s of the motor
+        assert power[0] == pytest.approx(limit, rel=1e-12) and torque[0] == pytest.approx(limit / (9.0 * 30.0 / 0.334) * np.sign(request_))
+    if speed == 0.0:
+        assert np.abs(turns).max() > 1.2 * KNEE and power[-1] == pytest.approx(limit, rel=1e-9)
+
+
+def test_a_moving_car_begins_with_the_torque_that_is_asked_for_below_the_limit(fmu_file):
+    car = Car(IDEAL, motor=Motor(**LIMITED), fmu=fmu_file)
+    record = car.run(["motor.torque"], 0.05, 1e-3, request=25.0, speed=30.0)
+    assert record["motor.torque"] == pytest.approx(np.full(len(record), 25.0), rel=1e-12)
+
+
 def test_constant_power_above_the_knee(fmu_file):
-    car = Car(IDEAL, motor=Motor(knee=100.0), left=Tyre(), fmu=fmu_file)
+    car = Car(IDEAL, motor=Motor(peak=100.0, knee=100.0), left=Tyre(), fmu=fmu_file)
     record = car.run(["motor.torque", "motor.speed"], 0.3, 1e-3, request=100.0, speed="144km/h")
-    power = record["motor.torque"][-1] * record["motor.speed"][-1]
-    assert power == pytest.approx(100.0 * 100.0, rel=0.01)
+    power = record["motor.torque"] * record["motor.speed"]
+    # the speed falls, and the torque rises with it behind its lag
+    assert power[0] == pytest.approx(100.0 * 100.0, rel=1e-12) and power == pytest.approx(np.full(len(record), 100.0 * 100.0), rel=1e-3)
 
 
 @pytest.mark.parametrize("make, message", [

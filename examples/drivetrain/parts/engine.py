@@ -1,6 +1,7 @@
 """Engine: torque by time and speed, which follows with a lag."""
 
-from equations import motor_torque
+from math import sqrt
+
 from part import Part
 
 
@@ -27,7 +28,7 @@ class Engine(Part):
 
     def rates(self, t, x, u):
         asked = self.high * ramp(t, 0.0, self.rise) - (self.high - self.low) * ramp(t, self.fall, self.fall + self.release)
-        return [(motor_torque(self, asked, u[0]) - x[0]) / self.lag]
+        return [(asked / sqrt(1.0 + (u[0] / self.knee) ** 2) - x[0]) / self.lag]
 
     def output_values(self, x, u):
         return {"torque": x[0]}

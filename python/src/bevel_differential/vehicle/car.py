@@ -11,6 +11,7 @@ from ..instance import Instance
 from ..plot import plot
 from ..points import Steps, TimeValue, span
 from ..values import DifferentialError, FileName, Number, Value, suggestion
+from .equations import motor_torque
 from .motion import Motion
 from .parts import Body, Motor, Tyre
 from .signals import Course, course, speed_value
@@ -60,7 +61,8 @@ class Car:
         differential and of the parts (`UNITS`) at each, SI.
 
         `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left: each a number, a pair (times,
-        values) or a function of time. `speed`: of the car at the start, m/s, or text such as "54 km/h". `controller(time, values)` is called before each step with
+        values) or a function of time. `speed`: of the car at the start, m/s, or text such as "54 km/h"; the motor then begins with the torque of
+        `request` that it can give at that speed, without a lag. `controller(time, values)` is called before each step with
         what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
         Returns a structured array with a field "time"."""
         stop, step = span("stop", stop), span("step", step)
@@ -106,11 +108,12 @@ class Car:
         left, right = self.tyres
         carrier = self.fmu.variable("inertia.carrier")
         given = carrier.number(self._given.get("inertia.carrier", carrier.start))
+        begin = speed / (0.5 * (left.radius + right.radius))
         if speed:
-            motion.x[0] = min(max(request, -self.motor.peak), self.motor.peak)
+            motion.x[0] = motor_torque(self.motor, request, self.motor.ratio * begin)
         return {**self._given, "inertia.carrier": given + self.motor.inertia * self.motor.ratio**2,
                 "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",
-                "scene.start": "equilibrium" if speed else "rest", "carrier.speed_command": speed / (0.5 * (left.radius + right.radius)),
+                "scene.start": "equilibrium" if speed else "rest", "carrier.speed_command": begin,
                 "inertia.left_end": left.inertia, "inertia.right_end": right.inertia}
 
     def _recorded(self, outputs):

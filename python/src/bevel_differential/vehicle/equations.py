@@ -3,7 +3,7 @@
 `tyre`, `motor` and `body` are objects with the parameters of `Tyre`, `Motor` and `Body`. SI units.
 """
 
-from math import atan, sin, sqrt, tanh
+from math import atan, sin, tanh
 from typing import Any
 
 # standard gravity, m/s2
@@ -27,8 +27,10 @@ def slip_rate(tyre: Any, slip: float, rolling: float, speed: float) -> float:
 
 
 def motor_torque(motor: Any, request: float, speed: float) -> float:
-    """Torque that the motor can give of the torque `request` at its speed, N.m: all of it below the knee, constant power above."""
-    return request / sqrt(1.0 + (speed / motor.knee) ** 2)
+    """Torque that the motor can give of the torque `request` at its speed, N.m: all of it up to `peak` below the knee, and up to the
+    power `peak` times `knee` above, in either direction of torque and speed."""
+    limit = motor.peak * motor.knee / max(abs(speed), motor.knee)
+    return min(max(request, -limit), limit)
 
 
 def resistance(body: Any, speed: float) -> float:

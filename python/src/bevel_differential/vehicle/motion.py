@@ -42,11 +42,14 @@ class Motion:
         return [axle_force(stiffness, limit, x[6 + i])
                 for i, (stiffness, limit) in enumerate(zip((body.front_stiffness, body.rear_stiffness), self._limits))]
 
+    def torque(self, speeds: Sequence[float]) -> float:
+        """Torque of the motor, N.m. The lagging torque is limited again, because the limit falls at once when the speed rises."""
+        return motor_torque(self.motor, self.x[0], self.motor.ratio * speeds[0])
+
     def rates(self, x: Sequence[float], speeds: Sequence[float], request: float, steer: float) -> list[float]:
         """Rates of all states, at the torque `request` of the motor (N.m) and the angle `steer` of the front wheels (rad)."""
         motor, body = self.motor, self.body
         torque, _, _, ahead, aside, yaw, front, rear = x
-        request = min(max(request, -motor.peak), motor.peak)
         left, right = self.forces(x, speeds)
         front_force, rear_force = self.lateral_forces(x)
         centres = self.wheel_centres(x)
@@ -77,13 +80,13 @@ class Motion:
     def loads(self, speeds: Sequence[float]) -> list[float]:
         """What the parts give to the differential, N.m: torque on the carrier, loads on left and right half-shaft."""
         forces = self.forces(self.x, speeds)
-        return [self.motor.ratio * self.x[0], *(tyre.radius * force for tyre, force in zip(self.tyres, forces))]
+        return [self.motor.ratio * self.torque(speeds), *(tyre.radius * force for tyre, force in zip(self.tyres, forces))]
 
     def outputs(self, speeds: Sequence[float], steer: float) -> dict[str, float]:
         """All that can be recorded of the parts, by name."""
-        torque, left_slip, right_slip, ahead, aside, yaw, _, _ = self.x
+        _, left_slip, right_slip, ahead, aside, yaw, _, _ = self.x
         left, right = self.forces(self.x, speeds)
-        return {"motor.torque": torque, "motor.speed": self.motor.ratio * speeds[0],
+        return {"motor.torque": self.torque(speeds), "motor.speed": self.motor.ratio * speeds[0],
                 "left_tyre.force": left, "right_tyre.force": right, "left_tyre.slip": left_slip, "right_tyre.slip": right_slip,
                 "body.speed": ahead, "body.lateral_speed": aside, "body.yaw_rate": yaw,
                 "body.lateral_acceleration": sum(self.lateral_forces(self.x)) / self.body.mass, "body.steer": steer}

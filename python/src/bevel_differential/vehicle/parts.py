@@ -24,8 +24,9 @@ class Tyre(Part):
 
 @dataclass
 class Motor(Part):
-    """A motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order; above the knee
-    its power is constant. With `ratio` = 1 it stands for any source of torque."""
+    """A motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order. It is at most `peak`
+    below the knee; above the knee the power is at most `peak` times `knee`, driving or braking, forward or backward. With `ratio` = 1
+    it stands for any source of torque."""
 
     ratio: float = parameter(9.0, "1", "Speed of the motor by the speed of the carrier", 0.0)
     inertia: float = parameter(0.03, "kg.m2", "Rotor and what turns with it, at the motor's speed", 0.0)
