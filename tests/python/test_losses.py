@@ -190,8 +190,44 @@ def test_tables_have_units_and_the_same_numbers(mapped, tmp_path):
         assert locking[1, 1, place, 1] == pytest.approx(-2.0 * np.sign(at) * PRELOAD * over_kinetic(at), rel=1e-5, abs=1e-6)
 
 
-def test_torques_that_oppose_each_other_have_no_ratio():
-    assert bias(-10.0, 50.0) == (None, 150.0) and bias(0.0, 50.0) == (None, 100.0) and bias(20.0, 60.0) == (3.0, 50.0)
+def test_torques_that_oppose_each_other_or_vanish_have_no_ratio_and_no_locking_effect():
+    assert bias(-10.0, 50.0) == bias(0.0, 50.0) == bias(0.0, 0.0) == bias(-60.46, 61.38) == bias(1e-9, -3e-9) == (None, None)
+    assert bias(20.0, 60.0) == bias(60.0, 20.0) == bias(-20.0, -60.0) == (3.0, 50.0)
+
+
+def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file, tmp_path):
+    """A preload of 60 N·m at ±0.9 N·m moves 130 times the torque that passes: that is no locking effect."""
+    from bevel_differential.losses.tables import save
+    levels = dict(zip(VARIABLES, ([-0.92, 0.92, 300.0], [5.0, 40.0], [0.5, 20.0], [TEMPERATURE])))
+    with Scene("plain", set=CLUTCH, fmu=fmu_file) as made:
+        table = pq.read_table(save(losses(made, levels, unseen=5, workers=0), tmp_path / "map.parquet")).to_pylist()
+    effects = [row["locking_effect [%]"] for row in table]
+    assert any(effect is not None for effect in effects) and all(effect is None or 0.0 <= effect <= 100.0 for effect in effects)
+    for row in table:
+        if row["kind"] == "map":
+            moved, total = 2.0 * PRELOAD, abs(row["carrier.torque [N.m]"])
+            expected = pytest.approx(100.0 * moved / total, rel=1e-3) if total > moved else None
+            assert row["locking_effect [%]"] == expected, row
+
+
+def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(fmu_file, tmp_path):
+    """Drag of the bearings by its formula; in overrun the wheels bring what the carrier delivers and what is lost."""
+    from bevel_differential.losses.tables import save_for_simulink
+    levels = dict(zip(VARIABLES, ([-300.0, -100.0, 0.0, 100.0, 300.0], [10.0, SPEED], [5.0], [TEMPERATURE])))
+    with Scene("drag", set=DRAG, fmu=fmu_file) as made:
+        mapped = losses(made, levels, bound=Bound(10.0, 1000.0), unseen=0, workers=0)
+        script = save_for_simulink(mapped, tmp_path / "map.m").read_text(encoding="utf-8")
+    found = re.search(r"^eta_tbl = reshape\(\[([^]]*)\], \[([^]]*)\]\);$", script, re.MULTILINE)
+    table = np.array([float(value) for value in found[1].split()]).reshape([int(size) for size in found[2].split()], order="F")
+    torques, speeds = mapped.lines[:2]
+    for i, torque in enumerate(torques):
+        for k, speed in enumerate(speeds):
+            sides = 2.0 * (0.7 + 0.005 * speed) * speed
+            loss = (2.0 + 0.02 * speed + 1e-3 * speed**2) * speed + sides
+            power = abs(torque) * speed
+            eta = 1.0 - loss / power if torque > 0.0 else power / (power + loss)
+            assert table[i, k, 0] == pytest.approx(max(eta, 0.01), rel=1e-4)
+    assert "power out over power in" in script and "overrun" in script
 
 
 @pytest.mark.parametrize("option, value, words", [("--difference", "-1 rad/s..1 rad/s", "above 0"), ("--bound", "2", "2,0.1"),

@@ -11,6 +11,7 @@ mod hints;
 mod imposed;
 mod integration;
 mod ledger;
+mod periodic;
 mod progress;
 mod readings;
 mod reports;

@@ -38,10 +38,28 @@ impl Simulation {
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
         let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
+        let length = self.model.parameters.specs.warm_up.cycle;
+        let not_periodic = |at: &[f64; NODES]| still.not_periodic(&network, at, length);
         let temperatures = match network.steady(cold, &felt, heats)? {
             Steady::At(temperatures) => temperatures,
-            none => return Err(problem!(START, "{}", no_steady_heat(none))),
+            none => {
+                let reason = match not_periodic(&[cold; NODES]) {
+                    Some(change) => format!(
+                        "there are no steady temperatures, because the motion is not periodic: {change}, or set scene.start = \
+                         equilibrium"
+                    ),
+                    None => no_steady_heat(none),
+                };
+                return Err(problem!(START, "{reason}"));
+            }
         };
+        if let Some(change) = not_periodic(&temperatures) {
+            Arc::make_mut(&mut self.model).warnings.push(problem!(
+                START,
+                "the motion is not periodic, so that the run leaves the temperatures of steady_heat, which balance the heat of its \
+                 second cycle only: {change}"
+            ));
+        }
         if !felt.is_empty() {
             let from_hot = network.steady(TEMPERATURES.1, &felt, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));

@@ -70,7 +70,8 @@ impl Around {
 }
 
 impl Conductance {
-    pub(super) fn at(self, speed: f64) -> f64 {
+    /// Conductance at the carrier speed `speed`, without its sign [rad/s], in W/K.
+    pub fn at(self, speed: f64) -> f64 {
         self.at_rest + self.per_speed * speed
     }
 }

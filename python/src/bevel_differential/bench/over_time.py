@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..losses.tables import bias as ratio_of
 from ..scene import Scene
 
 ZERO_CELSIUS = 273.15
@@ -44,8 +45,9 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Temperatures and locking effect over laps."""
     record = scene.run()
     time, left, right = record["time"], record["left.shaft_torque"], record["right.shaft_torque"]
-    # of what differentiates alone
-    effect = np.where(record["held.sides"] > 0, np.nan, 100.0 * np.abs(left - right) / np.abs(left + right))
+    # only while it differentiates
+    effect = np.array([np.nan if held or ratio_of(*torques)[1] is None else ratio_of(*torques)[1]
+                       for held, *torques in zip(record["held.sides"] > 0, left.tolist(), right.tolist())])
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
     says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
             f"up to {record['temperature.clutch'].max() - ZERO_CELSIUS:.0f} °C: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")

@@ -48,8 +48,9 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
             rows.append((torque, sign, temperature, left, total - left, *ratio_of(left, total - left)))
         slipping = found[torque, speed, DIFFERENCE, temperature]
         over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
-    held = [row[6] for row in rows if row[0] == torques[-1]]
-    says = (f"it holds up to an LE of {min(held):.0f} to {max(held):.0f} % at {torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to "
+    held = [row[6] for row in rows if row[0] == torques[-1] and row[6] is not None]
+    says = (f"it holds up to {f'an LE of {min(held):.0f} to {max(held):.0f} %' if held else 'torques that oppose each other'} at "
+            f"{torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to "
             f"{max(over):.2f} times the difference of torques that it has at {DIFFERENCE:g} rad/s, and is no TBR, as nothing differentiates")
     return _written(scene, out, rows, says, "breaking loose", 6)
 

@@ -24,22 +24,44 @@ MEANINGS = {
     "left.shaft_torque_min [N.m]": "map: the least left torque of a mesh cycle; stuck: that at which the left wheel breaks loose ahead",
     "left.shaft_torque_max [N.m]": "map: the greatest left torque of a mesh cycle; stuck: that at which the right wheel breaks loose ahead",
     "torque_bias_ratio [1]": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques "
-                             "oppose each other",
-    "locking_effect [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum",
+                             "oppose each other or one is below 0.1 N·m",
+    "locking_effect [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum, at most 100; empty where there is no "
+                          "ratio",
 }
 HEAD = list(MEANINGS)
 BETWEEN = ("between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
            "and speed, s speed_difference, TL, TR, P torques and loss")
 # least efficiency that a block is given
 LEAST = 0.01
+# what eta_tbl means, for readers of the script
+CONVENTION = [
+    f"% eta is power out over power in, without a difference of wheel speeds, at least {LEAST:g}: for torque in the direction of the",
+    "% speed wheels over carrier, 1 - P/(T w); for torque against the speed (overrun) carrier over wheels, |T w|/(|T w| + P).",
+    "% The blocks' documentation has one eta for both directions, a factor of the torque that passes, and does not exchange input and",
+    "% output when the torque changes sign. For losses in overrun take the n-D tables below, which are right for both signs.",
+]
+# a torque below this is none, N·m: what the usual bound allows as an error of the map
+NONE = 0.1
 
 
 def bias(left: float, right: float) -> tuple[float | None, float | None]:
-    """Torque bias ratio T_high/T_low and locking effect 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817); None without a torque,
-    and no ratio where the torques oppose each other."""
+    """Torque bias ratio T_high/T_low and locking effect 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817). Both are None if the
+    torques oppose each other or if one is below NONE: their difference over a sum that vanishes would say nothing."""
     low, high = sorted(map(abs, (left, right)))
-    total = abs(left + right)
-    return (high / low if low > 0.0 and left * right > 0.0 else None), (100.0 * abs(left - right) / total if total > 0.0 else None)
+    if low < NONE or left * right < 0.0:
+        return None, None
+    return high / low, 100.0 * (high - low) / (high + low)
+
+
+def efficiency(torque: np.ndarray, speed: np.ndarray, figures: np.ndarray) -> np.ndarray:
+    """Power that leaves over power that enters, in the direction in which the power flows, without a difference of speeds; 1 if nothing
+    enters.
+
+    `torque`, `speed`: of the carrier; `figures`: T_left, T_right and loss along the last axis. With the torque against the speed the
+    wheels feed, so that the carrier delivers |T w| of |T w| + loss."""
+    left, right, loss = np.moveaxis(figures, -1, 0)
+    fed = sum(np.maximum(power, 0.0) for power in (torque * speed, -left * speed, -right * speed))
+    return 1.0 - np.divide(np.maximum(loss, 0.0), fed, out=np.zeros_like(loss), where=fed > 0.0)
 
 
 def save(made: LossMap, file: FileName) -> Path:
@@ -68,9 +90,7 @@ def _row(kind, point, figures, torques):
 def save_for_simulink(made: LossMap, file: FileName) -> Path:
     """Writes a MATLAB script with the arrays that the blocks' masks and n-D Lookup Tables take."""
     torque, speed, slip, temperature = made.lines
-    power = np.abs(torque[:, None, None] * speed[None, :, None])
-    loss = made.stuck[:, :, 0, :, 2]
-    efficiency = np.clip(1.0 - np.divide(loss, power, out=np.zeros_like(loss), where=power > 0.0), LEAST, 1.0)
+    share = efficiency(torque[:, None, None], speed[None, :, None], made.stuck[:, :, 0, :, :MAPPED])
     # over a signed difference, through the stuck means at 0
     slips = np.concatenate([-slip[::-1], [0.0], slip])
     whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
@@ -81,8 +101,9 @@ def save_for_simulink(made: LossMap, file: FileName) -> Path:
         f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.says()}.",
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
         "% Blocks Open Differential and Limited Slip Differential, Efficiency factors = Driveshaft torque, temperature and speed:",
+        *CONVENTION,
         _vector("Trq_bpts", torque), _vector("omega_bpts", speed), _vector("Temp_bpts", temperature),
-        _array("eta_tbl", efficiency),
+        _array("eta_tbl", np.clip(share, LEAST, 1.0)),
         "% Limited Slip Differential, coupling by slip speed-dependent torque data (slip, torque), and by input torque dependent",
         "% torque data (input, torque): half the difference of the wheels' torques in the middle of the other axes:",
         _vector("slip", np.append(0.0, slip)),
