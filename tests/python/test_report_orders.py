@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.report.drawings import outline, unrolled
-from bevel_differential.report.forces import bands, share
+from bevel_differential.report.forces import bands, rolling, share, spectrum
 from bevel_differential.report.gears import pair_of
 from bevel_differential.report.waterfall import TURN, waterfall
 from bevel_differential.report.pattern import Contacts
-from bevel_differential.report.runup import ANGLE, SIGNAL, run_up
+from bevel_differential.report.runup import ANGLE, SIGNAL, SPIN, run_up
 from bevel_differential.report.simulated import Simulated
 
 # turns in a window: a line is 1/8 of an order wide
@@ -78,6 +78,43 @@ def test_a_run_up_has_the_orders_of_mesh_and_ring_gear(simulated):
     # and nothing stands where theory has nothing: all are sums of multiples of both
     sums = [abs(10.0 * k + expected["ring"] * n) for k in range(-8, 9) for n in range(-3, 4)]
     assert all(min(abs(order - theirs) for theirs in sums) < LINE for order in found), found
+
+
+# 14 teeth of the side gears for 4 planets: neighbouring planets are half a pitch out of phase
+OUT_OF_PHASE = {"geometry.planet_count": 4, "geometry.side_teeth": 14}
+
+
+def orders_of(run):
+    """The run-up, and the amplitudes [m] of whole mesh orders in the scene and in its run-up."""
+    here = spectrum(run, rolling(run.time, run.series(ANGLE), 10))[1]
+    up = run_up(run)
+    spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW, 60.0)
+    there = [spectra.mean[np.argmin(np.abs(spectra.orders - 10.0 * (k + 1)))] for k in range(6)]
+    return up, here[:6], np.array(there)
+
+
+@pytest.mark.parametrize("values", [{}, {"scene.right_drive": "torque", "scene.carrier_drive": "speed", "right.load_torque": "835 N.m"}])
+def test_a_run_up_with_free_planets_has_the_odd_orders_that_the_scene_has(simulated, values):
+    """Drives of the scene: with free planets, each balances its own two meshes, and odd orders do not cancel."""
+    up, here, there = orders_of(simulated("torque_bias", OUT_OF_PHASE | values))
+    assert SPIN not in up.imposed and not up.is_driven_otherwise
+    assert np.argmax(here) == np.argmax(there) == 0
+    assert there == pytest.approx(here, rel=0.03)
+
+
+def test_a_run_up_of_a_scene_driven_by_torques_leaves_the_planets_free_and_says_what_it_imposes(simulated):
+    up, here, there = orders_of(simulated("limited_slip", OUT_OF_PHASE))
+    assert up.imposed == ["the carrier's speed", "the left wheel's speed"] and up.is_driven_otherwise
+    assert any("the left wheel's speed is imposed through its half-shaft of" in change for change in up.changed)
+    assert np.argmax(here[:3]) == np.argmax(there) == 0
+
+
+def test_a_run_up_at_imposed_spin_has_even_orders_only_if_planets_are_half_a_pitch_apart(simulated):
+    """In step, the odd orders of neighbouring planets have opposite signs, and the side gear bears their sum."""
+    up, here, there = orders_of(simulated("study_turning", OUT_OF_PHASE))
+    assert SPIN in up.imposed and not up.is_driven_otherwise
+    assert here[::2].max() < 1e-5 * here[1] and there[::2].max() < 1e-3 * there[1]
+    assert there[1::2] == pytest.approx(here[1::2], rel=0.03)
 
 
 def test_a_locked_scene_runs_up_with_the_lock_open(simulated):

@@ -1,4 +1,8 @@
-"""A run-up of the scene's gears: speeds rise in a constant ratio, under loads that stay."""
+"""A run-up of the scene's gears: speeds rise in a constant ratio, under loads that stay.
+
+The scene's drives are kept, because they decide which mesh orders there are: planets at imposed spin move together, so that with
+planets of alternating phase the odd orders cancel. Two speeds must be imposed for a constant ratio; a scene that imposes fewer gets
+that of the carrier, and then that of the left wheel."""
 
 from dataclasses import dataclass
 
@@ -8,6 +12,7 @@ from ..answers import Progress
 from ..progress import silent
 from ..scene import Scene
 from ..values import DifferentialError, Number
+from . import words
 from .simulated import Simulated
 
 # carrier speeds from and to, rad/s: 100 to 1000 rpm
@@ -30,38 +35,79 @@ DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_dampi
 MULTIPLES, RING = 6, "ring gear"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
-RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL)
+SHAFTS = ("left.shaft_torque", "right.shaft_torque")
+RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL, *SHAFTS)
+SPIN = "the planets' spin"
+# what may be driven at a speed: the literal that says so, and the command
+DRIVES = {"the carrier's speed": ("scene.carrier_drive", "speed", "carrier.speed_command"),
+          "the left wheel's speed": ("scene.left_drive", "speed", "left.speed_command"),
+          "the right wheel's speed": ("scene.right_drive", "speed", "right.speed_command"),
+          SPIN: ("scene.planet_spin", "imposed", "planet.spin_command")}
+# speeds that a differential has
+INDEPENDENT = 2
 
 
 @dataclass(frozen=True)
 class RunUp:
-    """Record of a run-up: `ratio` is spin over carrier speed; `changed` says what differs from the scene; `turns`: of a planet;
-    `seconds`: how long it lasts."""
+    """Record of a run-up: `ratio` is spin over carrier speed; `imposed`: names of the speeds in DRIVES that are imposed; `loads`: mean
+    torques of the half-shafts; `changed` says what differs from the scene; `turns`: of a planet; `seconds`: how long it lasts;
+    `is_driven_otherwise`: true if the scene imposes fewer speeds."""
 
     record: np.ndarray
     ratio: float
+    imposed: list[str]
     loads: tuple[float, float]
     changed: list[str]
     turns: float
     seconds: float
+    is_driven_otherwise: bool
+
+    @property
+    def spins_freely(self) -> bool:
+        """True if the spin of the planets is not imposed."""
+        return SPIN not in self.imposed
 
 
 def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     """Simulates it. Raises `DifferentialError` with the FMU's reason where it refuses."""
     ratio, why_ratio = ratio_of(run)
     loads, why_loads = loads_of(run)
-    values, changed = _values(run, ratio, loads)
-    changed = [*why_ratio, *why_loads, *changed]
+    imposed, why_imposed = imposed_of(run)
+    commands = commands_of(run, ratio, imposed)
+    values, changed = _values(run, commands, imposed, loads)
+    changed = [*why_imposed, *why_ratio, *why_loads, *changed]
     # enough points for the orders that theory expects
     per_turn = max(PER_TURN, int(PER_ORDER * max(theory(run, ratio).values())))
     step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
     for turns in (TURNS, FEWER):
         # with a constant rate of all speeds the turns are mean spin times duration
         seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
-        record = _simulate(run.scene, values, ratio, seconds, step, MOST if turns > FEWER else np.inf, progress)
+        record = _simulate(run.scene, values, commands, seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
             break
-    return RunUp(record, ratio, loads, changed, turns, seconds)
+    left, right = (float(np.mean(record[name])) for name in SHAFTS)
+    return RunUp(record, ratio, imposed, (left, right), changed, turns, seconds, bool(why_imposed))
+
+
+def imposed_of(run: Simulated) -> tuple[list[str], list[str]]:
+    """Names of the speeds in DRIVES that the run-up imposes: those of the scene, with as many more as it takes to hold the ratio, and
+    a sentence for the added ones."""
+    imposed = [name for name, (drive, literal, _) in DRIVES.items() if run.literal(drive) == literal]
+    added = [name for name in DRIVES if name not in imposed][:INDEPENDENT - len(imposed)]
+    if not added:
+        return imposed, []
+    sides = [side for side in ("left", "right") if DRIVES[added[-1]][0] == f"scene.{side}_drive"]
+    stiffness = [words.quantity(float(run.value(f"half_shaft.{side}_stiffness")), "N·m/rad") for side in sides]
+    through = f" through its half-shaft of {stiffness[0]}" if sides else ""
+    return [*imposed, *added], [f"{words.listed(added)} {'is' if len(added) == 1 else 'are'} imposed{through}, because torques would not "
+                                "hold the ratio of the speeds"]
+
+
+def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
+    """The commands of the imposed speeds over the speed of the carrier, by Willis' equation."""
+    difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
+    speeds = dict(zip(DRIVES, (1.0, 1.0 + difference, 1.0 - difference, ratio)))
+    return {DRIVES[name][2]: speeds[name] for name in imposed}
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:
@@ -84,12 +130,15 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
                                       "next to no load on the mean and its teeth would lift"]
 
 
-def _values(run, ratio, loads):
+def _values(run, commands, imposed, loads):
     """What differs from the scene's values, and in words what a reader would not expect."""
     values: dict[str, Number | str] = {
-        "scene.carrier_drive": "speed", "scene.planet_spin": "imposed", "scene.left_drive": "torque", "scene.right_drive": "torque",
-        "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
-        "carrier.speed_command": SLOWEST, "planet.spin_command": ratio * SLOWEST}
+        "scene.start": "rolling", "carrier.torque_command": sum(loads), "left.load_torque": loads[0], "right.load_torque": loads[1],
+        # the start takes the speed of a carrier that is driven by torque from here
+        "carrier.speed_command": SLOWEST, **{name: part * SLOWEST for name, part in commands.items()}}
+    for name in imposed:
+        drive, literal, _ = DRIVES[name]
+        values[drive] = literal
     changed = []
     undamped = [name for name in DAMPING if run.value(name) == 0.0]
     if undamped:
@@ -116,7 +165,7 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
     return found
 
 
-def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
+def _simulate(scene: Scene, values, commands, seconds, step, most, progress):
     """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None
     where it would take more than `most` evaluations, as far as its first tenth tells."""
     points = int(np.ceil(seconds / step))
@@ -129,7 +178,7 @@ def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
         for point in range(1, points + 1):
             if (point - 1) * step <= BEGINNING + step:
                 slope = rate * 0.5 * (1.0 - np.cos(np.pi * min((point - 0.5) * step / BEGINNING, 1.0)))
-                instance.set_slopes({"carrier.speed_command": slope, "planet.spin_command": ratio * slope})
+                instance.set_slopes({name: part * slope for name, part in commands.items()})
             instance.step(step)
             record[point] = (instance.time, *instance.read(RECORDED))
             if point % 1000 == 0:

@@ -85,12 +85,19 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
 
 def _how(up: RunUp):
     unlike_scene = f" Unlike in the scene, {words.listed(up.changed)}." if up.changed else ""
-    return (f"A second simulation of the same gears, law and effects. The carrier is driven from {words.number(SLOWEST * RPM)} "
-            f"to {words.quantity(FASTEST * RPM, 'rpm')} in {words.quantity(up.seconds, 's', 3)}; planets spin at "
-            f"{words.number(up.ratio, 3)} of its speed, as imposed. Half-shafts carry {words.number(up.loads[0])} (left) and "
-            f"{words.quantity(up.loads[1], 'N·m')} (right).{unlike_scene} The signal is the transmission error of planet 1 with the "
-            "left side gear: loads are imposed, which leaves little to see in the forces of the mesh, while the deflection "
+    return (f"A second simulation of the same gears, law and effects. The carrier turns from {words.number(SLOWEST * RPM)} "
+            f"to {words.quantity(FASTEST * RPM, 'rpm')} in {words.quantity(up.seconds, 's', 3)}, and the planets spin at "
+            f"{words.number(up.ratio, 3)} of its speed. {_drives(up)} Half-shafts "
+            f"carry {words.number(up.loads[0])} (left) and "
+            f"{words.quantity(up.loads[1], 'N·m')} (right) on the mean.{unlike_scene} The signal is the transmission error of planet 1 "
+            "with the left side gear: loads are imposed, which leaves little to see in the forces of the mesh, while the deflection "
             "shows every change of stiffness. It is resampled over the planet's angle, so that orders stand upright.")
+
+
+def _drives(up):
+    imposed = f"Imposed are {words.listed(up.imposed)}{'' if up.is_driven_otherwise else ', as in the scene'}."
+    return f"{imposed} The planets are free." if up.spins_freely else (
+        f"{imposed} The planets then turn in step, so that mesh orders in which they are out of phase cancel.")
 
 
 @svg_style.drawn("waterfall", 5.2)
