@@ -1,5 +1,6 @@
 """Temperatures: heat of the ledger warms oil, gears, clutch packs, washers and case, and none of it is lost."""
 
+import re
 from math import exp
 
 import pytest
@@ -216,6 +217,87 @@ def test_a_start_without_steady_heat_is_refused_by_name(drive, values, words):
     with pytest.raises(DifferentialError) as refused:
         drive(STEADY | {"scene.gear_contact": "ideal"} | values)
     assert all(word in str(refused.value) for word in words), str(refused.value)
+
+
+# inertias that the acceleration follows from, kg.m2: carrier, side gear, wheel; the planets' is so small that it does not count
+CARRIER, SIDE, WHEEL = 0.05, 1.2e-4, 1.0
+FREE = {"scene.start": "steady_heat", "effects.warm_up": True, "scene.gear_contact": "ideal", "inertia.from_geometry": False,
+        "inertia.carrier": CARRIER, "inertia.side_gear": SIDE, "inertia.planet": 1e-9, "inertia.left_end": WHEEL,
+        "inertia.right_end": WHEEL, "left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.speed_command": 10.0}
+
+
+def said(driven):
+    return [each for each in driven.messages if "not periodic" in each]
+
+
+@pytest.mark.parametrize("torque", [0.75, 100.0, -100.0])
+@pytest.mark.parametrize("cycle", [0.02, 1.0])
+def test_steady_heat_of_a_car_that_accelerates_is_reported_with_the_speed_that_changes(drive, torque, cycle):
+    """T = I α, so that the mean speeds of neighbouring cycles of length L differ by α L; cycles below 0.1 s are compared in groups."""
+    driven = drive(FREE | {"scene.carrier_drive": "torque", "carrier.torque_command": torque, "warm_up.cycle": cycle})
+    [warned] = said(driven)
+    assert "scene.start" in warned and "scene.carrier_drive" in warned
+    length, acceleration = max(cycle, 0.1), torque / (CARRIER + 2.0 * (SIDE + WHEEL))
+    means = [10.0 + acceleration * length * part for part in (1.5, 2.5)]
+    found = re.search(r"carrier.speed has a mean of ([-\d.]+) rad/s over ([\d.]+) s and of ([-\d.]+) rad/s", warned)
+    assert float(found[2]) == length
+    assert [float(found[1]), float(found[3])] == pytest.approx(means, rel=1e-4)
+
+
+@pytest.mark.parametrize("side, sign", [("left", 1.0), ("right", -1.0)])
+def test_steady_heat_of_wheels_that_accelerate_against_each_other_names_a_wheel(drive, side, sign):
+    """At a given carrier speed the torque T on one wheel accelerates both by T/2I, I the inertia of a wheel."""
+    [warned] = said(drive(FREE | {f"{side}.load_torque": -1.0}))
+    mean = 10.0 + sign * 1.5 / (2.0 * (SIDE + WHEEL))
+    assert "left.wheel_speed has a mean of" in warned and "carrier.speed has" not in warned
+    assert float(re.search(r"mean of ([-\d.]+)", warned)[1]) == pytest.approx(mean, rel=1e-4)
+
+
+@pytest.mark.parametrize("values", [
+    FREE | {"scene.carrier_drive": "torque", "carrier.torque_command": 1500.0, "effects.bearing_drag": True},
+    # too fast for three cycles, and for one
+    FREE | {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "left.load_torque": 300.0, "right.load_torque": 250.0,
+            "warm_up.cycle": 0.1, "inertia.left_end": 0.01, "inertia.right_end": 0.01},
+])
+def test_steady_heat_is_not_refused_with_advice_on_cooling_where_the_motion_runs_away(drive, values):
+    with pytest.raises(DifferentialError) as refused:
+        drive(values)
+    text = str(refused.value)
+    assert "not periodic" in text and re.search(r"(carrier.speed|left.wheel_speed) has a mean of", text), text
+    assert "raise warm_up" not in text and "shorten" not in text, text
+
+
+@pytest.mark.parametrize("values", [
+    {"scene.gear_contact": contact, **given} for contact in ("ideal", "lumped", "tooth") for given in (
+        {"left.load_torque": 300.0, "right.load_torque": 300.0},
+        {"left.load_torque": 300.0, "right.load_torque": 250.0, "scene.planet_spin": "imposed", "planet.spin_command": 5.0},
+        {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 42.0,
+         "right.speed_command": 38.0, "carrier.torque_command": 600.0})])
+@pytest.mark.parametrize("cycle", [0.01, 1.0])
+def test_steady_heat_of_a_steady_motion_is_no_reason_to_warn(drive, values, cycle):
+    contact = values["scene.gear_contact"]
+    driven = drive({"scene.start": "steady_heat", "effects.warm_up": True, "effects.bearing_drag": True, "warm_up.cycle": cycle,
+                    "effects.thrust_friction": contact != "ideal", "effects.tooth_friction": contact == "tooth", **values})
+    assert not said(driven)
+
+
+def test_steady_heat_of_a_part_of_a_mesh_cycle_names_the_heat(drive):
+    """A mesh period of 2π/(10 teeth 0.5 rad/s) is 1.26 s; the heat of a fifth of a second depends on where in it that is."""
+    length = 0.2
+    values = {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "effects.warm_up": True, "scene.planet_spin": "imposed",
+              "planet.spin_command": 0.5, "left.load_torque": 800.0, "right.load_torque": 800.0, "warm_up.cycle": length}
+    [warned] = said(drive(values | {"scene.start": "steady_heat"}))
+    run = drive(values | {"scene.start": "equilibrium"}).to(length, length)
+    heat = [run["heat.tooth_friction"]]
+    for cycle in (2, 3):
+        run.to(cycle * length, length)
+        heat.append(run["heat.tooth_friction"])
+    means = [(later - sooner) / length for sooner, later in zip(heat, heat[1:])]
+    assert abs(means[1] - means[0]) > 0.1 * max(means)
+    found = re.search(r"power.loss has a mean of ([-\d.e+]+) W over 0.2 s and of ([-\d.e+]+) W", warned)
+    assert [float(each) for each in found.groups()] == pytest.approx(means, rel=0.02)
+    assert "warm_up.cycle" in warned
+    assert not said(drive(values | {"scene.start": "steady_heat", "warm_up.cycle": 2.0 * 3.141592653589793 / 5.0}))
 
 
 def test_a_drive_begins_with_nodes_above_the_oil(drive):

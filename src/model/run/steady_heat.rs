@@ -40,17 +40,16 @@ impl Simulation {
         let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
         let length = self.model.parameters.specs.warm_up.cycle;
         let not_periodic = |at: &[f64; NODES]| still.not_periodic(&network, at, length);
-        let temperatures = match network.steady(cold, &felt, heats)? {
-            Steady::At(temperatures) => temperatures,
-            none => {
-                let reason = match not_periodic(&[cold; NODES]) {
-                    Some(change) => format!(
-                        "there are no steady temperatures, because the motion is not periodic: {change}, or set scene.start = \
-                         equilibrium"
-                    ),
-                    None => no_steady_heat(none),
-                };
-                return Err(problem!(START, "{reason}"));
+        let found = network.steady(cold, &felt, heats);
+        let temperatures = match found {
+            Ok(Steady::At(temperatures)) => temperatures,
+            Ok(none) => {
+                let change = not_periodic(&[cold; NODES]).map(no_cycle);
+                return Err(problem!(START, "{}", change.unwrap_or_else(|| no_steady_heat(none))));
+            }
+            Err(problem) => {
+                let change = still.runs_away(&network, &[cold; NODES]).map(no_cycle);
+                return Err(change.map_or(problem, |reason| problem!(START, "{reason}")));
             }
         };
         if let Some(change) = not_periodic(&temperatures) {
@@ -94,6 +93,13 @@ impl Simulation {
             speed: (ended_at - begun_at).abs() / length,
         })
     }
+}
+
+/// Reason why there are no steady temperatures if the motion changes from cycle to cycle as `change` describes.
+fn no_cycle(change: String) -> String {
+    format!(
+        "there are no steady temperatures, because the motion is not periodic: {change}, or set scene.start = equilibrium"
+    )
 }
 
 /// Why there are no steady temperatures.

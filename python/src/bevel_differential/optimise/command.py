@@ -1,6 +1,7 @@
 """The command `optimise`: from a problem file to a Pareto front, chosen designs and files for CAD."""
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -89,7 +90,10 @@ def _confirmation(confirmed, problem):
         spans = []
         for objective in problem.objectives:
             changes = [100.0 * each.difference(model, str(objective.want)) for each in ran]
-            if not all(abs(change) < 0.05 for change in changes):
-                spans.append(f"{str(objective.want).removesuffix(':final')} by {min(changes):+.1f} to {max(changes):+.1f} %")
+            known = [change for change in changes if not math.isnan(change)]
+            if not known:
+                spans.append(f"{str(objective.want).removesuffix(':final')} by no known share")
+            elif not all(abs(change) < 0.05 for change in changes):
+                spans.append(f"{str(objective.want).removesuffix(':final')} by {min(known):+.1f} to {max(known):+.1f} %")
         yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; this model changes "
                f"{', '.join(spans) or 'nothing'}")

@@ -18,6 +18,8 @@ from .quantities import QUANTITIES
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
 # outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
 HISTORY = "_peak_to_peak"
+# a figure below this part of another one is none, so that there is no relative difference
+VANISHES = 1e-9
 
 
 @dataclass
@@ -142,10 +144,11 @@ class Confirmed:
     models: dict[str, DesignRow]
 
     def difference(self, model: str, want: str) -> float:
-        """What the model changes of a figure, relative to the search's own; NaN where the model did not run."""
+        """What the model changes of a figure, relative to the search's own; NaN if the model did not run or if the search's figure
+        vanishes next to the model's."""
         first = self.row.figures[want]
         other = self.models[model].figures.get(want, float("nan")) if model in self.models else float("nan")
-        return other / first - 1.0 if first else float("nan")
+        return other / first - 1.0 if abs(first) > VANISHES * abs(other) else float("nan")
 
     def flat(self, problem: Problem) -> dict:
         """As a row of a table: the design, what follows from it, and for each model figures, differences and what it breaks."""

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Sequence
+from math import isnan
 from pathlib import Path
 
 import pandas as pd
@@ -39,7 +40,8 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
         lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
                            [row.figures.get(want) for row in columns]))
         for model in problem.confirm if want in {str(each.want) for each in problem.objectives} else ():
-            changes = [f"{100.0 * each.difference(model, want):+.1f} %" for _, each in chosen]
+            found = [each.difference(model, want) for _, each in chosen]
+            changes = ["–" if isnan(change) else f"{100.0 * change:+.1f} %" for change in found]
             lines += _unless(changes, NO_CHANGE, f"… with {model}", compared)
     for model in problem.confirm:
         broken = ["; ".join(each.models[model].refused) or "–" for _, each in chosen]

@@ -133,13 +133,15 @@ def _edges(centres):
 
 def _caption(run, up, spectra, expected):
     order, size = spectra.strongest(1, FLOOR)[0]
+    nearest, theirs = min(expected.items(), key=lambda pair: abs(pair[1] - order))
+    named = f" ({nearest})" if abs(order - theirs) <= spectra.resolution else ""
     at = int(np.argmin(np.abs(spectra.orders - order)))
     course = UM * spectra.amplitudes[:, at]
     k = int(np.argmax(course))
     marks = "on top and red, multiples of the mesh order" + (
         "; green, the teeth of the ring gear" if run.value("effects.final_drive") else "")
     return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; "
-            f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
+            f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}{named}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
             f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}."
             f"{' It hardly changes with the speed: no critical speed lies in this range.' if course[k] < 1.2 * course.min() else ''} "
