@@ -19,7 +19,7 @@ from bevel_differential.designs.farm import Farm
 from bevel_differential.designs.task import Row
 from bevel_differential.optimise import command as optimise_command
 from bevel_differential.optimise import front
-from bevel_differential.optimise.design_task import DesignRow, DesignTask, confirm
+from bevel_differential.optimise.design_task import Confirmed, DesignRow, DesignTask, confirm
 from bevel_differential.optimise.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
@@ -289,6 +289,13 @@ def test_the_study_s_gears_stand_where_their_figures_say(two, folder):
         "no design of the front is better" in compared_with_front("study", row, best, two)
     chosen = front.choice(best, two.objectives, row)
     assert len(chosen) == len({each.run for _, each in chosen}) == front.CHOICES
+
+
+@pytest.mark.parametrize("own, other, expected", [(2.0, 3.0, 0.5), (-2.0, -1.0, -0.5), (0.0, 3.0, math.nan), (1e-12, 3.0, math.nan),
+                                                  (0.0, 0.0, math.nan), (2.0, 0.0, -1.0)])
+def test_a_figure_that_vanishes_has_no_relative_difference(own, other, expected):
+    row, richer = (DesignRow(0, {}, {"power.loss:mean": figure}) for figure in (own, other))
+    assert Confirmed(row, {"richer": richer}).difference("richer", "power.loss:mean") == pytest.approx(expected, nan_ok=True)
 
 
 def test_dominance_and_knee_of_a_known_front():
