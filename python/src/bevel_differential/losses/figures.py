@@ -199,7 +199,7 @@ def ratio(made: LossMap) -> Picture:
                    f"Torque bias ratio T_high/T_low at {words.quantity(speed, 'rad/s')}. Solid: at the "
                    f"largest difference, {words.quantity(slip[-1], 'rad/s')} ({'; '.join(ends)}); dashed: at the smallest, "
                    f"{words.quantity(slip[0], 'rad/s')}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
-                   "ends, the torques of the wheels oppose each other, and there is no ratio.")
+                   "ends, the torques of the wheels oppose each other or one vanishes, and there is no ratio.")
 
 
 def _ratio(torques):
