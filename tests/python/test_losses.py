@@ -301,7 +301,8 @@ def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
         with Scene("oil", set=CLUTCH | {"limited_slip.cold_factor": cold, "effects.strength": False}, fmu=fmu_file) as scene:
             made = losses(scene, levels, unseen=0, workers=0, tell=said.append)
         runs[cold] = made.new
-        assert len(made.lines[3]) == 4 and made.slipping.shape[4] == made.stuck.shape[3] == 4
+        assert set(levels["oil.temperature"]) <= set(made.lines[3])
+        assert made.slipping.shape[4] == made.stuck.shape[3] == len(made.lines[3])
         told = [text for text in said if text.startswith("oil.temperature changes nothing here")]
         assert len(told) == (cold == 1.0) and all("4 temperatures share the runs at 80 degC" in text for text in told)
         loss = made.at(np.array([[500.0, 20.0, 10.0, temperature] for temperature in levels["oil.temperature"]]))[:, 2]

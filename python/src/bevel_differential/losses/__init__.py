@@ -197,7 +197,11 @@ def _depends_on_oil(scene, temperatures):
     """Whether torques and losses depend on the oil's temperature. What rates the teeth depends on it, too, but moves nothing."""
     start = scene.fmu.variable(VARIABLES[3]).start
     other = next(float(temperature) for temperature in temperatures if temperature != start)
-    return VARIABLES[3] not in scene.unfelt_of({VARIABLES[3]: other, "effects.strength": False})
+    try:
+        return VARIABLES[3] not in scene.unfelt_of({VARIABLES[3]: other, "effects.strength": False})
+    except DifferentialError:
+        # the point that is refused is named when it runs
+        return True
 
 
 def _chosen(scene, lines, within):
