@@ -23,7 +23,8 @@ def close_the_lock(_time, values):
 
 CASES = {
     "open": ({}, None),
-    "limited slip": ({"effects.limited_slip": True, "limited_slip.preload": "150 N.m"}, None),
+    "limited slip": ({"effects.limited_slip": True, "limited_slip.preload": "150 N.m",
+                      "limited_slip.torque_coefficient": 0.1}, None),
     "lock": ({"lock.torque": "2000 N.m"}, close_the_lock),
 }
 

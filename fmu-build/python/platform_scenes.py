@@ -9,7 +9,8 @@ ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
 # seconds of a scene that are compared
 LONGEST = 0.5
 # a small car that launches, brakes to a stop, waits, backs away and stops again: inputs over time, and how long it takes [s]
-CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True,
+CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3,
+       "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3,
        "inertia.left_end": 12.0, "inertia.right_end": 12.0, "inertia.carrier": 0.1, "left.load_torque": 0.0, "right.load_torque": 0.0,
        "carrier.torque_command": 0.0}
 BRAKES = ([0.0, 1.2, 1.3, 3.2, 3.3, 4.4, 4.5, 6.0], [0.0, 0.0, 300.0, 300.0, 0.0, 0.0, 300.0, 300.0])

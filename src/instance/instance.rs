@@ -5,6 +5,7 @@ use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};
 use crate::variables::felt::{self, Situation};
+use crate::variables::unset;
 use crate::variables::{self, Access, Variable};
 
 /// Tolerance of communication points, relative to the larger of time and step size: far above the rounding errors of hosts
@@ -121,7 +122,28 @@ impl Instance {
             }
             self.warn_of_unfelt(felt::unfelt(&self.now.parameters, &self.now.inputs, self.situation(true)));
         }
+        self.report_unset();
         Ok(())
+    }
+
+    /// Logs the values that act and that nobody set: as a warning if the differential is another one than the study's, which
+    /// these values belong to, otherwise as part of what is simulated. Load torques among them may turn the wheels backward.
+    fn report_unset(&self) {
+        let Snapshot { parameters, inputs, set, .. } = &self.now;
+        let is_own = set.has_own_differential();
+        if self.log.is_on(if is_own { Category::Warning } else { Category::Events }) {
+            let line = unset::in_one_line(&unset::unset(parameters, inputs, set));
+            match (line.is_empty(), is_own) {
+                (true, _) => {}
+                (false, true) => self.log.warning(&line),
+                (false, false) => self.log.event(&line),
+            }
+        }
+        if self.log.is_on(Category::Warning)
+            && let Some(warning) = unset::runaway(parameters, inputs, set)
+        {
+            self.log.warning(&warning.to_string());
+        }
     }
 
     /// Whether the scene can feel a variable that changes now.

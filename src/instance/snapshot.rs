@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 use super::{Discrete, Interface, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
+use crate::variables::unset::SetValues;
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 14;
+const VERSION: u32 = 15;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -40,6 +41,8 @@ pub struct Snapshot {
     pub discrete: Option<Discrete>,
     /// Whether the host set the solver's tolerance itself.
     pub tolerance_chosen: bool,
+    /// Variables that the host has set.
+    pub set: SetValues,
     /// The simulation; none before initialisation, or when something was set since it was built.
     #[serde(skip)] // it follows from the parameters and what `Payload` adds
     pub simulation: Option<Simulation>,
@@ -60,6 +63,7 @@ impl Snapshot {
             stop_time: None,
             discrete: None,
             tolerance_chosen: false,
+            set: SetValues::default(),
             simulation: None,
         }
     }

@@ -128,6 +128,7 @@ impl Instance {
         let mut tuned = false;
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
+            now.set.insert(reference as usize);
             match row.access {
                 Access::Real(slot) => {
                     *slot(&mut now.parameters) = value;
@@ -159,6 +160,7 @@ impl Instance {
             }
         }
         for (reference, value) in pairs {
+            self.now.set.insert(reference as usize);
             match row(reference)?.access {
                 Access::Integer(slot) => *slot(&mut self.now.parameters) = value,
                 Access::Enumeration(_, _, set) => set(&mut self.now.parameters, value),
@@ -177,6 +179,7 @@ impl Instance {
             self.check_settable(row)?;
         }
         for (reference, value) in pairs {
+            self.now.set.insert(reference as usize);
             if let Access::Boolean(slot) = row(reference)?.access {
                 *slot(&mut self.now.parameters) = value;
             }

@@ -47,4 +47,5 @@ pub use scene::{
     PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use setup::Parameters;
+pub use setup::advice::turned_backward;
 pub use setup::effect_outputs::{CONTACT_HEAT, heats, readings};

@@ -11,6 +11,7 @@
 use std::sync::OnceLock;
 
 use super::named::{number, number_of};
+use super::parameters::bodies::OIL_TEMPERATURE_ACTS;
 use super::table::table;
 use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
@@ -123,6 +124,8 @@ struct Needs {
     start: Option<f64>,
     switch: Option<Condition>,
     when: Option<Condition>,
+    /// Under which more than outputs that repeat the value depends on it.
+    acts: Option<Condition>,
 }
 
 impl Needs {
@@ -140,6 +143,7 @@ fn needs() -> &'static [Needs] {
             start: number(row, &mut parameters, &mut inputs),
             switch: row.switch.and_then(|name| Condition::read(&format!("{name} = true"))),
             when: row.when.and_then(Condition::read),
+            acts: if row.name == REPEATED { Condition::read(OIL_TEMPERATURE_ACTS) } else { None },
         };
         table().rows.iter().map(&mut of).collect()
     })
@@ -150,11 +154,28 @@ pub fn is_felt(index: usize, parameters: &mut Parameters, situation: Situation) 
     needs()[index].all().all(|condition| condition.holds(parameters, situation))
 }
 
+/// Whether more depends on the value of row `index` in a scene of `parameters` than outputs that repeat it.
+pub fn acts(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
+    let needed = &needs()[index].acts;
+    is_felt(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
+}
+
+/// The variable that outputs repeat: temperatures of all surfaces, where nothing warms up.
+const REPEATED: &str = "oil.temperature";
+
 /// A warning, if `value` is not the start value of row `index` and nothing in a scene of `parameters` can feel it.
 pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situation: Situation) -> Option<Problem> {
     let (row, needs) = (&table().rows[index], &needs()[index]);
-    if needs.start.is_none_or(|start| start == value) || is_felt(index, parameters, situation) {
+    if needs.start.is_none_or(|start| start == value) || acts(index, parameters, situation) {
         return None;
+    }
+    if is_felt(index, parameters, situation) {
+        let acts = OIL_TEMPERATURE_ACTS;
+        return Some(problem!(
+            row.name,
+            "{}{UNFELT}{acts}; here only the outputs temperature.* repeat it",
+            written(row, value)
+        ));
     }
     let mut missing = |needed: &Option<Condition>| needed.as_ref().is_some_and(|c| !c.holds(parameters, situation));
     let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
@@ -178,6 +199,17 @@ fn written(row: &Variable, value: f64) -> String {
             let unit = row.unit.map_or("", |unit| if unit.name == "1" { "" } else { unit.name });
             format!("{value} {unit}").trim_end().to_owned()
         }
+    }
+}
+
+/// A value as [`written`], in the unit that people think in.
+pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
+    match (row.access, row.display) {
+        (Access::Real(_) | Access::Input(_), Some(shown)) => {
+            format!("{} {}", crate::model::six_digits(shown.show(value)), shown.name)
+        }
+        (Access::Real(_) | Access::Input(_), None) => written(row, crate::model::six_digits(value)),
+        _ => written(row, value),
     }
 }
 
@@ -207,7 +239,8 @@ mod tests {
         for (row, needs) in table().rows.iter().zip(needs()) {
             assert_eq!(row.switch.is_some(), needs.switch.is_some(), "{}", row.name);
             assert_eq!(row.when.is_some(), needs.when.is_some(), "{}: {:?}", row.name, row.when);
-            needs.all().for_each(check);
+            assert_eq!(row.name == REPEATED, needs.acts.is_some(), "{}", row.name);
+            needs.all().chain(&needs.acts).for_each(check);
         }
     }
 
@@ -221,6 +254,30 @@ mod tests {
         assert!(holds("inertia.carrier > 0.019") && !holds("inertia.carrier > 0.02"));
         assert!(Condition::read("scene.start = standing").is_none());
         assert!(Condition::read("scene.begin = rest").is_none());
+    }
+
+    #[test]
+    fn an_oil_temperature_that_only_outputs_repeat_is_named() {
+        let mut p = Parameters::default();
+        p.oil.temperature = 253.15;
+        let said = |p: &Parameters, situation| -> Vec<String> {
+            unfelt(p, &Inputs::default(), situation).iter().map(Problem::to_string).collect()
+        };
+        let found = said(&p, Situation::START);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(
+            found[0].starts_with("oil.temperature: 253.15 K changes nothing in this scene: it acts with"),
+            "{found:?}"
+        );
+        p.effects.limited_slip = true;
+        assert_eq!(said(&p, Situation::START).len(), 1);
+        p.specs.limited_slip.sliding.cold_factor = 1.2;
+        assert!(said(&p, Situation::START).is_empty() && said(&p, Situation::RUNNING).is_empty());
+        p.effects.warm_up = true;
+        assert!(said(&p, Situation::START).is_empty());
+        assert_eq!(said(&p, Situation::RUNNING).len(), 1, "the oil has a temperature of its own by then");
+        p.specs.warm_up.sump_given = true;
+        assert!(said(&p, Situation::RUNNING).is_empty());
     }
 
     #[test]

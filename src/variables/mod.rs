@@ -11,6 +11,7 @@ mod outputs;
 mod parameters;
 mod states;
 mod table;
+pub mod unset;
 
 pub use crate::declaration::{Causality, Choice, EnumType, Range, Variability, units};
 pub use access::{Access, OutputSource, Variable};

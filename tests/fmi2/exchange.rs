@@ -65,6 +65,10 @@ fn model_exchange_gives_the_results_of_co_simulation() {
             assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
             assert_eq!(host.set_boolean("effects.pin_compliance", 1), Status::Ok);
             assert_eq!(host.set_boolean("effects.bearing_drag", 1), Status::Ok);
+            let names = ["carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous"];
+            let names = names.map(|name| format!("bearing_drag.{name}"));
+            let names = names.each_ref().map(String::as_str);
+            assert_eq!(host.set_many(&names, &[0.5, 5e-3, 1e-4, 0.2, 1e-3]), Status::Ok);
         }),
     ];
     for (name, h, n, set) in scenes {
@@ -147,6 +151,8 @@ fn a_state_between_steps_is_restored_bit_by_bit_here_and_in_another_instance() {
     let set = |host: &Host| {
         level(host, 3);
         assert_eq!(host.set_boolean("effects.limited_slip", 1), Status::Ok);
+        let names = ["limited_slip.preload", "limited_slip.torque_coefficient"];
+        assert_eq!(host.set_many(&names, &[50.0, 0.1]), Status::Ok);
     };
     let mut solver = Solver::new(set);
     solver.steps(1e-6, 50);

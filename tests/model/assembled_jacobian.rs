@@ -21,6 +21,10 @@ fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     (inputs.carrier_torque, p.scene.carrier_drive) = (1560.0, CarrierDrive::Torque);
     (p.inertia.left_end, p.inertia.right_end, p.scene.start) = (0.3, 0.4, Start::Equilibrium);
     (p.geometry.planet_bore, p.geometry.side_bore) = (16e-3, 30e-3);
+    let (drag, clutches) = (&mut p.specs.bearing_drag, &mut p.specs.limited_slip);
+    (drag.carrier_torque, drag.carrier_viscous, drag.carrier_churning) = (0.5, 5e-3, 1e-4);
+    (drag.side_torque, drag.side_viscous) = (0.2, 1e-3);
+    (clutches.preload, clutches.torque_coefficient) = (50.0, 0.1);
     change(&mut p);
     (p, inputs)
 }

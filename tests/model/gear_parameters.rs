@@ -126,6 +126,7 @@ fn resting_angle(torque: f64) -> f64 {
         ("bearing_drag.side_torque", 0.0),
         ("bearing_drag.carrier_viscous", 0.0),
         ("bearing_drag.carrier_torque", 0.0),
+        ("bearing_drag.carrier_churning", 1e-4),
     ];
     let host = initialising(&values, &held);
     assert_eq!(host.set_boolean("effects.bearing_drag", 1), Status::Ok);

@@ -17,6 +17,11 @@ MODULE = 4.5e-3
 # number of choices when the seeds were chosen: a start with steady heat is drawn apart
 FIRST_CHOICES = {"scene.start": 3}
 
+# in place of start values of zero
+TYPICAL = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1, "bearing_drag.carrier_torque": 0.5,
+           "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2,
+           "bearing_drag.side_viscous": 1e-3}
+
 # factor below and above the start value, drawn by logarithm
 FACTORS = {
     "material.young_modulus": 3.0, "material.density": 2.0, "inertia.carrier": 10.0, "inertia.side_gear": 30.0,
@@ -83,7 +88,8 @@ IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_c
 
 def value(variable, u, scene):
     """Of one variable, given the values of those it follows."""
-    name, start, low, high = variable.name, variable.start, variable.minimum, variable.maximum
+    name, low, high = variable.name, variable.minimum, variable.maximum
+    start = TYPICAL.get(name, variable.start)
     if variable.kind == "Boolean":
         return u < 0.5
     if variable.kind == "Enumeration":

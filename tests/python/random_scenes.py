@@ -56,7 +56,7 @@ def wild_value(variable, u):
     low, high = variable.minimum, variable.maximum
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
-    return spread(u, low, high, variable.start)
+    return spread(u, low, high, plausible_scenes.TYPICAL.get(variable.name, variable.start))
 
 
 def schedule(random, duration, inputs, draw):

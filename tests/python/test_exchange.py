@@ -4,6 +4,7 @@ import ctypes
 
 import numpy as np
 import pytest
+import theory
 from driving import TURN
 from fmpy.fmi2 import fmi2EventInfo
 
@@ -15,7 +16,7 @@ SCENES = {
     "ideal": {**WHEELS, "scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.load_torque": 800.0},
     "half-shafts": {**WHEELS, "effects.half_shaft": True, "scene.carrier_drive": "torque", "left.load_torque": 820.0},
     "solid": {"scene.gear_contact": "solid"},
-    "limited slip": {**WHEELS, "scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0,
+    "limited slip": {**WHEELS, "scene.gear_contact": "ideal", **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0,
                      "left.load_torque": 400.0},
 }
 OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "carrier.torque", "left.shaft_torque", "left.normal_force",

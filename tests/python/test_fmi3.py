@@ -7,6 +7,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+import theory
 from bevel_differential import Scene, shipped_scenes
 from bevel_differential.points import Steps
 from fmi3 import Unit3
@@ -19,7 +20,7 @@ SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3ModelDescription.
 BRAKING = {"effects.wheel_brake": True, "scene.carrier_drive": 2, "carrier.torque_command": 0.0, "left.load_torque": 0.0,
            "right.load_torque": 0.0, "inertia.left_end": 0.6, "inertia.right_end": 0.9, "left.brake_torque": 900.0,
            "right.brake_torque": 700.0, "carrier.speed_command": 30.0, "scene.start": 2}
-CLUTCH = {"effects.limited_slip": True, "limited_slip.preload": 120.0, "left.load_torque": 600.0, "right.load_torque": 300.0,
+CLUTCH = {**theory.CLUTCHES, "limited_slip.preload": 120.0, "left.load_torque": 600.0, "right.load_torque": 300.0,
           "inertia.left_end": 0.5, "inertia.right_end": 0.8, "carrier.torque_command": 900.0, "scene.carrier_drive": 2}
 FAULT = {"effects.tooth_fault": True, "tooth_fault.onset": 0.0437}
 # the study's turn, driven by a torque: teeth roll, and the solver takes about a step each millisecond

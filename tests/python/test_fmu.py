@@ -198,7 +198,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     ends = {"inertia.left_end": 1.0, "inertia.right_end": 2.0}
     shafts = {**ends, "effects.half_shaft": True}
     scenes = [ends, {"effects.half_shaft": True}, {**shafts, "effects.strength": True, "effects.tooth_friction": True},
-              {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}, {**ends, "effects.thrust_friction": True}]
+              {**ends, **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0}, {**ends, "effects.thrust_friction": True}]
     brakes = {"effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 50.0}
     swapped = {**brakes, "left.brake_torque": 50.0, "right.brake_torque": 100.0}
     scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]

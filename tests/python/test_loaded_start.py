@@ -5,6 +5,7 @@ own_statics looks for one. `cargo run -p lab --release -- test-python -k loaded_
 
 import numpy as np
 import pytest
+import theory
 from opened_scenes import INERTIAS, UM, scene
 from own_statics import BALANCED, Statics
 
@@ -171,7 +172,7 @@ def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):
         assert min(told) < 0.25
 
 
-DRAG = {"effects.bearing_drag": True, "bearing_drag.side_torque": 20.0, "bearing_drag.carrier_torque": 30.0}
+DRAG = {**theory.DRAG, "bearing_drag.side_torque": 20.0, "bearing_drag.carrier_torque": 30.0}
 BALANCED_DRIVES = {
     "drag": {**DRAG, "carrier.speed_command": 50.0},
     "drag, driven by torque": {**DRAG, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,

@@ -12,6 +12,7 @@ import numpy as np
 import psutil
 import pyarrow.parquet as pq
 import pytest
+import theory
 from bevel_differential import DifferentialError, Scene, losses as package
 from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Quantity, Text
@@ -24,12 +25,12 @@ from bevel_differential.losses.tables import HEAD, bias
 from interrupts import changed_command, with_interrupts
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
-CLUTCH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": PRELOAD,
+CLUTCH = {"scene.gear_contact": "ideal", **theory.CLUTCHES, "limited_slip.preload": PRELOAD,
           "limited_slip.torque_coefficient": 0.0, "limited_slip.mean_radius": RADIUS, "limited_slip.static_ratio": RATIO}
 STRIBECK_CLUTCH = CLUTCH | {"limited_slip.stribeck_speed": STRIBECK}
 LEVELS = dict(zip(VARIABLES, ([300.0, 900.0], [5.0, 40.0], [0.5, 20.0], [300.0, 350.0])))
 TORQUE, SPEED, TEMPERATURE = 800.0, 30.0, 330.0
-DRAG = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.carrier_torque": 2.0, "bearing_drag.side_torque": 0.7,
+DRAG = {"scene.gear_contact": "ideal", **theory.DRAG, "bearing_drag.carrier_torque": 2.0, "bearing_drag.side_torque": 0.7,
         "bearing_drag.carrier_viscous": 0.02, "bearing_drag.side_viscous": 0.005, "bearing_drag.carrier_churning": 1e-3}
 
 
@@ -102,7 +103,7 @@ def test_tooth_errors_are_averaged_until_all_teeth_have_met(scene):
 
 def test_what_the_fmu_refuses_is_said_with_its_point(scene):
     with pytest.raises(DifferentialError, match=r"(?s)at 300 N.m, 5 rad/s.*oil.viscosity_100"):
-        losses(scene.set({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True}), LEVELS,
+        losses(scene.set({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True}), LEVELS,
                workers=0)
 
 
@@ -325,3 +326,22 @@ def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
                                    "right.speed_command": 5.25, "oil.temperature": 253.15})
         stalled.close()
     assert "effects.corner_contact = true" in row.message, row.message
+
+
+def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
+    """The loss of a preload is M times the difference, at any temperature of the oil; a clutch with a cold factor depends on it."""
+    levels = dict(zip(VARIABLES, ([300.0, 900.0], [5.0, 40.0], [0.5, 20.0], [253.15, 293.15, 353.15, 393.15])))
+    runs = {}
+    for cold in (1.0, 1.3):
+        said = []
+        with Scene("oil", set=CLUTCH | {"limited_slip.cold_factor": cold, "effects.strength": False}, fmu=fmu_file) as scene:
+            made = losses(scene, levels, unseen=0, workers=0, tell=said.append)
+        runs[cold] = made.new
+        assert set(levels["oil.temperature"]) <= set(made.lines[3])
+        assert made.slipping.shape[4] == made.stuck.shape[3] == len(made.lines[3])
+        told = [text for text in said if text.startswith("oil.temperature changes nothing here")]
+        assert len(told) == (cold == 1.0) and all("4 temperatures share the runs at 80 degC" in text for text in told)
+        loss = made.at(np.array([[500.0, 20.0, 10.0, temperature] for temperature in levels["oil.temperature"]]))[:, 2]
+        factors = [cold, 1.0 + (cold - 1.0) * 0.6, 1.0, 1.0]
+        assert loss == pytest.approx([PRELOAD * 10.0 * factor for factor in factors], rel=5e-3)
+    assert 3 * runs[1.0] < runs[1.3]

@@ -17,6 +17,7 @@ import test_hard_clutches
 import test_hard_stiffness
 import test_solid
 import test_steps
+import theory
 from bevel_differential import DifferentialError
 from braking import BRAKED, brakes, drive_torque
 from driving import BIAS, GIVEN, STEADY_TURN, TURN, UNLOADED
@@ -41,15 +42,15 @@ NAMED = {
     "line": {"contact.law": "line", **STEADY_TURN}, "line_weber": {"contact.law": "line_weber", **ICE},
     "broken": {**STEADY_TURN, "effects.tooth_fault": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 1},
     "brakes": BRAKED | brakes(400.0, 100.0) | drive_torque(300.0) | {"carrier.speed_command": 30.0},
-    "warm up": BIAS | {"effects.thrust_friction": True, "effects.limited_slip": True, "effects.bearing_drag": True, "effects.warm_up": True,
+    "warm up": BIAS | {"effects.thrust_friction": True, **theory.CLUTCHES, **theory.DRAG, "effects.warm_up": True,
                        "limited_slip.static_ratio": 1.2, "limited_slip.stribeck_speed": 0.1, "limited_slip.hot_factor": 0.5,
                        "thrust_friction.slip_slope": -0.1, "thrust_friction.cold_factor": 1.5, "warm_up.clutch_capacity": 5.0,
                        "bearing_drag.viscosity_from_oil": True},
-    "steady heat": BIAS | {"effects.thrust_friction": True, "effects.limited_slip": True, "effects.warm_up": True,
+    "steady heat": BIAS | {"effects.thrust_friction": True, **theory.CLUTCHES, "effects.warm_up": True,
                            "limited_slip.hot_factor": 0.5, "scene.start": "steady_heat", "warm_up.cycle": 0.01},
-    "drag": BIAS | {"effects.bearing_drag": True, "bearing_drag.churning_from_geometry": True, "bearing_drag.carrier_diameter": 0.4,
+    "drag": BIAS | {**theory.DRAG, "bearing_drag.churning_from_geometry": True, "bearing_drag.carrier_diameter": 0.4,
                     "oil.temperature": 263.15, "bearing_drag.seal_diameter": 0.05, "bearing_drag.bearing_load": 1e4},
-    "above limits of p v": BIAS | {"effects.thrust_friction": True, "effects.limited_slip": True, "thrust_friction.pv_limit": 2e4,
+    "above limits of p v": BIAS | {"effects.thrust_friction": True, **theory.CLUTCHES, "thrust_friction.pv_limit": 2e4,
                                    "thrust_friction.beyond_limit": 1.2, "limited_slip.pv_limit": 1e4, "limited_slip.beyond_limit": 0.7},
     "at rest": BRAKED | brakes(100.0, 50.0) | drive_torque(300.0) | {"scene.start": "rest"},
     "clutch": test_hard_clutches.CLUTCH | {"left.load_torque": 900.0, "right.load_torque": 700.0},

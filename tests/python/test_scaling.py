@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 import random_scenes
+import theory
 from bevel_differential import DifferentialError
 from driving import TURN
 from effects_list import effects
@@ -57,12 +58,12 @@ CARRIERS = {
                   "N/mm, mm, m/s, mPa.s and um under powers"),
     "xu_kahraman": (BLOWS | {"effects.tooth_friction": True, "tooth_friction.law": "xu_kahraman"}, STEPS, NONE, OUTPUTS,
                     "GPa, m, m/s and mPa.s under powers"),
-    "oil": (BLOWS | {"effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "oil.temperature": 320.0}, STEPS, ONLY_MASS,
+    "oil": (BLOWS | {**theory.DRAG, "bearing_drag.viscosity_from_oil": True, "oil.temperature": 320.0}, STEPS, ONLY_MASS,
             OUTPUTS, "0.7 mm2/s in the line of ASTM D341"),
-    "churning": (BLOWS | {"effects.bearing_drag": True, "bearing_drag.churning_from_geometry": True}, STEPS, NONE, OUTPUTS,
+    "churning": (BLOWS | {**theory.DRAG, "bearing_drag.churning_from_geometry": True}, STEPS, NONE, OUTPUTS,
                  "kW, mm2/s, 1/min and mm under powers (ISO/TR 14179-1)"),
     "thrust_friction": (WHEELS | {"effects.thrust_friction": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
-    "limited_slip": (WHEELS | {"effects.limited_slip": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
+    "limited_slip": (WHEELS | {**theory.CLUTCHES}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "lock": (WHEELS | {"lock.command": 1.0}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "wheel_brake": (HELD, STEADY, NO_TIME, OUTPUTS, SPRING),
     "solver": (BLOWS | {"solver.relative_tolerance": 1e-6}, STEPS, NO_TIME, COUNTS, "error control resolves speeds to 1 rad/s, and the first step is 1 us"),

@@ -4,6 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
+import theory
 from bevel_differential import Differential
 
 # both wheels roll at the start value of 50 rad/s, and are braked
@@ -13,10 +14,10 @@ STOP = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.s
 LAWS = {"lumped": {"scene.gear_contact": "lumped"}}
 LAWS |= {law: {"scene.gear_contact": "tooth", "contact.law": law} for law in ["impact", "line", "line_weber"]}
 LEVELS = {"ideal": {}} | LAWS | {"solid": {"scene.gear_contact": "solid"}}
-WAYS = {"plain": {}, "half-shafts": {"effects.half_shaft": True}, "drag": {"effects.bearing_drag": True},
-        "limited slip": {"effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}}
+WAYS = {"plain": {}, "half-shafts": {"effects.half_shaft": True}, "drag": {**theory.DRAG},
+        "limited slip": {**theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0}}
 # what ends the rattle of teeth: friction of planets, and drag of the carrier
-QUIET = {"effects.thrust_friction": True, "effects.bearing_drag": True}
+QUIET = {"effects.thrust_friction": True, **theory.DRAG}
 # solver steps in two seconds of standstill, in addition to one for each communication step
 STANDING = 400
 

@@ -8,6 +8,7 @@ import sys
 
 import numpy as np
 import pytest
+import theory
 from driving import TURN
 
 SCENES = {
@@ -15,7 +16,7 @@ SCENES = {
     "by torque": {"scene.carrier_drive": "torque", "inertia.left_end": 0.5, "inertia.right_end": 0.8,
                   "left.load_torque": 820.0},
     "with effects": {**TURN, "effects.tooth_friction": True, "effects.half_shaft": True, "inertia.left_end": 0.5,
-                     "inertia.right_end": 0.5, "effects.bearing_drag": True},
+                     "inertia.right_end": 0.5, **theory.DRAG},
 }
 OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "planet[1].spin_angle", "left.tangential_force",
            "right.normal_force", "carrier.torque"]

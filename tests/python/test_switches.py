@@ -77,7 +77,7 @@ WRONG = [
     ({"scene.left_drive": "speed", "scene.right_drive": "speed"}, "scene.carrier_drive"),
     ({"scene.left_drive": "speed", "half_shaft.left_stiffness": 0.0}, "half_shaft.left_stiffness"),
     ({"scene.gear_contact": "ideal", "effects.thrust_friction": True}, "effects.thrust_friction"),
-    ({"scene.gear_contact": "ideal", "effects.limited_slip": True}, "limited_slip.torque_coefficient"),
+    ({"scene.gear_contact": "ideal", **theory.CLUTCHES}, "limited_slip.torque_coefficient"),
     ({"scene.gear_contact": "lumped", "effects.tooth_friction": True}, "effects.tooth_friction"),
     ({"scene.gear_contact": "lumped", "effects.tooth_errors": True}, "effects.tooth_errors"),
     ({"contact.stiffness_from_hertz": True, "contact.exponent": 2.0}, "contact.exponent"),
@@ -95,7 +95,7 @@ def test_wrong_combinations_are_refused_by_name(fmu, values, name):
 
 
 def test_a_state_with_stuck_clutches_and_a_broken_tooth_is_restored_to_the_bit(drive):
-    values = {"effects.limited_slip": True, "effects.tooth_fault": True, "effects.half_shaft": True,
+    values = {**theory.CLUTCHES, "effects.tooth_fault": True, "effects.half_shaft": True,
               "inertia.left_end": 0.1, "inertia.right_end": 0.1, "contact.law": "line", "effects.strength": True,
               "left.load_torque": 900.0}
     driven = drive(values).to(0.05, 1e-3)

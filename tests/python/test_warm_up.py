@@ -7,10 +7,10 @@ import pytest
 import theory
 from bevel_differential import DifferentialError
 
-SLIP = {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, "effects.limited_slip": True}
+SLIP = {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, **theory.CLUTCHES}
 NODES = ["oil", "gears", "clutch", "washers", "case"]
 CLOSED = {"warm_up.clutch_to_oil": 0.0, "warm_up.oil_share": 0.0}
-FRICTIONS = {"effects.limited_slip": True, "effects.thrust_friction": True, "effects.bearing_drag": True,
+FRICTIONS = {**theory.CLUTCHES, "effects.thrust_friction": True, **theory.DRAG,
              "effects.tooth_friction": True}
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": 3.5, "carrier.speed_command": 16.6}
 
@@ -97,7 +97,7 @@ def test_flanks_flash_and_scuff_by_the_temperatures_of_gears_and_oil(drive):
 
 
 def test_a_cold_oil_drags_by_its_viscosity(drive):
-    rolling = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True,
+    rolling = {"scene.gear_contact": "ideal", **theory.DRAG, "bearing_drag.viscosity_from_oil": True,
                "bearing_drag.carrier_torque": 0.0, "bearing_drag.side_torque": 0.0, "bearing_drag.carrier_churning": 0.0,
                "bearing_drag.side_viscous": 0.0, "bearing_drag.carrier_viscous": 0.01, "carrier.speed_command": 30.0}
     heats = []
@@ -109,7 +109,7 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
 
 
 # carrier and sides turn at one speed, and nothing else drags
-ROLLING = {"scene.gear_contact": "ideal", "effects.bearing_drag": True, **{f"bearing_drag.{name}": 0.0 for name in (
+ROLLING = {"scene.gear_contact": "ideal", **theory.DRAG, **{f"bearing_drag.{name}": 0.0 for name in (
     "carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous")}}
 
 
@@ -159,7 +159,7 @@ def test_values_of_drag_outside_their_ranges_are_refused(drive, name, value):
 @pytest.mark.parametrize("follows", [False, True])
 def test_flanks_with_a_given_viscosity_do_not_follow_an_oil_that_others_follow(drive, follows):
     values = TURN | {"effects.tooth_friction": True, "tooth_friction.law": "iso_14179", "tooth_friction.viscosity_from_oil": follows,
-                     "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.0,
+                     **theory.DRAG, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.0,
                      "bearing_drag.side_viscous": 1e-9}
     heats = [drive(values | {"oil.temperature": oil}).to(0.1, 1e-3)["heat.tooth_friction"] for oil in [280.0, 380.0]]
     # a thinner oil rubs more
@@ -168,7 +168,7 @@ def test_flanks_with_a_given_viscosity_do_not_follow_an_oil_that_others_follow(d
 
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
     with pytest.raises(DifferentialError) as refused:
-        drive({"oil.viscosity_100": 2e-4, "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True})
+        drive({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True})
     assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])
 
 
@@ -195,7 +195,7 @@ def test_a_start_with_steady_heat_balances_the_heat_of_the_clutch(drive, contact
 
 def test_a_start_with_steady_heat_stays_where_friction_feels_temperature(drive):
     values = STEADY | {"scene.gear_contact": "lumped", "limited_slip.hot_factor": 0.5, "limited_slip.cold_factor": 1.5,
-                       "effects.bearing_drag": True, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.2}
+                       **theory.DRAG, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.2}
     driven = drive(values)
     begin = [driven[f"temperature.{node}"] for node in NODES]
     driven.to(300.0, 1.0)

@@ -8,6 +8,11 @@ LOAD, PLANETS = 835.0, 2
 RATIO, TOOTH_PITCH = PLANET_TEETH / SIDE_TEETH, 2.0 * pi / PLANET_TEETH
 STIFFNESS, EXPONENT = 5.77e5 * 1000.0**1.5, 1.5
 
+# an axle with clutch packs, and with drag of bearings and oil
+CLUTCHES = {"effects.limited_slip": True, "limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1}
+DRAG = {"effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3,
+        "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
+
 PLANET_PITCH = atan2(1.0, SIDE_TEETH / PLANET_TEETH)
 SIDE_PITCH = pi / 2.0 - PLANET_PITCH
 OUTER_CONE = MODULE * PLANET_TEETH / (2.0 * sin(PLANET_PITCH))

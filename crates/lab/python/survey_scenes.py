@@ -108,6 +108,9 @@ def _effects(d, module, load):
         if d.share(share):
             values[f"effects.{effect}"] = True
     values["limited_slip.preload"] = 0.05 * load
+    values["limited_slip.torque_coefficient"] = 0.1
+    values |= {"bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4,
+               "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
     if d.share(0.3):
         values["effects.pin_compliance"] = True
     return values

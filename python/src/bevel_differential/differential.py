@@ -11,7 +11,7 @@ from .batches import Batches
 from .extras import require
 from .fmu import Fmu
 from .inputs import Inputs, Signals
-from .instance import DISCARD, Closing, Instance
+from .instance import DISCARD, LIKELY_NOT_MEANT, Closing, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
 from .values import DifferentialError, DifferentialWarning, FileName, Number, Value, Variable
@@ -75,9 +75,11 @@ class Runner(Closing):
         return _structured(steps.points, variables, batches, record)
 
     def _warn(self):
-        """Passes on what changed nothing in the last run, as warnings about the line that called `run`."""
-        for name, why in self.unfelt.items():
-            warnings.warn(f"{name}: {why}", DifferentialWarning, stacklevel=3)
+        """Passes on what was likely not meant in the last run, as warnings about the line that called `run`: values that changed
+        nothing, values that acted and that nobody set, and speeds beyond all measure."""
+        for text in self.warnings:
+            if any(part in text for part in LIKELY_NOT_MEANT):
+                warnings.warn(text, DifferentialWarning, stacklevel=3)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):

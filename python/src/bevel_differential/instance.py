@@ -16,6 +16,10 @@ from .values import DifferentialError, Number, Value, Variable
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
 # what warnings about values say that the scene cannot feel
 UNFELT = " changes nothing in this scene: "
+# beginning of the line that lists values which act and which nobody set
+NOBODY_SET = "values of the study that nobody set act in this scene: "
+# parts of warnings about a result that is likely not meant
+LIKELY_NOT_MEANT = (UNFELT, "nobody set ", "faster than any differential turns")
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 # fmpy's class and the element of the model description for each kind of instance
@@ -98,6 +102,13 @@ class Instance(Closing):
         """Variables whose values change nothing in this scene, as the FMU has found so far; by name, with the FMU's words."""
         found = (message.partition(": ") for message in self.messages if UNFELT in message)
         return {name: why for name, _, why in found}
+
+    @property
+    def nobody_set(self) -> str:
+        """The values that act and that nobody set, by effect, as the FMU lists them at the start; empty if there are none, or if what is
+        simulated ("logEvents") is not logged."""
+        lists = (text.removeprefix(NOBODY_SET) for text in (*self.messages, *self.events) if text.startswith(NOBODY_SET))
+        return next(lists, "")
 
     def check(self, status: int, doing: str) -> None:
         """Raises the FMU's message if `status` is an error."""

@@ -10,6 +10,7 @@ from .differential import Runner, as_frame
 from .extras import require
 from .fmu import Fmu
 from .inputs import Signals, Table, Values, input_variable
+from .instance import LOGGED, NOBODY_SET
 from .plot import plot
 from .points import Steps, TimeValue, seconds, span
 from .records import write
@@ -100,7 +101,14 @@ class Scene(Runner):
         with self.fmu.open() as instance:
             instance.log(["logEvents"])
             self._initialise(instance, values)
-            return " ".join(instance.events)
+            return " ".join(text for text in instance.events if not text.startswith(NOBODY_SET))
+
+    def nobody_set(self, values: Mapping[str, Value] | None = None) -> str:
+        """The values that act in the scene and that nobody set, by effect, as the FMU lists them; empty if there are none."""
+        with self.fmu.open() as instance:
+            instance.log([*LOGGED, "logEvents"])
+            self._initialise(instance, values)
+            return instance.nobody_set
 
     def unfelt_of(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
         """Variables whose values at the start change nothing in the scene, by name, with the FMU's words why."""

@@ -23,6 +23,7 @@ use crate::declaration::units::{self, DEG_C, DEG_PER_S, MM, RPM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::{OilSpec, Plan, Viscosity};
+use crate::problem::Problem;
 
 /// Arrangement constant A_g.
 const ARRANGEMENT: f64 = 0.2;
@@ -39,15 +40,15 @@ spec! {
     /// Drag of bearings and oil.
     pub struct BearingDragSpec {
         /// Load-independent bearing torque on the carrier [N·m].
-        pub carrier_torque: f64 = 0.5,
+        pub carrier_torque: f64 = 0.0,
         /// Viscous drag on the carrier [N·m·s/rad].
-        pub carrier_viscous: f64 = 5e-3,
+        pub carrier_viscous: f64 = 0.0,
         /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
-        pub carrier_churning: f64 = 1e-4,
+        pub carrier_churning: f64 = 0.0,
         /// Load-independent bearing torque on each side gear [N·m].
-        pub side_torque: f64 = 0.2,
+        pub side_torque: f64 = 0.0,
         /// Viscous drag on each side gear [N·m·s/rad].
-        pub side_viscous: f64 = 1e-3,
+        pub side_viscous: f64 = 0.0,
         /// Speed ω₀: bearing torque has built up to tanh 1 = 76 % there [rad/s].
         pub breakaway_speed: f64 = 0.1,
         /// Whether viscous drag follows the viscosity of `oil` at its temperature.
@@ -79,6 +80,13 @@ impl Declare for BearingDragSpec {
     const DESCRIPTION: &'static str = "Friction of bearings and churning of oil";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.drag", description: "Heat of bearings and oil since the start", at_wheels: false });
+    const EXAMPLE: &'static [(&'static str, f64)] = &[
+        ("bearing_drag.carrier_torque", 0.5),
+        ("bearing_drag.carrier_viscous", 5e-3),
+        ("bearing_drag.carrier_churning", 1e-4),
+        ("bearing_drag.side_torque", 0.2),
+        ("bearing_drag.side_viscous", 1e-3),
+    ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
@@ -164,6 +172,18 @@ impl BearingDragSpec {
 }
 
 impl Effect for BearingDragSpec {
+    fn warnings(&self, _: &Setting) -> Vec<Problem> {
+        let given = [self.carrier_torque, self.carrier_viscous, self.side_torque, self.side_viscous];
+        let churning = if self.churning_from_geometry { self.oil_level } else { self.carrier_churning };
+        if given.into_iter().chain([churning, self.seal_diameter, self.bearing_load]).any(|of| of > 0.0) {
+            return Vec::new();
+        }
+        vec![Problem::new(
+            "effects.bearing_drag",
+            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or switch the effect off",
+        )]
+    }
+
     fn is_oiled(&self) -> bool {
         self.viscosity_from_oil || self.churns_by_size()
     }
@@ -277,13 +297,7 @@ mod tests {
     const OIL: Option<Viscosity> = Some(Viscosity { kinematic: 1e-4, dynamic: 0.085 });
 
     fn none() -> BearingDragSpec {
-        BearingDragSpec {
-            carrier_torque: 0.0,
-            carrier_viscous: 0.0,
-            side_torque: 0.0,
-            side_viscous: 0.0,
-            ..Default::default()
-        }
+        BearingDragSpec { ..Default::default() }
     }
 
     #[test]
@@ -342,6 +356,10 @@ mod tests {
             viscosity_from_oil: true,
             seal_diameter: 0.04,
             bearing_load: 5000.0,
+            carrier_torque: 0.5,
+            carrier_viscous: 5e-3,
+            side_torque: 0.2,
+            side_viscous: 1e-3,
             ..BearingDragSpec::default()
         };
         let drag = Drag::new(&spec, &OilSpec::default(), 0);

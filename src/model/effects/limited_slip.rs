@@ -19,9 +19,9 @@ spec! {
     /// Clutch packs between side gears and carrier.
     pub struct LimitedSlipSpec {
         /// Torque of each clutch without load [N·m].
-        pub preload: f64 = 50.0,
+        pub preload: f64 = 0.0,
         /// Torque of each clutch per torque of the meshes on its side gear.
-        pub torque_coefficient: f64 = 0.1,
+        pub torque_coefficient: f64 = 0.0,
         /// Breakaway torque of a stuck clutch over its sliding torque.
         pub static_ratio: f64 = 1.0,
         /// Stiffness of a stuck clutch [N·m/rad].
@@ -48,6 +48,7 @@ impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
         "Clutch packs between side gears and carrier, preloaded and torque-proportional, with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
+    const EXAMPLE: &'static [(&'static str, f64)] = &[("limited_slip.preload", 50.0)];
     const READINGS: &'static [Reading] =
         &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
 
@@ -104,6 +105,18 @@ impl Effect for LimitedSlipSpec {
              it must be 0 (preload alone), or choose lumped or tooth",
             self.torque_coefficient
         ));
+    }
+
+    fn warnings(&self, _: &Setting) -> Vec<Problem> {
+        let has_torque = self.preload > 0.0 || self.torque_coefficient > 0.0;
+        let problem = || {
+            Problem::new(
+                "effects.limited_slip",
+                "the clutches have no torque: set limited_slip.preload, limited_slip.torque_coefficient or both, or switch the \
+                 effect off",
+            )
+        };
+        if has_torque { Vec::new() } else { vec![problem()] }
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {

@@ -1,14 +1,15 @@
 //! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
 //! above its limit.
 
-use super::{Simulation, effort};
-use crate::declaration::units::W_PER_MM2;
+use super::{Simulation, effort, six_digits};
+use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest, each_pv};
 use crate::model::effect_kinds::{FrictionSource, Surface};
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
+use crate::model::scene::MAX_PLANETS;
 use crate::problem::{Problem, told_apart};
 
 /// Limits of p·v, by the effects whose surfaces they are.
@@ -21,6 +22,12 @@ const PV_LIMITS: [(&str, &str); 3] = [
 /// Inputs that change temperatures outside, and what has these temperatures.
 const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "the sump")];
 
+/// Speed beyond which no differential turns [rad/s].
+const HIGHEST_SPEED: f64 = 3e3;
+/// Spin speeds of the planets.
+const SPINS: [&str; MAX_PLANETS] =
+    ["planet[1].spin_speed", "planet[2].spin_speed", "planet[3].spin_speed", "planet[4].spin_speed"];
+
 /// What has been reported in a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reported {
@@ -30,6 +37,7 @@ pub struct Reported {
     outside: [bool; OUTSIDE.len()],
     start: bool,
     rattle: bool,
+    speed: bool,
 }
 
 impl Simulation {
@@ -49,6 +57,12 @@ impl Simulation {
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }
             }
+        }
+        if !reported.speed
+            && let Some(problem) = self.too_fast()
+        {
+            reported.speed = true;
+            found.push(problem);
         }
         if !reported.rattle
             && let Some(problem) = effort::rattle_warning(&self.model, &self.state)
@@ -73,6 +87,39 @@ impl Simulation {
             }
         }
         found
+    }
+
+    /// The fastest body, if its speed is beyond that of any differential.
+    fn too_fast(&self) -> Option<Problem> {
+        let layout = &self.model.layout;
+        let turns = |i: &usize| !(layout.has_pins && [layout.seat(0), layout.seat(1)].contains(i));
+        let is_fast = |i: usize| self.state.v[i].abs() > HIGHEST_SPEED;
+        if !(0..layout.count()).filter(turns).any(is_fast) {
+            return None;
+        }
+        let motion = self.motion();
+        let spins = SPINS.into_iter().zip(motion.spin_speed);
+        let wheels = [("left.wheel_speed", motion.wheel_speed[0]), ("right.wheel_speed", motion.wheel_speed[1])];
+        let gears = [
+            ("left.speed", motion.side_speed[0]),
+            ("right.speed", motion.side_speed[1]),
+            ("carrier.speed", motion.carrier_speed),
+        ];
+        // of equal speeds the last is named
+        let all = spins.chain(wheels).chain(gears);
+        let (variable, speed) = all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+        if speed.abs() <= HIGHEST_SPEED {
+            return None;
+        }
+        Some(problem!(
+            variable,
+            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any differential turns: \
+             look at drives and loads; reported once",
+            six_digits(speed),
+            six_digits(RPM.show(speed)),
+            self.state.time(),
+            RPM.show(HIGHEST_SPEED)
+        ))
     }
 
     /// Temperatures of ambient and sump that inputs ask for and that are beyond the range, and what they are kept at [K].

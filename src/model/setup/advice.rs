@@ -2,7 +2,7 @@
 
 use super::Parameters;
 use crate::contact::ContactLaw;
-use crate::model::scene::{GearContact, PlanetSpin, SideDrive};
+use crate::model::scene::{CarrierDrive, GearContact, Inputs, PlanetSpin, SideDrive};
 use crate::problem::Problem;
 
 /// What is likely not meant in `p`.
@@ -24,6 +24,52 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
         )
     })
 }
+
+/// Load torques that nobody set, as `is_set` says of left and right, and that turn the wheels backward from rest.
+///
+/// From rest the carrier's torque T and the loads L accelerate the mean speed by T − L_left − L_right, and a wheel that is driven by
+/// torque beside one with an imposed speed by T/2 − L. Brakes hold against what they can.
+pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Option<Problem> {
+    let scene = &p.scene;
+    let by_torque = [scene.left_drive, scene.right_drive].map(|drive| drive == SideDrive::Torque);
+    let share = match (by_torque, scene.planet_spin) {
+        ([true, true], _) => 1.0,
+        ([false, false], _) | (_, PlanetSpin::Imposed) => return None,
+        _ => 0.5,
+    };
+    if scene.carrier_drive != CarrierDrive::Torque {
+        return None;
+    }
+    let torque = share * inputs.carrier_torque;
+    let load = |s: usize| if by_torque[s] { inputs.load_torque[s] } else { 0.0 };
+    let is_unset = |s: &usize| !is_set[*s] && load(*s) != 0.0;
+    let given: f64 = (0..2).filter(|&s| is_set[s]).map(load).sum();
+    let unset: f64 = (0..2).filter(is_unset).map(load).sum();
+    let brakes: f64 = if p.effects.wheel_brake { inputs.brake_torque.iter().sum() } else { 0.0 };
+    // along the direction in which these loads turn the wheels
+    let [net, drive, without] = [unset + given - torque, -torque, given - torque].map(|of| of * unset.signum());
+    if unset == 0.0 || net <= brakes || without > 0.0 && drive <= 0.0 {
+        return None;
+    }
+    let names: Vec<String> =
+        (0..2).filter(is_unset).map(|s| format!("{} = {} N.m", LOADS[s], inputs.load_torque[s])).collect();
+    let turned = if drive > 0.0 {
+        "has the direction in which the loads turn the wheels, so that they drive instead of resisting"
+    } else {
+        "is less than the loads, which turn the wheels backward from rest"
+    };
+    let side = (0..2).find(is_unset)?;
+    Some(problem!(
+        LOADS[side],
+        "nobody set {}; {} {} N.m {turned}: set the loads, or resist with left.brake_torque and right.brake_torque and loads of 0",
+        names.join(" and "),
+        if share < 1.0 { "the share of this wheel in carrier.torque_command," } else { "carrier.torque_command =" },
+        torque
+    ))
+}
+
+/// Inputs that load the wheels.
+const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
 
 /// Own gears with the stiffness of the study's.
 fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {

@@ -15,9 +15,33 @@ macro_rules! dynamic {
 /// Where the density of the oil acts.
 const DENSE: &str = dynamic!();
 /// Where the viscosity of the oil acts.
-const OILED: &str = concat!(
-    dynamic!(),
-    " or effects.bearing_drag = true and bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0"
+macro_rules! oiled {
+    () => {
+        concat!(
+            dynamic!(),
+            " or effects.bearing_drag = true and bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0"
+        )
+    };
+}
+
+/// See [`oiled`].
+const OILED: &str = oiled!();
+
+/// Friction of an effect over temperature.
+macro_rules! over_temperature {
+    ($effect:literal) => {
+        concat!("effects.", $effect, " = true and (", $effect, ".cold_factor != 1 or ", $effect, ".hot_factor != 1)")
+    };
+}
+
+/// Where more depends on `oil.temperature` than the outputs that repeat it. Flash temperatures of rated teeth count from it.
+pub const OIL_TEMPERATURE_ACTS: &str = concat!(
+    "effects.warm_up = true or effects.strength = true or ",
+    over_temperature!("limited_slip"),
+    " or ",
+    over_temperature!("thrust_friction"),
+    " or ",
+    oiled!()
 );
 
 /// Rows of `material.…`, `oil.…` and `inertia.…`.
@@ -40,6 +64,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             "Temperature of the oil and of all that rubs in it; with effects.warm_up that at the start, or of a given sump",
         )
         .tunable()
+        .when("effects.warm_up = false or warm_up.sump_given = true or initialisation")
         .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.oil.temperature),
         row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
             .when(OILED)

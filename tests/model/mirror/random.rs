@@ -239,6 +239,8 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
         p.scene.start = Start::SteadyHeat;
     }
     let drag = &mut s.bearing_drag;
+    (drag.carrier_torque, drag.carrier_viscous, drag.carrier_churning) = (0.5, 5e-3, 1e-4);
+    (drag.side_torque, drag.side_viscous) = (0.2, 1e-3);
     drag.churning_from_geometry = d.chance(0.5);
     drag.oil_level = if d.chance(0.8) { d.unit() } else { 0.0 };
     drag.seal_diameter = if d.chance(0.5) { d.between(0.01, 0.05) } else { 0.0 };

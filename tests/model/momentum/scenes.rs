@@ -12,6 +12,10 @@ pub struct Case {
 
 fn case(name: &'static str, change: impl Fn(&mut Parameters, &mut Inputs)) -> Case {
     let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
+    let (drag, clutches) = (&mut p.specs.bearing_drag, &mut p.specs.limited_slip);
+    (drag.carrier_torque, drag.carrier_viscous, drag.carrier_churning) = (0.5, 5e-3, 1e-4);
+    (drag.side_torque, drag.side_viscous) = (0.2, 1e-3);
+    (clutches.preload, clutches.torque_coefficient) = (50.0, 0.1);
     change(&mut p, &mut inputs);
     Case { name, p, inputs }
 }

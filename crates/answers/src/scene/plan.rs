@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::unset::{self, SetValues};
 use bevel_differential::variables::{Causality, named, number, table, value_of};
 use cpu_time::ThreadTime;
 
@@ -105,10 +106,28 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         let slopes = if scene.input_slopes { ", straight within steps" } else { "" };
         line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
     }
-    for warning in simulation.warnings().iter().chain(&unfelt(scene)) {
+    let set = set_values(scene);
+    for group in unset::unset(&scene.parameters, &scene.inputs, &set) {
+        line("not set", &format!("{}: {}", group.group, group.values.join(", ")));
+    }
+    let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
+    for warning in simulation.warnings().iter().chain(&unfelt(scene)).chain(&runaway) {
         line("warning", &warning.to_string());
     }
     out
+}
+
+/// The variables that `scene` sets at any time.
+fn set_values(scene: &Scene) -> SetValues {
+    let mut set = SetValues::default();
+    let later = scene.events.iter().flat_map(|event| &event.settings);
+    let rows = scene.settings.iter().chain(later).map(|setting| setting.row);
+    for row in rows.chain(scene.input_tables.iter().map(|table| table.row)) {
+        if let Some(index) = table().rows.iter().position(|known| known.name == row.name) {
+            set.insert(index);
+        }
+    }
+    set
 }
 
 /// Values that change nothing in `scene`, at the start or later, each variable once.

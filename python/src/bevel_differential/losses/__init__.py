@@ -21,6 +21,7 @@ from .point import AXES, FIGURES, PointTask, benched
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
 SIGNS = (1.0, -1.0)
+ZERO_CELSIUS = 273.15
 # switch of corner contact, and level of gear contact
 CORNERS, LEVEL = "effects.corner_contact", "scene.gear_contact"
 # figures that the map holds where the differential slips: torques left and right, loss
@@ -82,7 +83,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
 
     `levels`: first values of each axis, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`: accuracy
     for which `accuracy` chooses the cheapest model, such as "1%"; without it the scene's model is used. `unseen`: how many points
-    measure the error, drawn by `seed`. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
+    measure the error, drawn by `seed`. Temperatures share their runs if nothing depends on them; `tell` says so. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
     `designs.store.Store`.
     `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
@@ -98,7 +99,11 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             scene.set({CORNERS: True})
             model += ", corner contact"
         tell(f"model: {model}")
-    task, begin = PointTask(scene), time.perf_counter()
+    task, begin, temperatures = PointTask(scene), time.perf_counter(), lines[3]
+    if len(temperatures) > 1 and not _depends_on_oil(scene, temperatures):
+        lines[3] = temperatures[len(temperatures) // 2:][:1]
+        tell(f"oil.temperature changes nothing here, as no friction and no drag depends on it: {len(temperatures)} temperatures share the "
+             f"runs at {lines[3][0] - ZERO_CELSIUS:.3g} degC")
     with ExitStack() as opened:
         store = None
         if out is not None:
@@ -120,6 +125,9 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
                 break
             lines = finer
         stuck = runs.at(places([*lines[:2], np.zeros(1), lines[3]]))
+        if len(lines[3]) < len(temperatures):
+            lines = [*lines[:3], temperatures]
+            slipping, stuck = (np.repeat(values, len(temperatures), axis=-2) for values in (slipping, stuck))
         drawn = _drawn(lines, unseen, seed)
         found = runs.at(drawn)[..., :MAPPED]
         if store is not None and store.finished is None:
@@ -183,6 +191,17 @@ def _drawn(lines, count, seed):
     points = low + draws[:, :-1] * (high - low)
     points[:, 2] *= np.where(draws[:, -1] < 0.5, *SIGNS)
     return points
+
+
+def _depends_on_oil(scene, temperatures):
+    """Whether torques and losses depend on the oil's temperature. What rates the teeth depends on it, too, but moves nothing."""
+    start = scene.fmu.variable(VARIABLES[3]).start
+    other = next(float(temperature) for temperature in temperatures if temperature != start)
+    try:
+        return VARIABLES[3] not in scene.unfelt_of({VARIABLES[3]: other, "effects.strength": False})
+    except DifferentialError:
+        # the point that is refused is named when it runs
+        return True
 
 
 def _chosen(scene, lines, within):

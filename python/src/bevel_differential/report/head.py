@@ -99,6 +99,9 @@ def setup(run: Simulated) -> Section:
         found.say("All values are the start values of the FMU.")
     else:
         found.add(values(run.scene))
+    unset = run.scene.nobody_set()
+    if unset:
+        found.say(f"Values that act and that nobody set, with the start values of the FMU, which are those of the study: {unset}.")
     changing = [name for name, variable in run.scene.fmu.variables.items()
                 if variable.causality == "input" and np.ptp(run.series(name)) > 0.0]
     if changing:

@@ -1,6 +1,7 @@
 """A car: motor, this differential, two tyres and the body, coupled step by step."""
 
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from ..fmu import Fmu
 from ..instance import Instance
 from ..plot import plot
 from ..points import Steps, TimeValue, span
-from ..values import DifferentialError, FileName, Number, Value, suggestion
+from ..values import DifferentialError, DifferentialWarning, FileName, Number, Value, suggestion
 from .equations import motor_torque
 from .motion import Motion
 from .parts import Body, Motor, Tyre
@@ -39,7 +40,8 @@ class Car:
     """A car with this differential in its driven axle.
 
     `differential`: parameters as `Differential` takes them. The car sets how it is driven: by torques at all three shafts, with the
-    motor's inertia at the carrier (beside `inertia.carrier`) and the wheels' at the half-shafts.
+    motor's inertia at the carrier (beside `inertia.carrier`) and the wheels' at the half-shafts. Parts have the start values of a
+    passenger car; `unset` has those that nobody gave, and the first run warns of them if any part was given.
 
     >>> from bevel_differential.vehicle import Car, Tyre
     >>> car = Car({"contact.law": "line"}, left=Tyre(friction=0.15))
@@ -54,6 +56,7 @@ class Car:
         self.motor, self.body = motor or Motor(), body or Body()
         self.tyres = (left or Tyre(), right or Tyre())
         self._given = self._checked(differential or {})
+        self._is_told = motor is left is right is body is None
 
     def run(self, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
             steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
@@ -66,6 +69,7 @@ class Car:
         what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
         Returns a structured array with a field "time"."""
         stop, step = span("stop", stop), span("step", step)
+        self._tell_unset()
         self._check_step(step)
         ask, turn = course("request", request), course("steer", steer)
         names = self._recorded(outputs)
@@ -94,6 +98,20 @@ class Car:
     def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":
         """Draws a record, a panel for each unit; as `Differential.plot`."""
         return plot(_Names(self.fmu), record, title, caption, file)
+
+    @property
+    def unset(self) -> dict[str, float]:
+        """Parameters of motor, tyres and body that nobody gave, with their start values, which are those of a passenger car."""
+        parts = zip(("motor", "left_tyre", "right_tyre", "body"), (self.motor, *self.tyres, self.body))
+        return {f"{name}.{parameter}": value for name, part in parts for parameter, value in part.unset.items()}
+
+    def _tell_unset(self):
+        """Warns once of what nobody gave, if anything of the car was given."""
+        unset = self.unset
+        if unset and not self._is_told:
+            listed = ", ".join(f"{name} = {value:g}" for name, value in unset.items())
+            warnings.warn(f"values of a passenger car that nobody set act in this car, SI units: {listed}", DifferentialWarning, stacklevel=3)
+        self._is_told = True
 
     def _checked(self, given):
         own = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive", "scene.start", "scene.planet_spin", *LOADS,

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, Self
 
 from ..values import DifferentialError
 
@@ -14,7 +14,18 @@ def parameter(value: float, unit: str, text: str, least: float | None = None) ->
 
 @dataclass
 class Part:
-    """A part with parameters, SI units. `described` lists them."""
+    """A part with parameters, SI units. `described` lists them, `unset` those that nobody gave."""
+
+    def __new__(cls, *values: float, **named: float) -> Self:
+        part = super().__new__(cls)
+        part.__dict__["_given"] = {*list(cls.described())[:len(values)], *named}
+        return part
+
+    @property
+    def unset(self) -> dict[str, float]:
+        """Parameters that nobody gave, with their start values."""
+        return {name: start for name, (start, _, _) in self.described().items()
+                if name not in self._given and getattr(self, name) == start}
 
     def __post_init__(self) -> None:
         for parameter in fields(self):
