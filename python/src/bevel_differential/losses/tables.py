@@ -32,6 +32,8 @@ BETWEEN = ("between points of the map TL − TR, T − TL − TR and (P + (TL �
            "and speed, s speed_difference, TL, TR, P torques and loss")
 # least efficiency that a block is given
 LEAST = 0.01
+# sum of torques below which they have no locking effect, as the FMU's locking_value has it [N·m]
+LEAST_TORQUE = 1e-3
 
 
 def bias(left: float, right: float) -> tuple[float | None, float | None]:
@@ -39,7 +41,7 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
     and no ratio where the torques oppose each other."""
     low, high = sorted(map(abs, (left, right)))
     total = abs(left + right)
-    return (high / low if low > 0.0 and left * right > 0.0 else None), (100.0 * abs(left - right) / total if total > 0.0 else None)
+    return (high / low if low > 0.0 and left * right > 0.0 else None), (100.0 * abs(left - right) / total if total >= LEAST_TORQUE else None)
 
 
 def save(made: LossMap, file: FileName) -> Path:
