@@ -150,6 +150,7 @@ const ADDED: &[&str] = &[
     "pv.brake",
     "warm_up.ambient_change",
     "warm_up.sump_change",
+    "inertia.side_gear_mass",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

@@ -161,19 +161,24 @@ pub fn rows() -> Vec<Output> {
         row("power.out", "Power delivered to the wheels").output(units::WATT, Forces(|f| f.power_out)),
         row("power.loss", "Power turned into heat within the differential; that of wheel brakes is part of power.out")
             .output(units::WATT, Forces(|f| f.power_loss)),
-        row("efficiency", "1 - power.loss per power fed in at either end; 1 at zero power")
-            .output(units::ONE, Forces(efficiency)),
+        row(
+            "efficiency",
+            "1 - power.loss over the power fed in, which is the sum over those of carrier, left wheel, right wheel and spin \
+             drive that feed; 0 at least, and 1 if nothing is fed",
+        )
+        .output(units::ONE, Forces(efficiency)),
         row(
             "torque_bias_ratio",
             "Torque of the slow over the fast half-shaft, in the sense of the torques, over the last whole \
-             mesh cycle where shafts twist; 1 at zero torque, 1e6 where the fast one carries none, as with \
+             mesh cycle where shafts twist; 1 below 1e-3 N.m in sum, 1e6 where the fast one carries none, as with \
              one wheel that stands and one that spins freely; with imposed spin and imposed loads it is the \
              ratio of the loads, whatever rubs",
         )
         .output(units::ONE, Forces(|f| f.torque_bias_ratio)),
         row(
             "locking_value",
-            "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist",
+            "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist; 0 below \
+             1e-3 N.m in sum, 1e6 at most",
         )
         .output(units::ONE, Forces(|f| f.locking_value)),
         row("heat.contact", "Heat of contact damping since the start")

@@ -19,6 +19,8 @@ MARGIN = 0.01
 # torque and power below which a ratio is one of roundings, of the largest
 ROUNDING = 1e-9
 MOST_BIAS = 1e6
+# sum of the shaft torques below which there is no bias [N·m]
+LEAST_TORQUE = 1e-3
 # stresses between the instants that safety sees may be higher by this
 BETWEEN = 1e-4
 
@@ -197,7 +199,7 @@ def powers(scene, o):
     taken = [torque * speed for torque, speed in zip(torques, ends)]
     yield "power in", o["power.in"], sum(given), sum(map(abs, given))
     yield "power out", o["power.out"], sum(taken), sum(map(abs, taken))
-    fed = max(o["power.in"], 0.0) + max(-o["power.out"], 0.0)
+    fed = sum(max(power, 0.0) for power in given) + sum(max(-power, 0.0) for power in taken)
     if fed > ROUNDING * (sum(map(abs, given)) + sum(map(abs, taken))):
         yield "efficiency", o["efficiency"], max(1.0 - o["power.loss"] / fed, 0.0), 1.0
     for name in o:
@@ -206,9 +208,14 @@ def powers(scene, o):
         if effect and not p[f"effects.{effect}"]:
             yield f"{name} of nothing", o[name], 0.0, 0.0
     ratio, locking = o["torque_bias_ratio"], o["locking_value"]
-    if abs(sum(torques)) > ROUNDING * max(map(abs, torques)) and 0.0 < abs(ratio) < MOST_BIAS and abs(ratio + 1.0) > ROUNDING:
+    push = abs(sum(torques))
+    if not any(scene.has_ends) and push < 0.999 * LEAST_TORQUE:
+        yield "torque bias without torque", ratio, 1.0, 1.0
+        yield "locking value without torque", locking, 0.0, 1.0
+    is_biased = push > max(1.001 * LEAST_TORQUE, ROUNDING * max(map(abs, torques)))
+    if is_biased and locking < MOST_BIAS and 0.0 < abs(ratio) < MOST_BIAS and abs(ratio + 1.0) > ROUNDING:
         yield "locking value by torque bias", locking, abs((ratio - 1.0) / (ratio + 1.0)), 1.0 + abs(locking) ** 2
-    if not any(scene.has_ends) and abs(sum(torques)) > ROUNDING * max(map(abs, torques)):
+    if not any(scene.has_ends) and is_biased and locking < MOST_BIAS:
         yield "locking value by torques", locking, abs((torques[0] - torques[1]) / sum(torques)), 1.0 + abs(locking)
 
 

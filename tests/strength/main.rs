@@ -6,6 +6,7 @@ mod carried_loads;
 mod common;
 mod face;
 mod fatigue;
+mod flash;
 mod hertz;
 mod loads;
 mod mean_stress;

@@ -64,6 +64,15 @@ impl Face {
         }
     }
 
+    /// Its points where all of it is loaded.
+    pub fn nodes(&self) -> &[Node] {
+        match self {
+            Self::Whole(node) => std::slice::from_ref(node),
+            Self::Cut(_, nodes) => nodes,
+            Self::Sliced(_, nodes) => nodes,
+        }
+    }
+
     /// Most points of a sum over it.
     pub fn points(&self) -> usize {
         match self {

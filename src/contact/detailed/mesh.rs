@@ -18,6 +18,9 @@ pub struct Detailed {
     pub(super) damping: Damping,
     /// The face.
     pub face: Face,
+    /// The face under a law that is valid at every cone distance, also if `face` is one point because flanks fit. Friction differs
+    /// over it even then.
+    pub(super) rubbed: Option<Face>,
     /// One spring per mesh instead of tooth pairs.
     pub is_single: bool,
     /// Friction along the flanks.
@@ -77,6 +80,7 @@ impl Detailed {
             whole,
             spring,
             damping,
+            rubbed: face.is_cut().then_some(face),
             face,
             is_single,
             friction,
@@ -86,6 +90,11 @@ impl Detailed {
             moment,
             resultant,
         }
+    }
+
+    /// Lets flanks that fit rub at every point of the face `rubbed`, over which the law is valid.
+    pub fn rub_over(&mut self, rubbed: Face) {
+        self.rubbed = Some(rubbed);
     }
 
     /// Replaces the damping.

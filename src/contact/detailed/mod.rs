@@ -18,6 +18,7 @@ mod loads;
 mod mesh;
 mod pair;
 mod points;
+mod rubbed_face;
 mod shared;
 mod sums;
 mod totals;
@@ -30,6 +31,7 @@ pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, Sli
 pub use mesh::{Detailed, MeshTeeth};
 pub use pair::PairMotion;
 pub use points::Node;
+pub use rubbed_face::RubbedPlace;
 pub use shared::SharedTeeth;
 pub use totals::Totals;
 

@@ -37,6 +37,9 @@ pub struct Rubbing<'a> {
     pub arms: Arms,
     /// Sliding speed over R, and sum of both flanks' speeds over R [rad/s].
     pub speeds: [f64; 2],
+    /// Points of the whole face where one point has its load: sliding, and with it the coefficient of friction, differs over a
+    /// face whose load per arc does not.
+    pub whole: Option<&'a [Node]>,
 }
 
 /// Derivatives of a sum by A, E, s, Ȧ, Ė.
@@ -73,7 +76,7 @@ pub struct LoadedNode<'a> {
     pub elastic: Elastic,
     /// Torque over weight, damping included.
     pub torque: f64,
-    /// Signed coefficient of friction, and how the flanks slide.
+    /// Signed coefficient of friction, a mean with the weight of the torque if the point is a whole face, and how the flanks slide.
     pub friction: Option<(f64, Sliding<f64>)>,
 }
 
@@ -132,28 +135,35 @@ impl Sums {
                 (moves, along)
             });
             let friction = rubbing.map(|rubbing| {
-                let sliding = rubbing.at(node, damped.total);
-                if !SLOPES {
-                    let h = rubbing.law.signed(&sliding);
+                let (mut share, mut coefficient) = (0.0, 0.0);
+                for point in rubbing.whole.unwrap_or(std::slice::from_ref(node)) {
+                    let (sliding, torque) = (rubbing.at(point, damped.total), point.weight * damped.total);
+                    let h = if SLOPES {
+                        let h = rubbing.law.signed(&sliding.with_slopes());
+                        let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
+                        let per_load = point.weight / (point.width * point.cone);
+                        let factor = point.weight * (h.v + damped.total * by_load * per_load);
+                        add::<OPEN>(&mut self.by[3], factor, per_cone, by);
+                        let lever = torque * point.cone;
+                        self.rubbed_by[0] += lever * by_sliding;
+                        self.rubbed_by[1] += lever * by_sum_speed;
+                        self.rubbed_by[2] += lever * by_radius;
+                        if let Some((moves, [along, load])) = along {
+                            // sliding, rolling and radius grow with R, the load per width as R T
+                            let turning = by_sliding * rubbing.speeds[0] + by_sum_speed * rubbing.speeds[1];
+                            let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
+                            let by_motion = weight * along * h.v + torque * h_along;
+                            move_with(&mut self.by[3], moves, node, torque * h.v, by_motion);
+                        }
+                        h.v
+                    } else {
+                        rubbing.law.signed(&sliding)
+                    };
                     self.rubbed += torque * h;
-                    return (h, sliding);
+                    share += point.weight;
+                    coefficient += point.weight * h;
                 }
-                let h = rubbing.law.signed(&sliding.with_slopes());
-                let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
-                let per_load = weight / (node.width * node.cone);
-                add::<OPEN>(&mut self.by[3], weight * (h.v + damped.total * by_load * per_load), per_cone, by);
-                let lever = torque * node.cone;
-                self.rubbed += torque * h.v;
-                self.rubbed_by[0] += lever * by_sliding;
-                self.rubbed_by[1] += lever * by_sum_speed;
-                self.rubbed_by[2] += lever * by_radius;
-                if let Some((moves, [along, load])) = along {
-                    // sliding, rolling and radius grow with R, the load per width as R T
-                    let turning = by_sliding * rubbing.speeds[0] + by_sum_speed * rubbing.speeds[1];
-                    let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
-                    move_with(&mut self.by[3], moves, node, torque * h.v, weight * along * h.v + torque * h_along);
-                }
-                (h.v, sliding)
+                (coefficient / share, rubbing.at(node, damped.total))
             });
             look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
         }

@@ -3,7 +3,7 @@
 use super::directions::Arcs;
 use super::face::Part;
 use super::sums::{LoadedNode, Rubbing, Sums};
-use super::{Detailed, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
+use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
 use crate::contact::{Spring, ToothPair};
 
 /// A pair that touches.
@@ -52,7 +52,8 @@ impl Detailed {
         };
         let rubbing = friction.map(|law| {
             let arms = self.directions.arms(&arcs);
-            Rubbing { law, speeds: motion.speeds(&arms), arms }
+            let whole = self.rubbed.as_ref().filter(|_| !OPEN || !self.face.is_cut()).map(Face::nodes);
+            Rubbing { law, speeds: motion.speeds(&arms), arms, whole }
         });
         let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
         let mut see = |node: &LoadedNode| {

@@ -21,7 +21,7 @@ pub struct Inertias {
     pub planet: f64,
     /// One planet about the carrier's axis.
     pub planet_transverse: f64,
-    /// Mass of a side gear [kg].
+    /// Mass of a side gear [kg], of its solid unless it is given.
     pub side_mass: f64,
     /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m], always of its solid.
     pub planet_mass_moment: f64,
@@ -30,10 +30,13 @@ pub struct Inertias {
 }
 
 impl Inertias {
-    /// Inertias of the scene from the masses of planet and side gear; scaled to the given inertia where that is given instead.
+    /// Inertias of the scene from the solids of planet and side gear. A given inertia replaces that of the solid and scales the
+    /// planet's transverse inertia; it leaves masses unchanged.
     pub fn new(p: &Parameters, [planet, side]: &[GearMass; 2]) -> Self {
         let (side_axial, planet_axial) =
             if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
+        // an inertia says nothing of a mass: that of the solid stays until another one is given
+        let is_mass_given = !p.inertia.from_geometry && p.inertia.side_gear_mass > 0.0;
         let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
         let end = [p.inertia.left_end, p.inertia.right_end];
         let planets = f64::from(p.geometry.planet_count);
@@ -43,7 +46,7 @@ impl Inertias {
             end,
             planet: planet_axial,
             planet_transverse: transverse,
-            side_mass: side.mass * (side_axial / side.axial),
+            side_mass: if is_mass_given { p.inertia.side_gear_mass } else { side.mass },
             planet_mass_moment: planet.mass * planet.centre,
             planets,
         }
@@ -104,7 +107,11 @@ mod tests {
         assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         let given = p.inertia.side_gear;
         assert_eq!((j.planet, j.side), (3.0 * axial, [given + 0.5, given]));
-        // but not its mass
-        assert_eq!(j.planet_mass_moment, mass * centre);
+        // but not its mass, nor that of a side gear
+        assert_eq!((j.planet_mass_moment, j.side_mass), (mass * centre, masses[1].mass));
+        p.inertia.side_gear_mass = 0.7;
+        assert_eq!(Inertias::new(&p, &masses).side_mass, 0.7);
+        p.inertia.from_geometry = true;
+        assert_eq!(Inertias::new(&p, &masses).side_mass, masses[1].mass);
     }
 }

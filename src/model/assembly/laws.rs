@@ -27,6 +27,8 @@ pub struct Laws {
     pub spring: AnySpring,
     /// and the face it acts on.
     pub face: CutFace,
+    /// The face over which flanks rub, if the law is valid at every cone distance.
+    pub rubbed: Option<CutFace>,
     /// Cone distance at which the resultant of a pair acts [m].
     pub cone: f64,
     /// The bodies that pairs share, where they are elastic.
@@ -56,6 +58,7 @@ impl Laws {
                 law: Law::Lumped(Lumped { stiffness: k, damping }),
                 spring: AnySpring::Impact(spring::ImpactSpring::linear(k, centroid)),
                 face: whole(centroid, 1.0),
+                rubbed: None,
                 cone: centroid,
                 bodies: None,
             });
@@ -67,6 +70,7 @@ impl Laws {
                 law: Law::Solid(Box::new(solids)),
                 spring: AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone }),
                 face: whole(pair.mean_cone, 1.0),
+                rubbed: None,
                 cone: pair.mean_cone,
                 bodies: None,
             });
@@ -79,21 +83,24 @@ impl Laws {
                     Damping::HuntCrossley { .. } => Law::DampedImpact(DampedImpact { elastic: impact, damping }),
                 };
                 let spring = AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone });
-                Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone, bodies: None }
+                let face = whole(pair.mean_cone, 1.0);
+                Self { law, spring, face, rubbed: None, cone: pair.mean_cone, bodies: None }
             }
             ContactLaw::Line => {
                 let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line)?;
                 let spring = AnySpring::Line(specific.clone());
                 let law = Law::Line(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
-                let face = if cut { CutFace::cut(inner, outer) } else { whole(centroid, moment) };
-                Self { law, spring, face, cone: centroid, bodies }
+                let rubbed = CutFace::cut(inner, outer);
+                let face = if cut { rubbed } else { whole(centroid, moment) };
+                Self { law, spring, face, rubbed: Some(rubbed), cone: centroid, bodies }
             }
             ContactLaw::LineWeber => {
                 let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line_weber)?;
                 let spring = AnySpring::LineWeber(specific.clone());
                 let law = Law::LineWeber(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
-                let face = if cut { CutFace::sliced(inner, outer) } else { whole(centroid, moment) };
-                Self { law, spring, face, cone: centroid, bodies }
+                let rubbed = CutFace::sliced(inner, outer);
+                let face = if cut { rubbed } else { whole(centroid, moment) };
+                Self { law, spring, face, rubbed: Some(rubbed), cone: centroid, bodies }
             }
         })
     }

@@ -205,6 +205,9 @@ fn teeth(
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
     (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
+    if let Some(rubbed) = laws.rubbed {
+        detailed.rub_over(rubbed);
+    }
     let effect_terms = EffectTerms {
         detailed,
         in_detail,

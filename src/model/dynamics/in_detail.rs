@@ -8,7 +8,7 @@ use crate::contact::detailed::{
 };
 use crate::contact::mesh::MeshState;
 use crate::contact::shared::OpeningByOthers;
-use crate::contact::{Flank, FlankGaps};
+use crate::contact::{Flank, FlankGaps, ToothFriction};
 use crate::integrate::Point;
 use crate::model::effect_kinds::SurfaceLoad;
 use crate::model::scene::CARRIER;
@@ -117,6 +117,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             planet: self.teeth.plan.group(g).planet,
             side: s,
         }
+    }
+
+    /// Friction along the flanks, with the viscosity of the oil as it is now.
+    pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
+        let friction = self.teeth.effect_terms.detailed.friction?;
+        Some(self.acting.oil_viscosity.map_or(friction, |oil| friction.with_viscosity(oil.dynamic)))
     }
 
     /// The fraction of a step of `h` [s] from `at` on after which the force of the mesh of group `g` with side `s` has its

@@ -44,12 +44,15 @@ pub struct Forces {
     pub power_in: f64,
     /// Power delivered to the wheels [W].
     pub power_out: f64,
+    /// Sum of the powers of those ports that feed: carrier, left wheel, right wheel and spin drive [W].
+    pub power_fed: f64,
     /// Power turned into heat within the differential [W].
     pub power_loss: f64,
     /// Signed torque bias ratio T_slow/T_fast, slow and fast in the sense of the torques, over the last whole mesh cycle
-    /// where shafts twist; 1 at zero torque.
+    /// where shafts twist; 1 below 1e-3 N·m in sum.
     pub torque_bias_ratio: f64,
-    /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 at zero torque.
+    /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 below 1e-3 N·m in
+    /// sum.
     pub locking_value: f64,
     /// Readings of the effects that change at any instant.
     pub readings: [f64; INSTANT_READINGS],
@@ -57,7 +60,9 @@ pub struct Forces {
     pub has_parts: bool,
 }
 
-/// Torque bias ratio and locking value of shaft torques at given speeds.
+/// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 where the sum of the torques is below
+/// [`LEAST_TORQUE`]. The sum's sign decides which side is fast. Where it vanishes, rounding alone would decide, and differently
+/// for each representation of the gears.
 ///
 /// The fast side is the one ahead in the sense in which the torques act, (ω_L − ω_R)(T_L + T_R) > 0 for the left one,
 /// forward or backward, in drive or overrun, and whether or not the carrier turns. Friction turns the power
@@ -66,7 +71,8 @@ pub struct Forces {
 /// be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
-    if sum == 0.0 {
+    // written so that NaN is neutral
+    if sum.abs().is_nan() || sum.abs() < LEAST_TORQUE {
         return (1.0, 0.0);
     }
     let ahead = (speed[0] - speed[1]) * sum.signum();
@@ -74,18 +80,20 @@ pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let [slow, fast] = if is_left_fast { [torque[1], torque[0]] } else { torque };
     // a fast side without torque would make the ratio infinite
     let ratio = if fast != 0.0 { (slow / fast).clamp(-MOST_BIAS, MOST_BIAS) } else { MOST_BIAS };
-    (ratio, (torque[0] - torque[1]).abs() / sum.abs())
+    (ratio, ((torque[0] - torque[1]).abs() / sum.abs()).min(MOST_BIAS))
 }
 
 /// Difference of speeds up to which sides turn alike [rad/s].
 const ALIKE: f64 = SPEED_TOLERANCE;
-/// Largest magnitude of the torque bias ratio.
+/// Sum of the shaft torques below which there is no bias [N·m].
+const LEAST_TORQUE: f64 = 1e-3;
+/// Largest magnitude of the torque bias ratio and of the locking value.
 const MOST_BIAS: f64 = 1e6;
 
-/// Share of the power fed in that is not lost, whichever end feeds; 1 at zero power. What the teeth store and give back
-/// within a mesh cycle is no loss.
+/// Share of the power fed in that is not lost, not below 0; 1 if nothing is fed. Bodies and teeth that store energy and give it
+/// back cause no loss.
 pub fn efficiency(forces: &Forces) -> f64 {
-    let fed = forces.power_in.max(0.0) + (-forces.power_out).max(0.0);
+    let fed = forces.power_fed;
     if fed > 0.0 { (1.0 - forces.power_loss / fed).max(0.0) } else { 1.0 }
 }
 
@@ -150,6 +158,11 @@ mod tests {
     #[test]
     fn no_torque_is_no_bias_and_a_side_without_torque_has_the_largest() {
         assert_eq!(bias([0.0, 0.0], [1.0, 2.0]), (1.0, 0.0));
+        for rounding in [1e-13, -1e-9, 9e-4] {
+            assert_eq!(bias([-50.0, 50.0 + rounding], [22.0, 20.0]), (1.0, 0.0));
+        }
+        assert_eq!(bias([f64::NAN, 1.0], [1.0, 2.0]), (1.0, 0.0));
+        assert_eq!(bias([-1e6, 1e6 + 0.002], [2.0, 1.0]).1, super::MOST_BIAS);
         assert_eq!(bias([0.0, 5.0], [2.0, 1.0]), (super::MOST_BIAS, 1.0));
         assert_eq!(bias([0.0, -5.0], [-2.0, -1.0]), (super::MOST_BIAS, 1.0));
     }

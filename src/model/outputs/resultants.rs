@@ -8,10 +8,11 @@ use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State, each_pv};
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
-use crate::model::effects::strength::MeshLoad;
+use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, Plan};
 use crate::model::setup::effect_outputs::{HEATS_WITHIN, places_of};
 use crate::model::setup::{HEATS, scene_effects};
+use crate::model::thermal::GEARS;
 use crate::numeric::{sin, sqrt};
 
 impl MeshForces {
@@ -45,8 +46,11 @@ fn add_up(out: &mut Forces, planets: usize) {
 /// Powers from torques and speeds; heat is given. `ends` are the speeds at which torques are handed to the wheels.
 fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
     let v = &state.v;
-    out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
-    out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
+    let drives = [out.carrier_torque * v[CARRIER], out.spin_torque * v[plan.layout().planet(0)]];
+    let wheels = [out.shaft_torque[0] * ends[0], out.shaft_torque[1] * ends[1]];
+    (out.power_in, out.power_out) = (drives[0] + drives[1], wheels[0] + wheels[1]);
+    out.power_fed = drives.iter().map(|power| power.max(0.0)).sum::<f64>()
+        + wheels.iter().map(|power| (-power).max(0.0)).sum::<f64>();
     out.power_loss = heat;
     let torque = state.torque_means.mean().filter(|_| plan.layout().has_ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
@@ -64,6 +68,9 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
+    // flanks without a flash, or with one that nobody computes, are as warm as their gears
+    let strength = &mut out.readings[const { places_of("strength", Changes::Always) }];
+    strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
 }
 
 /// Raises the readings of p·v to the largest of each effect's surfaces. Apart, for small stacks.
@@ -108,7 +115,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
-    let mut flash = 0.0;
+    let mut flash = 0.0f64;
     for g in 0..plan.groups().len() {
         for s in 0..2 {
             let mesh = &mut groups[g][s];
@@ -125,8 +132,14 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
                 });
-                if teeth.effect_terms.detailed.friction.is_some() {
-                    equations.detail(point, g, s, |slice| strength.add_flash(&mut flash, slice));
+                if let Some(law) = equations.flank_friction() {
+                    // one slice stands for its pair, whose whole face is searched
+                    let mut last = None;
+                    equations.detail(point, g, s, |slice| {
+                        if last.replace(slice.name) != Some(slice.name) {
+                            flash = flash.max(strength.flash(&teeth.effect_terms.detailed, &law, slice));
+                        }
+                    });
                 }
             }
         }

@@ -8,13 +8,14 @@ use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
 use crate::model::dynamics::{IdealEquations, Largest, State, Watched};
 use crate::model::effect_kinds::Changes;
+use crate::model::effects::strength::CONTACT_TEMPERATURE;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::{LedgerReadings, Motion, resultants};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
-use crate::model::thermal::NODES;
+use crate::model::thermal::{GEARS, NODES};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::LineContact;
@@ -95,7 +96,13 @@ impl Simulation {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.torque_means = self.completed().0.torque_means;
             }
-            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(extent));
+            let mut forces = shown.as_ref().unwrap_or(self).forces_of_state(extent);
+            if self.model.thermal.is_some() && self.model.strength().is_none() {
+                // flanks that nobody rates are as warm as the gears, which the ledger tells
+                let strength = &mut forces.readings[const { places_of("strength", Changes::Always) }];
+                strength[CONTACT_TEMPERATURE] = self.completed().0.thermal.temperatures()[GEARS];
+            }
+            self.forces = Some(forces);
         }
         self.forces.get_or_insert_default()
     }

@@ -201,11 +201,9 @@ impl Simulation {
             return None;
         }
         let Gears::Teeth(teeth) = &model.gears else { return None };
-        let friction = teeth.effect_terms.detailed.friction.as_ref()?;
         let mut found = None;
         let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
-        let viscosity = equations.acting.oil_viscosity;
-        let friction = viscosity.map_or(*friction, |oil| friction.with_viscosity(oil.dynamic));
+        let friction = equations.flank_friction()?;
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {
                 equations.detail(&point, g, s, |slice| {

@@ -21,6 +21,8 @@ spec! {
         pub carrier: f64 = 0.02,
         /// One side gear, if not from geometry.
         pub side_gear: f64 = 1.47e-4,
+        /// Mass of one side gear [kg], if not from geometry; 0 = that of its solid.
+        pub side_gear_mass: f64 = 0.0,
         /// One planet about its own axis, if not from geometry.
         pub planet: f64 = 3.23e-5,
         /// Wheel side of the left half-shaft, rigid on the side gear unless the shaft twists; 0 = none.

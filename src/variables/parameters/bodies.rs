@@ -88,6 +88,12 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         row("inertia.side_gear", "Side gear about its axis, if not from geometry")
             .when("inertia.from_geometry = false")
             .real(units::KG_M2, (1e-12, 1e6), |p| &mut p.inertia.side_gear),
+        row(
+            "inertia.side_gear_mass",
+            "Mass of a side gear on its axial seat, if not from geometry; 0 = geometry.side_mass, that of its solid",
+        )
+        .when("inertia.from_geometry = false and effects.pin_compliance = true")
+        .real(units::KILOGRAM, (0.0, 1e6), |p| &mut p.inertia.side_gear_mass),
         row("inertia.planet", "Planet about its own axis, if not from geometry")
             .when("inertia.from_geometry = false")
             .real(units::KG_M2, (1e-12, 1e6), |p| &mut p.inertia.planet),

@@ -1,9 +1,9 @@
 //! Rating constants of the gears, and the readings of stress, damage and safety factors.
 
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
-use crate::contact::detailed::SliceLoad;
+use crate::contact::detailed::{Detailed, SliceLoad};
 use crate::contact::pair_load::PairLoad;
-use crate::contact::tooth_friction::Sliding;
+use crate::contact::tooth_friction::{Sliding, ToothFriction};
 use crate::model::effect_kinds::Setting;
 use crate::model::thermal::{GEARS, NODES, OIL};
 use crate::problem::Problem;
@@ -16,6 +16,8 @@ const DAMAGES: usize = 4;
 
 /// Number of readings of stress; those of temperature follow them.
 const STRESSES: usize = 5;
+/// Place of the contact temperature among the readings.
+pub const CONTACT_TEMPERATURE: usize = STRESSES + 1;
 /// Largest safety factor that is told.
 const MOST_SAFETY: f64 = 1000.0;
 
@@ -83,13 +85,14 @@ impl GearStrength {
         }
     }
 
-    /// Raises `flash` to the flash temperature of a slice [K]; beyond the path's ends the radii there count, as for pressure.
-    pub fn add_flash(&self, flash: &mut f64, slice: &SliceLoad) {
-        let radius = self.rating.contact.relative_radius(slice.s);
-        if let (Some(sliding), Some(radius)) = (slice.sliding.filter(|_| slice.normal > 0.0), radius) {
-            let sliding = Sliding { radius: radius * slice.cone, ..sliding };
-            *flash = flash.max(self.flash.temperature(&sliding, slice.friction / slice.normal));
-        }
+    /// Largest flash temperature over the face of the pair of `slice` [K], a slice of a mesh `detailed` under the friction `law`;
+    /// beyond the path's ends the radii there count, as for pressure.
+    pub fn flash(&self, detailed: &Detailed, law: &ToothFriction, slice: &SliceLoad) -> f64 {
+        let Some(radius) = self.rating.contact.relative_radius(slice.s) else { return 0.0 };
+        detailed.largest_on_face(slice, law, |place| {
+            let sliding = Sliding { radius: radius * place.cone, ..place.sliding };
+            self.flash.temperature(&sliding, place.coefficient)
+        })
     }
 
     /// Sets the readings of temperature and of the safety against scuffing by the largest `flash` temperature, with oil and

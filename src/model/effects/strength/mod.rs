@@ -14,7 +14,7 @@ mod utilisation;
 
 pub use along_step::{Rated, RatedStep, Rolled, Sample};
 pub use fatigue::Fatigue;
-pub use gear_strength::GearStrength;
+pub use gear_strength::{CONTACT_TEMPERATURE, GearStrength};
 pub use mesh_load::{FlankLoad, MeshLoad};
 pub use overload::Stressed;
 pub use spec::StrengthSpec;

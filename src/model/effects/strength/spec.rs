@@ -70,12 +70,12 @@ impl Declare for StrengthSpec {
         temperature(
             "temperature.flash",
             None,
-            "Largest flash temperature of the flanks (Blok) with effects.tooth_friction; else 0",
+            "Largest flash temperature of the flanks over their whole face (Blok) with effects.tooth_friction; else 0",
         ),
         temperature(
             "temperature.contact",
             Some(DEG_C),
-            "Largest contact temperature of the flanks: temperature.gears and the flash temperature",
+            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash temperature",
         ),
         Reading {
             name: "safety.scuffing",
