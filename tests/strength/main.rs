@@ -7,6 +7,7 @@ mod common;
 mod face;
 mod fatigue;
 mod hertz;
+mod in_mesh;
 mod loads;
 mod mean_stress;
 #[path = "../common/mesh_laws.rs"]
