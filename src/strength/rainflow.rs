@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub const CAPACITY: usize = 32;
 
 /// A counted cycle, in the unit of the history.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadCycle {
     /// Peak minus valley.
     pub range: f64,
@@ -41,12 +41,24 @@ pub struct Rainflow {
     direction: i8,
     /// Reversals up to this are no turning points.
     gate: f64,
+    /// Whether the history ends where it begins, so that every cycle closes.
+    returns: bool,
 }
 
 impl Rainflow {
     /// Empty history in which reversals up to `gate` (unit of the history) are ignored; 0 counts all.
     pub fn new(gate: f64) -> Self {
         Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
+    }
+
+    /// Empty history that is to end where it begins: nothing counts as a half cycle, and [`Self::rest_of_return`] closes all.
+    pub fn returning(gate: f64) -> Self {
+        Self { returns: true, ..Self::new(gate) }
+    }
+
+    /// Whether the history ends where it begins.
+    pub fn returns(&self) -> bool {
+        self.returns
     }
 
     /// Whether nothing was added yet.
@@ -105,6 +117,25 @@ impl Rainflow {
         }
     }
 
+    /// Calls `visit` with the remaining cycles of a history that goes from its present value to where it began, the largest one
+    /// last; the history itself is unchanged.
+    pub fn rest_of_return(&self, mut visit: impl FnMut(LoadCycle)) {
+        let mut last = *self;
+        last.limit_fields();
+        if last.length == 0 {
+            return;
+        }
+        last.push(self.points[0], &mut visit);
+        if last.direction != 0 {
+            last.turn(&mut visit);
+        }
+        // the same once more: between two of its largest peaks everything closes, and the rest is what was there before
+        let mut twice = Self { gate: 0.0, ..Self::returning(0.0) };
+        for &point in last.points[..last.length].iter().chain(&last.points[..last.length]) {
+            twice.push(point, &mut visit);
+        }
+    }
+
     /// Limits the fields: a state read from foreign bytes may hold any length and direction.
     fn limit_fields(&mut self) {
         self.length = self.length.min(CAPACITY - 1);
@@ -126,19 +157,36 @@ impl Rainflow {
             self.length += 1;
         }
         self.close(visit);
-        if self.length == CAPACITY {
+        if self.length < CAPACITY {
+            return;
+        }
+        let [first, second] = [self.points[0], self.points[1]];
+        let last = self.points[CAPACITY - 2] - self.points[CAPACITY - 1];
+        if self.returns && (second - first).abs() < last.abs() {
+            // ranges grow from the bottom before they decrease toward the top
+            visit(LoadCycle::between(first, second, 0.5));
+            self.points.copy_within(1.., 0);
+            self.length -= 1;
+        } else {
             // ranges decrease toward the top: the last one is the smallest
             visit(LoadCycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
             self.length -= 1;
         }
     }
 
-    /// Steps 2 to 5 of the standard: X is the last range, Y the one before.
+    /// Steps 2 to 5 of the standard: X is the last range, Y the one before. In a history that returns, ranges may grow from the
+    /// start, and Y must also be no larger than the one before it.
     fn close(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         while self.length >= 3 {
             let [a, b, c] = [self.points[self.length - 3], self.points[self.length - 2], self.points[self.length - 1]];
             if (c - b).abs() < (b - a).abs() {
                 break;
+            }
+            if self.returns {
+                let before = self.length.checked_sub(4).map(|place| (a - self.points[place]).abs());
+                if before.is_none_or(|before| (b - a).abs() > before) {
+                    break;
+                }
             }
             if self.length == 3 {
                 // Y holds the starting point: half a cycle, the start moves on

@@ -22,6 +22,8 @@ pub struct Rating {
     pub face_exponent: f64,
     /// Angles between teeth [rad].
     pub pitch: [f64; 2],
+    /// Numbers of teeth.
+    pub teeth: [usize; 2],
 }
 
 impl Rating {
@@ -41,6 +43,7 @@ impl Rating {
             sensitivity: material.mean_stress_sensitivity(),
             face_exponent: face_load::exponent_of(pair),
             pitch: pair.gears.map(|g| g.tooth_pitch()),
+            teeth: pair.gears.map(|g| g.teeth.max(0) as usize),
         })
     }
 }

@@ -8,6 +8,7 @@ mod face;
 mod fatigue;
 mod flash;
 mod hertz;
+mod in_mesh;
 mod loads;
 mod mean_stress;
 #[path = "../common/mesh_laws.rs"]

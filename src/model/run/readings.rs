@@ -166,7 +166,8 @@ impl Simulation {
         let (state, watched) = &self.completed();
         let mut readings = [0.0; STEP_READINGS];
         if let Some(strength) = self.model.strength() {
-            strength.read_damage(&watched.fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
+            let (fatigue, planets) = (&watched.fatigue, self.model.ideal.plan.planets);
+            strength.read_damage(fatigue, planets, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
         if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
             watched

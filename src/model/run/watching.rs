@@ -36,7 +36,7 @@ pub fn count_fatigue(
     let layout = &equations.teeth.layout;
     let first = layout.planet(0);
     let rolled = |q: &[f64; LARGEST]| {
-        let mut rolled = Rolled { roll: [q[0], q[1]], ..Rolled::default() };
+        let mut rolled = Rolled::default();
         rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
         rolled
     };
@@ -51,11 +51,11 @@ pub fn count_fatigue(
         }
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
+    let members = &layout.members[..groups];
     if from > 0.0 {
-        strength.roll(fatigue, &rolled(&extension.start.q), &rolled(&extension.at(from * part).q));
+        strength.roll(fatigue, members, [&rolled(&extension.start.q), &rolled(&extension.at(from * part).q)]);
     }
     if from < 1.0 {
-        let members = &layout.members[..groups];
         let teeth = (groups, equations.is_tooth_broken);
         let are_known =
             last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == extension.start);

@@ -4,11 +4,11 @@
 //! both ends and in the middle of a step. The step is halved while Simpson's rule differs from the trapezoidal rule by more than
 //! [`ROUGH`] of the damage; the error of Simpson's rule is then some 1e-5. Peaks are those of the parabolas through these loads.
 
-use super::interval::{Three, crest, extremum, mean, second_difference};
 use super::overload::{Overload, Stressed};
 use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
 use crate::model::scene::MAX_GROUPS;
-use crate::strength::{Cycle, loaded_flank};
+use crate::strength::interval::{Three, crest, extremum, mean, second_difference};
+use crate::strength::{Cycle, Rating, loaded_flank};
 
 /// Largest difference of Simpson's from the trapezoidal rule, as a part of the mean damage of a cycle in the step or the run.
 const ROUGH: f64 = 0.02;
@@ -18,13 +18,27 @@ const BLUNT: f64 = 0.005;
 /// How often a step may be halved.
 const HALVINGS: u32 = 6;
 
-/// Angles of the gears relative to the carrier [rad], or their rates [rad/s]: planets by group, side gears.
+/// Angles of the planets relative to the carrier by group [rad], or their rates [rad/s].
+///
+/// Side gears roll with them: their own angles contain the elastic wind-up under the load, which brings no tooth into mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rolled {
-    /// Planets.
+    /// Planets by group.
     pub spin: [f64; MAX_GROUPS],
-    /// Side gears.
-    pub roll: [f64; 2],
+}
+
+impl Rolled {
+    /// The mean of all planets, `members` of them in each group.
+    fn mean(&self, members: &[f64]) -> f64 {
+        let (sum, count) =
+            self.spin.iter().zip(members).fold((0.0, 0.0), |(sum, count), (spin, n)| (sum + n * spin, count + n));
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+
+    /// The same of the side gears, up to the sign.
+    fn side(&self, members: &[f64], rating: &Rating) -> f64 {
+        self.mean(members) * rating.pitch[1] / rating.pitch[0]
+    }
 }
 
 /// Loads and motion at an instant.
@@ -74,15 +88,17 @@ struct Scale {
 
 impl GearStrength {
     /// Lets the gears roll through a step without counting its damage.
-    pub fn roll(&self, fatigue: &mut Fatigue, from: &Rolled, to: &Rolled) {
-        let Fatigue { planets, sides, .. } = fatigue;
-        let pitch = self.rating.pitch;
+    pub fn roll(&self, fatigue: &mut Fatigue, members: &[f64], [from, to]: [&Rolled; 2]) {
+        let Fatigue { planets, sides, in_mesh, .. } = fatigue;
+        let rating = &self.rating;
+        let pitch = rating.pitch;
         for (g, planet) in planets.iter_mut().enumerate() {
             planet.rolling.advance(to.spin[g] - from.spin[g], pitch[0]);
         }
-        for (s, side) in sides.iter_mut().enumerate() {
-            side.rolling.advance(to.roll[s] - from.roll[s], pitch[1]);
+        for side in sides {
+            side.rolling.advance(to.side(members, rating) - from.side(members, rating), pitch[1]);
         }
+        in_mesh.roll(rating, to.mean(members) - from.mean(members));
     }
 
     /// Counts the damage of a step. `loads` are those at its beginning if `are_known`; on return they are those at its end, for
@@ -134,7 +150,7 @@ impl GearStrength {
         halvings: u32,
     ) {
         let parts = [begin, middle, end];
-        if halvings == 0 || self.is_smooth(fatigue, step.members.len(), parts, scale) {
+        if halvings == 0 || self.is_smooth(fatigue, step.members, parts, scale) {
             return self.add(fatigue, step, parts);
         }
         for [begin, end] in [[begin, middle], [middle, end]] {
@@ -145,7 +161,7 @@ impl GearStrength {
     }
 
     /// Whether parabolas describe the loads and the damage of an interval.
-    fn is_smooth(&self, fatigue: &Fatigue, groups: usize, parts: [&Rated; 3], scale: &Scale) -> bool {
+    fn is_smooth(&self, fatigue: &Fatigue, members: &[f64], parts: [&Rated; 3], scale: &Scale) -> bool {
         let pitch = self.rating.pitch;
         // the part of the interval in which the teeth of a gear count, and the rates at which it turns
         let planet = |g: usize| {
@@ -153,11 +169,12 @@ impl GearStrength {
             (fatigue.planets[g].rolling.counting(step, pitch[0]), parts.map(|at| at.sample.rate.spin[g]))
         };
         let side = |s: usize| {
-            let step = parts[2].sample.angle.roll[s] - parts[0].sample.angle.roll[s];
-            (fatigue.sides[s].rolling.counting(step, pitch[1]), parts.map(|at| at.sample.rate.roll[s]))
+            let of = |rolled: &Rolled| rolled.side(members, &self.rating);
+            let step = of(&parts[2].sample.angle) - of(&parts[0].sample.angle);
+            (fatigue.sides[s].rolling.counting(step, pitch[1]), parts.map(|at| of(&at.sample.rate)))
         };
         let mut smooth = true;
-        for_each_flank(groups, |g, s, flank| {
+        for_each_flank(members.len(), |g, s, flank| {
             let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
             smooth &= extremum(bending).is_none() || second_difference(bending).abs() <= BLUNT * scale.bending;
             for (kind, (counting, rates)) in [(PLANET_ROOT, planet(g)), (PITTING, planet(g)), (SIDE_ROOT, side(s))] {
@@ -168,7 +185,7 @@ impl GearStrength {
         smooth
     }
 
-    /// Adds the damage of an interval, and the forces that bend standing teeth.
+    /// Adds the damage of an interval, and swings of the forces that bend teeth in mesh.
     fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         self.watch(fatigue, step, parts);
         let rating = &self.rating;
@@ -183,32 +200,24 @@ impl GearStrength {
             let cycles = [of(0, 0), of(0, 1), of(1, 0), of(1, 1)];
             fatigue.planets[g].add(end.angle.spin[g] - begin.angle.spin[g], rating.pitch[0], cycles);
         }
+        let of_side = |rolled: &Rolled| rolled.side(step.members, rating);
+        let (angle, rates) = (of_side(&end.angle) - of_side(&begin.angle), parts.map(|at| of_side(&at.sample.rate)));
         for s in 0..2 {
-            let rates = parts.map(|at| at.sample.rate.roll[s]);
-            let angle = end.angle.roll[s] - begin.angle.roll[s];
-            let rolled = fatigue.sides[s].rolling.counting(angle, rating.pitch[1]) > 0.0;
             let cycles = step.members.iter().enumerate().flat_map(|(g, &members)| {
                 let both = [0, 1].map(|flank| cycle((g, s, flank), false, SIDE_ROOT, rates));
                 std::iter::repeat_n(both, members as usize).flatten()
             });
             fatigue.sides[s].add(angle, rating.pitch[1], cycles);
-            let forces = parts.map(|at| {
+        }
+        let forces = [0, 1].map(|s| {
+            parts.map(|at| {
                 let forces = at.sample.mesh[..step.members.len()].iter().map(|both| both[s].bending());
                 forces.reduce(|a, b| if b.abs() > a.abs() { b } else { a }).unwrap_or_default()
-            });
-            let teeth = &mut fatigue.standing[s];
-            if rolled {
-                teeth.next_teeth(rating);
-            } else {
-                if teeth.are_new() {
-                    teeth.add_force(rating, forces[0]);
-                }
-                if let Some((force, _)) = extremum(forces) {
-                    teeth.add_force(rating, force);
-                }
-            }
-            teeth.add_force(rating, forces[2]);
-        }
+            })
+        });
+        let (from, to) = (begin.angle.mean(step.members), end.angle.mean(step.members));
+        let planets = step.members.iter().sum::<f64>() as usize;
+        fatigue.in_mesh.add(rating, planets, to - from, forces);
     }
 
     /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its idler

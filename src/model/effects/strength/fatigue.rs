@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::overload::Overloads;
 use super::utilisation::Utilisation;
 use crate::model::scene::MAX_GROUPS;
-use crate::strength::{Damage, FlankDamage, Rating, StandingTeeth, ToothDamage};
+use crate::strength::{Damage, FlankDamage, Rating, TeethInMesh, ToothDamage};
 
 /// Damage of the teeth so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -14,8 +14,8 @@ pub struct Fatigue {
     pub planets: [ToothDamage; MAX_GROUPS],
     /// Side gears.
     pub sides: [ToothDamage; 2],
-    /// Teeth that stand in mesh on each side.
-    pub standing: [StandingTeeth; 2],
+    /// Swings of the load while teeth are in mesh.
+    pub in_mesh: TeethInMesh,
     /// Stresses that exceeded their strength.
     pub overloads: Overloads,
     /// Largest stresses by their strengths.
@@ -45,13 +45,17 @@ impl Fatigue {
         ]
     }
 
-    /// Damage sums: roots of the worst planet and side gear, then their flanks.
-    pub fn sums(&self, rating: &Rating) -> [f64; 4] {
+    /// Damage sums of the worst teeth: roots of the worst planet and side gear, then their flanks. `planets`: their number.
+    pub fn sums(&self, rating: &Rating, planets: usize) -> [f64; 4] {
         let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
-        let [left, right] = self.standing.map(|teeth| teeth.worst_sums(rating));
+        let root = |gear: &ToothDamage, swings: [f64; 2]| {
+            let [one, other] = &gear.flanks;
+            (one.root.sum + swings[0]).max(other.root.sum + swings[1])
+        };
+        let (of_planets, of_sides) = self.in_mesh.worst(rating, planets);
         [
-            worst(&self.planets, ToothDamage::worst_root) + left[0].max(right[0]),
-            worst(&self.sides, ToothDamage::worst_root) + left[1].max(right[1]),
+            self.planets.iter().map(|planet| root(planet, of_planets)).fold(0.0, f64::max),
+            self.sides.iter().zip(of_sides).map(|(side, swings)| root(side, swings)).fold(0.0, f64::max),
             worst(&self.planets, ToothDamage::worst_pitting),
             worst(&self.sides, ToothDamage::worst_pitting),
         ]

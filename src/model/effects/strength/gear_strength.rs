@@ -104,10 +104,10 @@ impl GearStrength {
         readings[STRESSES..].copy_from_slice(&[flash, contact, if is_warmer { safety } else { MOST_SAFETY }]);
     }
 
-    /// Sets the readings of damage and of the safety factors.
-    pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
+    /// Sets the readings of damage and of the safety factors, with `planets` planets.
+    pub fn read_damage(&self, fatigue: &Fatigue, planets: usize, readings: &mut [f64]) {
         let (damage, safety) = readings.split_at_mut(DAMAGES);
-        damage.copy_from_slice(&fatigue.sums(&self.rating));
+        damage.copy_from_slice(&fatigue.sums(&self.rating, planets));
         safety.copy_from_slice(&fatigue.utilisation.safety());
     }
 

@@ -1,12 +1,11 @@
 //! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the strength.
 //!
-//! Damage of rolling teeth is counted by relative revolutions (`strength::counting`). Teeth that stay in mesh are loaded by
-//! the torque alone: the stress of their roots is counted by rainflow until they roll on (`strength::StandingTeeth`).
+//! Passages of teeth through their mesh are counted by relative revolutions (`strength::counting`), swings of the load while a
+//! tooth is in mesh by rainflow, tooth by tooth (`strength::TeethInMesh`).
 
 mod along_step;
 mod fatigue;
 mod gear_strength;
-mod interval;
 mod mesh_load;
 mod overload;
 mod spec;

@@ -25,6 +25,12 @@ pub fn crest(values: Three) -> (f64, f64) {
     }
 }
 
+/// The parabola at `part` of the interval.
+pub fn at([begin, middle, end]: Three, part: f64) -> f64 {
+    let bend = 2.0 * second_difference([begin, middle, end]);
+    begin + part * (end - begin - bend * (1.0 - part))
+}
+
 /// Mean of a quantity by Simpson's rule, each value weighted by the rate at which the interval is passed.
 pub fn mean(values: Three, rates: Three) -> f64 {
     let weights = [rates[0].abs(), 4.0 * rates[1].abs(), rates[2].abs()];
@@ -53,6 +59,7 @@ mod tests {
             }
         }
         assert_eq!((extremum([4.0; 3]), extremum([1.0, 2.0, 3.0])), (None, None));
+        assert!((at(of(|t| 2.0 - 3.0 * t * t), 0.3) - 1.73).abs() < 1e-15);
         assert_eq!(crest(of(|t| (t - 0.3) * (t - 0.3))), (0.7 * 0.7, 1.0));
         assert!((crest(of(|t| 1.0 - (t - 0.3) * (t - 0.3))).0 - 1.0).abs() < 1e-15);
     }

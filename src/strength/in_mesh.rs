@@ -1,0 +1,108 @@
+//! Swings of the load while teeth are in mesh, counted tooth by tooth.
+//!
+//! Each tooth has the damage of its own passages. A planet's tooth meshes once per revolution with each side gear, which load
+//! opposite flanks; of a side gear one tooth meshes with each planet. Planets are taken as alike, and so are the teeth of a side
+//! gear in mesh at an instant: the heaviest mesh of a side counts for all.
+
+use serde::{Deserialize, Serialize};
+
+use super::interval::{Three, at, extremum};
+use super::passage::RootSums;
+use super::{MeshPlace, Passage, Rating, ToothSums, loaded_flank};
+
+/// Teeth of planets and side gears: `Copy`, no allocation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TeethInMesh {
+    /// Which teeth are in mesh.
+    place: MeshPlace,
+    /// Teeth in mesh with the left and with the right side gear.
+    passages: [Passage; 2],
+    /// Teeth of the planets, after their passages.
+    planets: ToothSums,
+    /// Teeth of the side gears, after their passages.
+    sides: [ToothSums; 2],
+}
+
+impl TeethInMesh {
+    /// Lets the planets roll by `angle` [rad] without counting.
+    pub fn roll(&mut self, rating: &Rating, angle: f64) {
+        if self.place.advance(angle / rating.pitch[0]).is_some() {
+            self.passages = Default::default();
+        }
+    }
+
+    /// Counts an interval in which the planets, `planets` of them, roll by `angle` [rad]. `forces` [N] bend the teeth of each side
+    /// at its begin, in its middle and at its end, positive on the drive flank.
+    pub fn add(&mut self, rating: &Rating, planets: usize, angle: f64, forces: [Three; 2]) {
+        let before = self.place;
+        let change = self.place.advance(angle / rating.pitch[0]);
+        for (side, forces) in forces.into_iter().enumerate() {
+            let passage = &mut self.passages[side];
+            if passage.is_new() {
+                passage.add_force(rating, forces[0]);
+            }
+            let turn = extremum(forces);
+            let ends = change.map_or(1.0, |change| change.leaves);
+            if let Some((force, _)) = turn.filter(|turn| turn.1 < ends) {
+                passage.add_force(rating, force);
+            }
+            passage.add_force(rating, at(forces, ends));
+            let Some(change) = change else { continue };
+            let sums = passage.sums(rating);
+            *passage = if change.rolls_on { Passage::rolling(rating) } else { Passage::default() };
+            passage.add_force(rating, at(forces, change.enters));
+            if let Some((force, _)) = turn.filter(|turn| turn.1 > change.enters) {
+                passage.add_force(rating, force);
+            }
+            passage.add_force(rating, forces[2]);
+            self.planets.add(planet_tooth(&before, rating, side), planet_roots(&sums, side));
+            for tooth in side_teeth(&before, rating, planets) {
+                self.sides[side].add(tooth, sums[1]);
+            }
+        }
+    }
+
+    /// Largest damage of a planet's tooth and of a tooth of either side gear, at the root of each flank as
+    /// [`loaded_flank`] numbers them.
+    pub fn worst(&self, rating: &Rating, planets: usize) -> (RootSum, [RootSum; 2]) {
+        let open = self.passages.map(|passage| passage.sums(rating));
+        let mut worst = (self.planets.worst(), self.sides.map(|side| side.worst()));
+        for (side, sums) in open.iter().enumerate() {
+            let tooth = self.planets.of(planet_tooth(&self.place, rating, side));
+            raise(&mut worst.0, tooth, planet_roots(sums, side));
+            for tooth in side_teeth(&self.place, rating, planets) {
+                raise(&mut worst.1[side], self.sides[side].of(tooth), sums[1]);
+            }
+        }
+        worst
+    }
+}
+
+/// Damage of a tooth at its two roots.
+pub type RootSum = [f64; 2];
+
+fn raise(worst: &mut RootSum, known: RootSum, more: RootSum) {
+    for root in 0..2 {
+        worst[root] = worst[root].max(known[root] + more[root]);
+    }
+}
+
+/// The planets' tooth in mesh with a side gear: with the other one it is half a revolution away.
+fn planet_tooth(place: &MeshPlace, rating: &Rating, side: usize) -> usize {
+    place.tooth_of(rating.teeth[0], side * (rating.teeth[0] / 2))
+}
+
+/// Teeth of a side gear in mesh with the planets.
+fn side_teeth(place: &MeshPlace, rating: &Rating, planets: usize) -> impl Iterator<Item = usize> {
+    let (place, teeth) = (*place, rating.teeth[1]);
+    (0..planets).map(move |planet| place.tooth_of(teeth, planet * teeth / planets))
+}
+
+/// Damage of a planet's tooth by flanks of the planet: its passages with both side gears load opposite ones.
+fn planet_roots(sums: &RootSums, side: usize) -> RootSum {
+    let [drive, coast] = sums[0];
+    let mut roots = [0.0; 2];
+    roots[loaded_flank(side == 1, true)] = drive;
+    roots[loaded_flank(side == 1, false)] = coast;
+    roots
+}

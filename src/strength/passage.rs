@@ -1,0 +1,95 @@
+//! Load cycles of a tooth while it is in mesh, and what they do to its roots.
+//!
+//! A tooth in mesh touches with one flank or, when the torque reverses, with the other. The force on its drive flank
+//! bends the fillet at that flank into tension and that at the coast flank into compression, a force on the coast flank
+//! the other way round. So both fillets have the same history of stress with opposite signs: a cycle of one is a cycle
+//! of the other with the mean negated. One rainflow count serves both.
+//!
+//! A tooth that rolls through its mesh comes without load and leaves without load, so that all its cycles close; the largest of
+//! them is the passage itself, which counts elsewhere ([`super::ToothDamage`]). Of a tooth that stands all cycles count, the open
+//! ones as the halves that they are, so that the sum does not depend on rounding of two equal peaks.
+
+use serde::{Deserialize, Serialize};
+
+use super::mean_stress::pulsating_range;
+use super::{Damage, LoadCycle, Rainflow, Rating};
+
+/// Reversals of stress up to this part of the strength are not counted.
+const GATE: f64 = 0.01;
+
+/// Damage of planet and side gear, each at the root of the drive and of the coast flank.
+pub type RootSums = [[f64; 2]; 2];
+
+/// A tooth in mesh: `Copy`, no allocation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Passage {
+    /// Force that bends it, positive on the drive flank [N].
+    history: Rainflow,
+    /// Largest cycle so far of a tooth that rolls through its mesh.
+    largest: Option<LoadCycle>,
+    /// Damage of the other cycles.
+    roots: [[Damage; 2]; 2],
+}
+
+impl Passage {
+    /// A tooth that comes into mesh as the gears roll on.
+    pub fn rolling(rating: &Rating) -> Self {
+        let mut passage = Self { history: Rainflow::returning(gate(rating)), ..Self::default() };
+        passage.add_force(rating, 0.0);
+        passage
+    }
+
+    /// Whether no force has been counted yet.
+    pub fn is_new(&self) -> bool {
+        self.history.is_empty()
+    }
+
+    /// Adds a force on the tooth, positive on the drive flank [N].
+    pub fn add_force(&mut self, rating: &Rating, force: f64) {
+        let Self { history, largest, roots } = self;
+        if history.is_empty() && !history.returns() {
+            *history = Rainflow::new(gate(rating));
+        }
+        let returns = history.returns();
+        history.push(force, |cycle| {
+            let counting = if returns { beside_largest(largest, cycle) } else { Some(cycle) };
+            count(rating, roots, counting);
+        });
+    }
+
+    /// Damage of the tooth if it leaves the mesh now.
+    pub fn sums(&self, rating: &Rating) -> RootSums {
+        let Self { history, mut largest, mut roots } = *self;
+        if history.returns() {
+            history.rest_of_return(|cycle| count(rating, &mut roots, beside_largest(&mut largest, cycle)));
+        } else {
+            history.rest(|cycle| count(rating, &mut roots, Some(cycle)));
+        }
+        roots.map(|flanks| flanks.map(|damage| damage.sum))
+    }
+}
+
+/// Smallest reversal of force that counts [N].
+fn gate(rating: &Rating) -> f64 {
+    let weakest = rating.root[0].per_force.max(rating.root[1].per_force);
+    GATE * rating.bending[1].strength / weakest
+}
+
+/// Keeps the larger of two cycles and returns the other.
+fn beside_largest(largest: &mut Option<LoadCycle>, cycle: LoadCycle) -> Option<LoadCycle> {
+    match largest {
+        Some(known) if known.range >= cycle.range => Some(cycle),
+        _ => largest.replace(cycle),
+    }
+}
+
+fn count(rating: &Rating, roots: &mut [[Damage; 2]; 2], cycle: Option<LoadCycle>) {
+    let Some(cycle) = cycle else { return };
+    for (root, roots) in rating.root.iter().zip(roots) {
+        for (damage, mean) in roots.iter_mut().zip([cycle.mean, -cycle.mean]) {
+            let range = pulsating_range(&LoadCycle { mean, ..cycle }, rating.sensitivity);
+            // the mean stress is counted as it is: the planet's idler strength is for teeth that roll
+            damage.add(&rating.bending[1], root.stress(range), cycle.count);
+        }
+    }
+}
