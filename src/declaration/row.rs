@@ -64,6 +64,19 @@ pub struct Row<A> {
     pub access: A,
 }
 
+impl<A: Copy> Row<A> {
+    /// The row of differences between values of this variable, which have no range. Differences are shown in a unit with an
+    /// offset only if they are declared so.
+    pub fn of_differences(&self) -> Self {
+        Row {
+            unit: self.unit.map(Unit::of_differences),
+            display: self.display.filter(|shown| shown.offset == 0.0),
+            range: None,
+            ..*self
+        }
+    }
+}
+
 impl<A> Row<A> {
     /// The same row with another way to its value.
     pub fn map<B>(self, to: impl FnOnce(A) -> B) -> Row<B> {

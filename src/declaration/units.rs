@@ -49,6 +49,15 @@ pub struct Unit {
     pub base: Option<Base>,
     /// Units in which its values may be shown.
     pub display: &'static [DisplayUnit],
+    /// True if values are differences, whose display units have no offset. FMI names them relative quantities.
+    pub is_relative: bool,
+}
+
+impl Unit {
+    /// The unit of differences between values in this unit.
+    pub fn of_differences(self) -> Self {
+        if self == KELVIN { KELVIN_DIFFERENCE } else { self }
+    }
 }
 
 /// An SI unit and, where users expect another one, the unit in which its values are shown.
@@ -118,10 +127,15 @@ pub const KN: DisplayUnit = shown("kN", 1e-3);
 /// Kilonewton-metre.
 pub const KNM: DisplayUnit = shown("kN.m", 1e-3);
 
+/// Temperature difference: 5 degC are 5 K.
+pub const KELVIN_DIFFERENCE: Unit =
+    Unit { display: &[DisplayUnit { offset: 0.0, ..DEG_C }], is_relative: true, ..KELVIN };
+
 macro_rules! units {
     ($($(#[$doc:meta])* $id:ident = $name:literal, $base:expr, $display:expr;)*) => {
-        $($(#[$doc])* pub const $id: Unit = Unit { name: $name, base: $base, display: &$display };)*
-        /// Every unit of the interface.
+        $($(#[$doc])* pub const $id: Unit =
+            Unit { name: $name, base: $base, display: &$display, is_relative: false };)*
+        /// Every unit of the interface. A unit of differences has the name of its own unit, and is not listed.
         pub const ALL: &[Unit] = &[$($id),*];
     };
 }

@@ -100,6 +100,9 @@ pub fn guid() -> &'static str {
         for row in &table().rows {
             let _ = write!(text, "\n{} {:?} {:?}", row.name, row.causality, row.variability);
             let _ = write!(text, " {:?} {:?} {:?}", row.unit.map(|u| u.name), row.range, real_start(row));
+            if row.unit.is_some_and(|unit| unit.is_relative) {
+                text.push_str(" relative");
+            }
             if let Access::Enumeration(kind, ..) = row.access {
                 let _ = write!(text, " {kind:?}");
             }

@@ -55,8 +55,8 @@ period = "7 ms"
 [[inputs]]
 file = "cycle.csv"
 """
-# the same with inputs that go on straight within steps
-SLOPES = f"input_slopes = true{EVERYTHING}"
+# the same with inputs that are held within steps, and with jumps at ends of periods that are no ends of steps
+TEXTS = {"everything": EVERYTHING, "held": f"input_slopes = false{EVERYTHING}", "rounds": EVERYTHING.replace('"7 ms"', '"6.3 ms"')}
 # an hour as far as its tables begin anew
 SHORTER = {"drive_cycle": {"stop_time": 650.0}}
 CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n4.25,97\n4.25,101\n11.1,90\n"
@@ -75,10 +75,10 @@ def scene_command():
     return run
 
 
-@pytest.fixture(params=[*SCENES, "everything", "slopes"])
+@pytest.fixture(params=[*SCENES, *TEXTS])
 def scene(request, tmp_path):
     """Name of a scene, or its file."""
-    text = {"everything": EVERYTHING, "slopes": SLOPES}.get(request.param)
+    text = TEXTS.get(request.param)
     if text is None:
         return request.param
     (tmp_path / "cycle.csv").write_text(CYCLE, encoding="utf-8")

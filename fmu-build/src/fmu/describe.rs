@@ -22,6 +22,8 @@ const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
 /// The study's duration and output interval [s].
 const STOP_TIME: f64 = 0.5;
 const STEP_SIZE: f64 = 0.001;
+/// Name of the type of temperature differences.
+pub(super) const DIFFERENCE: &str = "TemperatureDifference";
 const DERIVATIVE: &str = "providesDirectionalDerivative";
 
 /// Writes modelDescription/modelDescription.xml, and the lists of effects in README.md and docs/effects.md
@@ -111,10 +113,11 @@ fn described(root: Element, choices: Choices, part: Part) -> Result<String> {
     let variables = table.rows.iter().enumerate();
     let root = root
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
-        .children(
-            (choices == Choices::Enumerations)
-                .then(|| Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))),
-        )
+        .children((choices == Choices::Enumerations).then(|| {
+            Element::new("TypeDefinitions")
+                .child(temperature_difference())
+                .children(enumerations(table).map(enumeration))
+        }))
         .child(log_categories())
         .child(default_experiment())
         .child(
@@ -189,6 +192,17 @@ pub(super) fn unit(unit: &Unit) -> Element {
         if shown.offset == 0.0 { element } else { element.with("offset", number(shown.offset)) }
     };
     Element::new("Unit").with("name", unit.name).children(base).children(unit.display.iter().map(display))
+}
+
+/// Returns true for differences, which hosts convert without the offset of a display unit.
+pub(super) fn is_relative(row: &Variable) -> bool {
+    row.unit.is_some_and(|unit| unit.is_relative)
+}
+
+/// Type of temperature differences. fmpy reads `relativeQuantity` only from types, other hosts from variables.
+fn temperature_difference() -> Element {
+    let real = Element::new("Real").with("unit", units::KELVIN_DIFFERENCE.name).with("relativeQuantity", true);
+    Element::new("SimpleType").with("name", DIFFERENCE).child(real)
 }
 
 fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
@@ -282,8 +296,10 @@ fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
     let mut defaults = Parameters::default();
     match row.access {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
+            .with_some("declaredType", (is_relative(row) && choices == Choices::Enumerations).then_some(DIFFERENCE))
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
+            .with_some("relativeQuantity", is_relative(row).then_some(true))
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
             .with_some("nominal", row.nominal.map(number))

@@ -8,8 +8,8 @@ use bevel_differential::variables::{Access, Causality, MODEL_NAME, Table, Variab
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use super::describe::{
-    Part, causality, default_experiment, enumeration_items, enumerations, is_velocity, log_categories, number, root,
-    unit, units_in_use, variability,
+    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative, is_velocity,
+    log_categories, number, root, unit, units_in_use, variability,
 };
 use answers::text::xml::Element;
 
@@ -53,6 +53,12 @@ fn described(part: Part) -> Result<String> {
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
         .child(
             Element::new("TypeDefinitions")
+                .child(
+                    Element::new("Float64Type")
+                        .with("name", DIFFERENCE)
+                        .with("unit", units::KELVIN_DIFFERENCE.name)
+                        .with("relativeQuantity", true),
+                )
                 .children(kinds)
                 .child(Element::new("EnumerationType").with("name", EVENT).children(events)),
         )
@@ -99,6 +105,8 @@ fn variable(reference: usize, row: &Variable) -> Element {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => element
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
+            .with_some("declaredType", is_relative(row).then_some(DIFFERENCE))
+            .with_some("relativeQuantity", is_relative(row).then_some(true))
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
             .with_some("nominal", row.nominal.map(number))
@@ -127,6 +135,8 @@ fn added_variable(reference: usize, added: &Added) -> Element {
             .with("initial", "calculated")
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
+            .with_some("declaredType", is_relative(row).then_some(DIFFERENCE))
+            .with_some("relativeQuantity", is_relative(row).then_some(true))
             .child(dimension)
     };
     match &added.item {

@@ -17,6 +17,7 @@ class Quantity(Variable):
 
     def __init__(self, name: str, units: Mapping[str, float]):
         self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
+        self.minimum = self.maximum = None
         self.unit = next(iter(units))
         self.units = {unit: (1.0 / size, 0.0) for unit, size in units.items()}
 

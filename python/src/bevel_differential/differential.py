@@ -102,32 +102,34 @@ class Differential(Runner):
     @overload
     def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
-            frame: Literal[False] = False) -> np.ndarray: ...
+            frame: Literal[False] = False, *, input_slopes: bool = True) -> np.ndarray: ...
 
     @overload
     def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None, *,
-            frame: Literal[True]) -> "pandas.DataFrame": ...
+            frame: Literal[True], input_slopes: bool = True) -> "pandas.DataFrame": ...
 
     def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
-            frame: bool = False) -> "np.ndarray | pandas.DataFrame":
+            frame: bool = False, *, input_slopes: bool = True) -> "np.ndarray | pandas.DataFrame":
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
 
-        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
-        Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning,
-        `DifferentialWarning`; `warnings` has all warnings of the FMU."""
+        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the meaning of those in scenes: steps
+        end at jumps, and between points inputs are straight. With `input_slopes=False` values are held within a step, as those of
+        parameters always are. `values`: parameters for this run alone. Returns a structured array: field "time" (s) and one of each
+        output, in SI; shape (points,). `step=None` takes one step to the end, or from corner to corner of the tables, and records these
+        points. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. A value that changes
+        nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has all warnings of the FMU."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
-        signals = Signals.of(self.fmu, inputs)
-        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        signals = Signals.of(self.fmu, inputs, input_slopes)
+        stops = signals.corners() if step is None else signals.jumps
+        record = self._simulate(Steps.of(stop, step, stops), signals, outputs, values)
         self._warn()
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
               values: Mapping[str, Value] | None = None) -> dict[str, Number]:
-        """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
+        """Values of `outputs` at `stop`, in steps as long as inputs are straight: the cheapest way if only the end counts. A dict by name."""
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
@@ -151,11 +153,11 @@ def as_frame(record: np.ndarray) -> "pandas.DataFrame":
 def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
-    driven = Batches.of(tuple(table.variable for table in signals.tables))
+    driven, sloping = (Batches.of(tuple(table.variable for table in tables)) for tables in (signals.tables, signals.sloping))
     values, slopes = signals.along(steps.begins + steps.slack, steps.points[1:] - steps.slack)
-    # kept here: writers hold addresses alone
-    blocks, slope_blocks = driven.blocks(values), driven.blocks(slopes) if slopes else []
-    writers = driven.writers(instance, blocks) + (driven.slope_writers(instance, slope_blocks) if slopes else [])
+    # kept here: writers only have their addresses
+    blocks, slope_blocks = driven.blocks(values), sloping.blocks(slopes)
+    writers = driven.writers(instance, blocks) + sloping.slope_writers(instance, slope_blocks)
     changes = list(signals.changes)
     sizes = np.diff(steps.points).tolist()
     for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):

@@ -6,6 +6,7 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 
 from .fmu import Fmu
+from .points import Recurring
 from .values import DifferentialError, Number, Value, Variable
 
 # times, s, and values at them, shape (points,)
@@ -34,49 +35,85 @@ class Table:
 
     def along(self, points: np.ndarray) -> np.ndarray:
         """Values just after times `points`, s, shape (points,)."""
-        times, values, points = self.times, self.values, self._within_period(points)
-        after = np.searchsorted(times, points, side="right")
+        return self._between(points if self.period is None else np.fmod(points, self.period), "right")
+
+    def before(self, points: np.ndarray) -> np.ndarray:
+        """Values just before times `points`, s, shape (points,)."""
+        if self.period is not None:
+            within = np.fmod(points, self.period)
+            # the end of a period, not the start of the next one
+            points = np.where((within == 0.0) & (points > 0.0), self.period, within)
+        return self._between(points, "left")
+
+    def _between(self, points, side):
+        times, values = self.times, self.values
+        after = np.searchsorted(times, points, side=side)
         found = values[np.maximum(after - 1, 0)]
         if self.variable.kind == "Real":
             inner = (after > 0) & (after < len(times))
-            after, before = after[inner], after[inner] - 1
-            share = (points[inner] - times[before]) / (times[after] - times[before])
-            found[inner] = values[before] + share * (values[after] - values[before])
+            after, before, points = after[inner], after[inner] - 1, points[inner]
+            share = (points - times[before]) / (times[after] - times[before])
+            straight = values[before] + share * (values[after] - values[before])
+            found[inner] = np.where(points == times[after], values[after], straight)
         return found
 
     def slopes(self, begins: np.ndarray, ends: np.ndarray) -> np.ndarray:
-        """Slopes over steps from just after `begins` to just before `ends`, s, per second; shape (steps,). A value that jumps within a
-        step, or begins its period anew, is held."""
-        first, last = self._within_period(begins), self._within_period(ends)
-        sizes, jumps = ends - begins, self.jumps()
-        held = (last < first) | (np.searchsorted(jumps, first, side="right") != np.searchsorted(jumps, last, side="right"))
-        if self.period is not None:
-            held |= sizes >= self.period
-        return np.where(held, 0.0, (self.along(ends) - self.along(begins)) / np.where(held, 1.0, sizes))
+        """Slopes over steps without jumps, from just after `begins` to just before `ends`, s, per second; shape (steps,)."""
+        return (self.before(ends) - self.along(begins)) / (ends - begins)
 
-    def _within_period(self, points: np.ndarray) -> np.ndarray:
-        return points if self.period is None else np.fmod(points, self.period)
+    def jumps(self) -> list[Recurring]:
+        """Times at which the value jumps: two points of one time, and the end of a period whose next one begins with another value."""
+        times = self.times[1:][self.times[1:] == self.times[:-1]].tolist()
+        if self.period is not None and self.before(np.array([self.period]))[0] != self.at(0.0):
+            times.append(0.0)
+        return self._recurring(times)
 
-    def jumps(self) -> np.ndarray:
-        """Times at which the value jumps, s."""
-        return self.times[1:][self.times[1:] == self.times[:-1]]
+    def corners(self) -> list[Recurring]:
+        """Times between which the value is straight."""
+        return self._recurring([*self.times.tolist(), *([] if self.period is None else [0.0])])
+
+    @property
+    def is_piecewise_constant(self) -> bool:
+        """True if the value changes only in jumps."""
+        return self.variable.kind != "Real" or not np.any((np.diff(self.times) > 0.0) & (np.diff(self.values) != 0.0))
+
+    def _recurring(self, times):
+        return [(time, self.period) for time in sorted(set(times)) if self.period is None or time < self.period]
 
 
 class Signals:
     """Inputs and tunable parameters of a run: constant, or changing with time.
 
-    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time; `slopes`: whether
-    tables, then of inputs alone, go on straight within steps."""
+    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time; `slopes`: True if
+    tables of inputs continue straight within steps, False if their values are held. Those of parameters are always held."""
 
     def __init__(self, constants: Iterable[tuple[Variable, Number]] = (), tables: Iterable[Table] = (),
-                 changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = False):
+                 changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = True):
+        if not isinstance(slopes, bool):
+            raise DifferentialError(f"input_slopes = {slopes!r}: it is True or False")
         self.constants, self.tables, self.slopes = list(constants), list(tables), slopes
         self.changes = sorted(changes, key=lambda change: change[0])
-        times = [time for table in self.tables for time in table.jumps().tolist()] + [time for time, _ in self.changes]
-        self.jumps = tuple(sorted(set(times)))
+        self.jumps = self._stops(Table.jumps)
+
+    def corners(self) -> tuple[Recurring, ...]:
+        """Times between which all inputs are straight. Refuses tables that steps between them cannot follow."""
+        for table in self.tables:
+            if table not in self.sloping and not table.is_piecewise_constant:
+                why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
+                raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
+        return self._stops(Table.corners)
+
+    @property
+    def sloping(self) -> list[Table]:
+        """Tables that continue straight within steps."""
+        return [table for table in self.tables if table.variable.causality == "input"] if self.slopes else []
+
+    def _stops(self, of):
+        times = {time for table in self.tables for time in of(table)} | {(time, None) for time, _ in self.changes}
+        return tuple(sorted(times, key=lambda stop: (stop[0], stop[1] or 0.0)))
 
     @classmethod
-    def of(cls, fmu: Fmu, inputs: Inputs | None) -> Self:
+    def of(cls, fmu: Fmu, inputs: Inputs | None, slopes: bool = True) -> Self:
         """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
         structured array with a field "time", as fmpy takes it. Names are those of inputs and tunable parameters."""
         constants, tables = [], []
@@ -86,17 +123,16 @@ class Signals:
                 tables.append(Table(variable, *given))
             else:
                 constants.append((variable, variable.number(given)))
-        return cls(constants, tables)
+        return cls(constants, tables, slopes=slopes)
 
     def start(self) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""
         return self.constants + [(table.variable, table.at(0.0)) for table in self.tables]
 
     def along(self, begins: np.ndarray, ends: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """Values of all tables just after the beginnings of steps, and their slopes to just before the ends, if they have any;
+        """Values of all tables just after the beginnings of steps, and slopes to just before the ends of those that have slopes;
         each of shape (steps,)."""
-        slopes = [table.slopes(begins, ends) for table in self.tables] if self.slopes else []
-        return [table.along(begins) for table in self.tables], slopes
+        return [table.along(begins) for table in self.tables], [table.slopes(begins, ends) for table in self.sloping]
 
 
 def input_variable(fmu: Fmu, name: str) -> Variable:

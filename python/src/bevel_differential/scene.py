@@ -27,13 +27,13 @@ class Scene(Runner):
     """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
-    `tables`: [(input, times, values, period or None)], straight from point to point. With `input_slopes` they go on straight within
-    steps, too; otherwise their values are held. All times in s or with a unit. Values are written as for `Differential`."""
+    `tables`: [(input, times, values, period or None)], straight from point to point. Without `input_slopes` values are held within
+    steps. All times in s or with a unit. Values are written as for `Differential`."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
-                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), input_slopes: bool = False,
+                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), input_slopes: bool = True,
                  fmu: FileName | Fmu | None = None):
         super().__init__(fmu)
         self.name, self.description = name, description
@@ -43,8 +43,6 @@ class Scene(Runner):
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
         self.tables = [(name, times, values, period) for name, times, values, period in tables]
-        if not isinstance(input_slopes, bool):
-            raise DifferentialError(f"input_slopes = {input_slopes!r}: it is True or False")
         self.input_slopes = input_slopes
         super().set(set)
         self._signals = self._checked_signals()
@@ -157,7 +155,7 @@ class Scene(Runner):
         return {"description": self.description, "stop_time": self.stop, "step": self.step, "outputs": self.outputs,
                 "set": plain(self.values if values is None else values),
                 "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables,
-                **({"input_slopes": True} if self.input_slopes else {})}
+                **({"input_slopes": self.input_slopes} if tables else {})}
 
     def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,

@@ -1,11 +1,12 @@
 """Values as a user writes them, and as the FMU takes them."""
 
+import copy
 import difflib
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Variable:
 
     Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
     `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
-    name."""
+    name; `is_relative`, True if its values are differences, which are converted without the offset of a unit."""
 
     name: str
     kind: str
@@ -68,6 +69,8 @@ class Variable:
     maximum: Number | None
     literals: dict[str, int]
     units: dict[str, tuple[float, float]]
+    is_relative: bool = False
+    _usual: str | None = None
 
     def __init__(self, described: "ScalarVariable", units: "Mapping[str, Unit]"):
         self.name = described.name
@@ -80,11 +83,13 @@ class Variable:
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
+        # fmpy reads the attribute of a variable as a truth or None, and that of its type as a truth or, in older versions, as text
+        self.is_relative = any(getattr(each, "relativeQuantity", None) in (True, "true", "1") for each in (described, declared))
         shown = units.get(self.unit) if self.unit else None
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
         for unit in shown.displayUnits if shown is not None else []:
-            self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
+            self.units[unit.name] = (float(unit.factor), 0.0 if self.is_relative else float(unit.offset or 0.0))
         self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
     def number(self, value: Value) -> Number:
@@ -101,20 +106,31 @@ class Variable:
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
 
+    def differences(self) -> Self:
+        """What stands for differences between values of the variable: without the offsets of units, and without a range. They are
+        shown in SI if the usual unit has an offset: 5 K between two temperatures in degC."""
+        found = copy.copy(self)
+        found.is_relative, found.start, found.minimum, found.maximum = True, None, None, None
+        found.units = {name: (factor, 0.0) for name, (factor, _) in self.units.items()}
+        if self.units.get(self._usual or "", (1.0, 0.0))[1] != 0.0:
+            found._usual = self.unit
+        return found
+
     def written(self, value: Value) -> Number | str:
         """`value` as scene files have it: SI, bool, or a literal's name."""
         number = self.number(value)
         return next((name for name, literal in self.literals.items() if literal == number), number)
 
-    def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
-        """Values of the texts in a list or range, `written` as a whole. A unit that only some of them have is an error: in
-        "4..5 mm" the first number would be 4 m."""
+    def numbers(self, parts: Sequence[str], written: str, spreads: Collection[int] = ()) -> tuple[Number, ...]:
+        """Values of the texts in a list or range, `written` as a whole; `spreads` are the positions of differences, such as a
+        standard deviation. A unit that only some of them have is an error: in "4..5 mm" the first number would be 4 m."""
         matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
         bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
         if bare and any(match and match[2] for match in matches):
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
                                     "number")
-        return tuple(self.number(part) for part in parts)
+        spread = self.differences()
+        return tuple((spread if place in spreads else self).number(part) for place, part in enumerate(parts))
 
     def has_unit(self, value: Value) -> bool:
         """Whether `value` is written with its unit."""

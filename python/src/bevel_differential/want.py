@@ -10,8 +10,9 @@ from functools import cache
 import numpy as np
 
 from .answers import ask
+from .csv_table import Time
 from .points import seconds
-from .values import DifferentialError, Variables
+from .values import DifferentialError, Variable, Variables
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 # periods of an order need so many radians between two points at most
@@ -36,6 +37,11 @@ class Statistic:
         """The statistic that a word names."""
         found = ask({"ask": "word", "statistic": text})
         return Statistic(found["word"], ANGLES.get(found["angle"]))
+
+    @property
+    def is_difference(self) -> bool:
+        """True if the figure is a difference between values, so that no unit has an offset."""
+        return self.word == "peak_to_peak" or self.angle is not None
 
     def of(self, times: np.ndarray, values: np.ndarray, phase: np.ndarray | None = None) -> float:
         """The figure of `values` at `times` (s), shape (points,); `phase` (rad, 2π a period of order 1) for orders."""
@@ -72,7 +78,14 @@ class Want:
 
     def unit(self, fmu: Variables) -> str:
         """SI unit of the figure; "1" where it has none."""
-        return "s" if self.statistic.word == "time_of_peak" else fmu.variable(self.name).unit or "1"
+        return self.quantity(fmu).unit or "1"
+
+    def quantity(self, fmu: Variables) -> Variable:
+        """What the figure is of: it reads a number with its unit, and shows one."""
+        if self.statistic.word == "time_of_peak":
+            return Time("time")
+        variable = fmu.variable(self.name)
+        return variable.differences() if self.statistic.is_difference else variable
 
     def of(self, record: np.ndarray, planet_teeth: int) -> float:
         """The figure of a record (structured array with this output and, for orders, the angle that they are counted by)."""
@@ -101,7 +114,7 @@ class Condition:
         want = Want.parse(fmu, parts[0])
         written = parts[2].strip()
         is_time = want.statistic.word == "time_of_peak"
-        limit = seconds(f"condition {text!r}: the time", written) if is_time else fmu.variable(want.name).number(written)
+        limit = seconds(f"condition {text!r}: the time", written) if is_time else want.quantity(fmu).number(written)
         return cls(want, parts[1], float(limit))
 
     def __str__(self) -> str:

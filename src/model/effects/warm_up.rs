@@ -100,8 +100,9 @@ impl Declare for WarmUpSpec {
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let capacity = |name, of, at| row(name, of).real(units::JOULE_PER_K, (1.0, 1e9), at);
         let conductance = |name, of, at| row(name, of).tunable().real(units::WATT_PER_K, (0.0, 1e6), at);
-        let above =
-            |name, of, at| row(name, of).when("scene.start != steady_heat").real(units::KELVIN, (-400.0, 400.0), at);
+        let above = |name, of, at| {
+            row(name, of).when("scene.start != steady_heat").real(units::KELVIN_DIFFERENCE, (-400.0, 400.0), at)
+        };
         let per_speed = |name, of, at| row(name, of).tunable().real(units::WATT_S_PER_K_RAD, (0.0, 1e4), at);
         vec![
             row("warm_up.ambient_temperature", "Temperature around the case").tunable().real(
@@ -156,13 +157,13 @@ impl Declare for WarmUpSpec {
         let most = if BUILT { MOST_CHANGE } else { 0.0 };
         vec![
             row(AMBIENT_CHANGE, "Change of the temperature around the case from warm_up.ambient_temperature").input(
-                units::KELVIN,
+                units::KELVIN_DIFFERENCE,
                 most,
                 |i| &mut i.ambient_change,
             ),
             row(SUMP_CHANGE, "Change of a given sump from oil.temperature, as by a cooler")
                 .when("warm_up.sump_given = true")
-                .input(units::KELVIN, most, |i| &mut i.sump_change),
+                .input(units::KELVIN_DIFFERENCE, most, |i| &mut i.sump_change),
         ]
     }
 }

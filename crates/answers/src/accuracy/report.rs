@@ -85,6 +85,7 @@ fn wanted(answer: &Answer) -> String {
             let row = answer.scene.outputs[want.output];
             match want.statistic {
                 super::statistic::Statistic::TimeOfPeak => format!("{} s", three_digits(value)),
+                statistic if statistic.is_difference() => units::difference_text(row, value),
                 _ => units::text(row, value),
             }
         });

@@ -101,6 +101,11 @@ impl Statistic {
         Err(format!("there is no statistic \"{text}\"{hint} Known: {KNOWN}").replace("\" Known", "\"; known"))
     }
 
+    /// True if the figure is a difference between values: a temperature of it has no zero point.
+    pub fn is_difference(self) -> bool {
+        matches!(self, Self::PeakToPeak | Self::Order { .. })
+    }
+
     /// The figure of output `i` of `record`, or why it makes no sense there.
     pub fn of(self, record: &Record, i: usize) -> Result<f64, String> {
         let (times, values) = (&record.times, &record.values[i]);

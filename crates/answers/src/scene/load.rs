@@ -5,7 +5,7 @@
 //! stop_time = 0.5                        # in s, or with a unit: "500 ms"
 //! step = 1e-3                            # communication step
 //! outputs = ["left.speed"]
-//! input_slopes = true                    # tables go on straight within a step; otherwise their values are held
+//! input_slopes = false                   # hold the values of tables within a step; otherwise tables continue straight
 //!
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
@@ -105,6 +105,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let input_slopes = input_slopes(entry, &mut problems);
     let outputs = outputs(&entry.outputs, &mut problems);
     overridden(&events, &input_tables, &mut problems);
+    problems.extend(input_tables.iter().filter_map(|table| table.check(stop_time).err()));
     problems.or(())?;
     for input_table in &input_tables {
         if let Access::Input(access) = input_table.row.access {
@@ -137,10 +138,10 @@ fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
 }
 
-/// Whether tables go on straight within steps.
+/// True if tables continue straight within steps, as they do unless the file holds their values.
 fn input_slopes(entry: &File, problems: &mut Problems) -> bool {
     match &entry.input_slopes {
-        None => false,
+        None => true,
         Some(Value::Boolean(value)) => *value,
         Some(other) => {
             problems.push(format!("input_slopes = {}: must be true or false", written(other)));

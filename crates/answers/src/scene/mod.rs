@@ -2,6 +2,7 @@
 
 pub mod assignments;
 pub mod input_file;
+mod input_table;
 pub mod load;
 pub mod loads;
 pub mod plan;
@@ -20,6 +21,7 @@ use bevel_differential::variables::Variable;
 
 use crate::problem::{Problem, Problems};
 use crate::text::shown;
+pub use input_table::{InputTable, Jumps};
 use set::Setting;
 
 /// A scene, ready to start.
@@ -45,7 +47,7 @@ pub struct Scene {
     pub events: Vec<Event>,
     /// Inputs that follow a table.
     pub input_tables: Vec<InputTable>,
-    /// Whether tables go on straight within communication steps; otherwise their values are held.
+    /// True if tables continue straight within communication steps; otherwise their values are held.
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
@@ -58,55 +60,6 @@ pub struct Event {
     pub time: f64,
     /// What.
     pub settings: Vec<Setting>,
-}
-
-/// An input that goes straight from point to point.
-#[derive(Clone)]
-pub struct InputTable {
-    /// The input.
-    pub row: &'static Variable,
-    /// Times [s], rising; two equal ones are a jump.
-    pub times: Vec<f64>,
-    /// Values there, in the unit of the interface.
-    pub values: Vec<f64>,
-    /// Time after which it repeats [s]; none = the last value stays.
-    pub period: Option<f64>,
-}
-
-impl InputTable {
-    /// Times at which the value jumps [s]: those of two points.
-    pub fn jumps(&self) -> impl Iterator<Item = f64> + '_ {
-        self.times.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0])
-    }
-
-    /// Slope over the step from just after `begin` to just before `end` [s], per second. A value that jumps within the step,
-    /// or begins its period anew, is held.
-    pub fn slope(&self, begin: f64, end: f64) -> f64 {
-        let [from, to] = [begin, end].map(|time| self.within_period(time));
-        let anew = to < from || self.period.is_some_and(|period| end - begin >= period);
-        if anew || self.jumps().any(|jump| from < jump && jump <= to) {
-            return 0.0;
-        }
-        (self.at(end) - self.at(begin)) / (end - begin)
-    }
-
-    fn within_period(&self, time: f64) -> f64 {
-        self.period.map_or(time, |period| time.rem_euclid(period))
-    }
-
-    /// Value at `time` [s], just after a jump.
-    pub fn at(&self, time: f64) -> f64 {
-        let time = self.within_period(time);
-        let after = self.times.partition_point(|&t| t <= time);
-        match (after.checked_sub(1), self.times.get(after)) {
-            (None, _) => self.values[0],
-            (Some(i), None) => self.values[i],
-            (Some(i), Some(next)) => {
-                let share = (time - self.times[i]) / (next - self.times[i]);
-                self.values[i] + share * (self.values[i + 1] - self.values[i])
-            }
-        }
-    }
 }
 
 /// The scene in the file `what`, or the one of that name in `folder`.

@@ -103,7 +103,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     }
     for input_table in &scene.input_tables {
         let period = input_table.period.map_or(String::new(), |period| format!(", again every {period} s"));
-        let slopes = if scene.input_slopes { ", straight within steps" } else { "" };
+        let slopes = if scene.input_slopes { "" } else { ", held within steps" };
         line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
     }
     let set = set_values(scene);

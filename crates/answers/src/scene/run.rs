@@ -9,7 +9,7 @@ use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 
 use super::units;
-use super::{InputTable, Scene};
+use super::{InputTable, Jumps, Scene};
 use crate::problem::Problems;
 use crate::progress::Progress;
 use crate::text::table::Table;
@@ -26,8 +26,8 @@ pub struct SceneRun<'a> {
     /// Whole communication steps done, and events.
     done: u64,
     events: usize,
-    /// Times at which inputs change at once [s], rising; the last of them first.
-    stops: Vec<f64>,
+    /// Changes of inputs at once: those of events, and the jumps of each table.
+    jumps: Vec<Jumps>,
     /// The simulation.
     pub simulation: Simulation,
 }
@@ -47,11 +47,10 @@ impl<'a> SceneRun<'a> {
             return Err(out_of_range);
         }
         let simulation = Simulation::start(&scene.parameters, &scene.inputs, 0.0)?;
-        let events = scene.events.iter().map(|event| event.time);
-        let mut stops: Vec<f64> = events.chain(scene.input_tables.iter().flat_map(InputTable::jumps)).collect();
-        stops.sort_by(|a, b| b.total_cmp(a));
+        let events = Jumps::once(scene.events.iter().map(|event| event.time).collect());
+        let jumps = std::iter::once(events).chain(scene.input_tables.iter().map(InputTable::jumps)).collect();
         let Scene { parameters, inputs, .. } = *scene;
-        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, stops, simulation })
+        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, jumps, simulation })
     }
 
     /// Time [s].
@@ -71,10 +70,9 @@ impl<'a> SceneRun<'a> {
         let regular = (self.done + 1) as f64 * self.step;
         let mut next = if regular > self.scene.stop_time - slack { self.scene.stop_time } else { regular };
         // what has been fed is over
-        while self.stops.last().is_some_and(|&stop| stop <= time + slack) {
-            self.stops.pop();
-        }
-        let change = self.stops.last().copied().filter(|&stop| stop < next - slack);
+        self.jumps.iter_mut().for_each(|jumps| jumps.pass(time + slack));
+        let change =
+            self.jumps.iter().filter_map(Jumps::upcoming).min_by(f64::total_cmp).filter(|&time| time < next - slack);
         next = change.unwrap_or(next);
         if self.scene.input_slopes {
             self.feed_slopes(time + slack, next - slack);

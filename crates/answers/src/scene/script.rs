@@ -64,8 +64,8 @@ fn arguments(scene: &Scene) -> Result<String> {
             writeln!(out, "{}        ], {period}),", numbers(&table.values))?;
         }
         writeln!(out, "    ],")?;
-        if scene.input_slopes {
-            writeln!(out, "    input_slopes=True,  # tables go on straight within a step")?;
+        if !scene.input_slopes {
+            writeln!(out, "    input_slopes=False,  # values of tables are held within a step")?;
         }
     }
     let outputs: Result<Vec<String>> = scene.outputs.iter().map(|row| quoted(row.name)).collect();

@@ -67,7 +67,7 @@ fn units(values: &[Setting]) -> Vec<(Unit, Base)> {
 }
 
 fn unit_definition(unit: Unit, base: Base) -> Element {
-    let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
+    let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("K", base.k), ("rad", base.rad)];
     let given = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
     let base = given.fold(Element::new("ssc:BaseUnit"), |element, (name, exponent)| element.with(name, exponent));
     Element::new("ssc:Unit").with("name", unit.name).child(base)

@@ -89,6 +89,11 @@ pub fn text(row: &Variable, value: f64) -> String {
     format!("{} {}", six_digits(shown(row, value)), name(row)).trim_end().to_owned()
 }
 
+/// Text of the SI difference `value` between two values of `row`, with the name of the unit.
+pub fn difference_text(row: &Variable, value: f64) -> String {
+    text(&row.of_differences(), value)
+}
+
 /// Text of a number with six significant digits.
 pub fn six_digits(value: f64) -> String {
     numbers::short(value, 6)
@@ -119,8 +124,33 @@ mod tests {
         close("inertia.carrier", "0.02 kg·m²", 0.02);
         close("contact.stiffness", "5.77e5 N/mm^1.5", 5.77e5 * 1e3f64.powf(1.5));
         close("solver.relative_tolerance", "1e-6", 1e-6);
+        close("oil.temperature", "80 degC", 353.15);
+        close("oil.temperature", "80 °C", 353.15);
         assert_eq!(seconds("2 ms"), Ok(2e-3));
         assert_eq!(seconds("0.5"), Ok(0.5));
+    }
+
+    #[test]
+    fn temperature_differences_have_no_offset_in_either_direction() {
+        let differences = [
+            "warm_up.gears_above_oil",
+            "warm_up.clutch_above_oil",
+            "warm_up.washers_above_oil",
+            "warm_up.case_above_oil",
+            "warm_up.ambient_change",
+            "warm_up.sump_change",
+        ];
+        for name in differences {
+            for value in [20.0, -20.0] {
+                assert_eq!(parse(row(name), &format!("{value} degC")), Ok(value), "{name}");
+                assert_eq!(parse(row(name), &format!("{value} K")), Ok(value), "{name}");
+                assert_eq!(text(row(name), value), format!("{value} K"), "{name}");
+            }
+        }
+        assert_eq!(text(row("temperature.flash"), 36.5), "36.5 K");
+        assert_eq!(text(row("temperature.oil"), 353.15), "80 degC");
+        assert_eq!(difference_text(row("temperature.oil"), 5.0), "5 K");
+        assert_eq!(difference_text(row("geometry.module"), 4.5e-3), "4.5 mm");
     }
 
     #[test]

@@ -35,10 +35,9 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     catalogue = Catalogue(problem.scene.fmu)
     known = [_with_heights(problem.known(problem.complete(row.values))) for row in columns]
     for name in problem.space.names:
-        lines.append(_line(catalogue, name, name, [each[name] for each in known]))
-    for want in map(str, problem.wants):
-        lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
-                           [row.figures.get(want) for row in columns]))
+        lines.append(_line(name, catalogue.variable(name), [each[name] for each in known]))
+    for want, quantity in ((str(each), each.quantity(catalogue)) for each in problem.wants):
+        lines.append(_line(want.removesuffix(":final"), quantity, [row.figures.get(want) for row in columns]))
         for model in problem.confirm if want in {str(each.want) for each in problem.objectives} else ():
             found = [each.difference(model, want) for _, each in chosen]
             changes = ["–" if isnan(change) else f"{100.0 * change:+.1f} %" for change in found]
@@ -78,9 +77,9 @@ def _with_heights(values):
     return {**values, **in_modules}
 
 
-def _line(catalogue, label, name, values):
-    unit = catalogue.variable(name).shown(0.0)[0]
-    return [f"{label}, {unit}" if unit else label, *(_shown(catalogue.variable(name), value) for value in values)]
+def _line(label, variable, values):
+    unit = variable.shown(0.0)[0]
+    return [f"{label}, {unit}" if unit else label, *(_shown(variable, value) for value in values)]
 
 
 def _shown(variable, value):
@@ -101,7 +100,7 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
     compared = {name: row for name, row in compared.items() if all(str(each.want) in row.figures for each in objectives)}
 
     def shown(rows, objective):
-        variable = catalogue.variable(objective.want.name)
+        variable = objective.want.quantity(catalogue)
         return [variable.shown(row.figures[str(objective.want)])[1] for row in rows]
 
     olds = costs(list(compared.values()), objectives)
@@ -127,7 +126,7 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
 
 
 def _label(catalogue, objective: Objective) -> str:
-    unit = catalogue.variable(objective.want.name).shown(0.0)[0]
+    unit = objective.want.quantity(catalogue).shown(0.0)[0]
     better = "less" if objective.sign > 0.0 else "more"
     name = in_words(objective.want)
     return wrapped(f"{name}{f', {unit}' if unit else ''} ({better} is better)", 34)
@@ -137,8 +136,8 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
     """The problem's scene with the design in it, as a scene file."""
     scene = problem.scene
     held = scene.contents({**scene.values, **problem.complete(row.values)})
-    lines = [*_entries({**held, "description": description}, "description", "stop_time", "step", "outputs"), "", "[set]",
-             *_entries(held["set"])]
+    head = {key: value for key, value in held.items() if key not in ("set", "at", "table")}
+    lines = [*_entries({**head, "description": description}), "", "[set]", *_entries(held["set"])]
     for kind in ("at", "table"):
         for entry in held[kind]:
             lines += ["", f"[[{kind}]]", *_entries(entry)]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..want import Statistic, Want
 from ..want import figures as figures_of
 from . import svg_style, words
 from .blocks import Picture, Section, Table
@@ -83,11 +84,12 @@ def key_figures(run: Simulated) -> Section:
     rows = []
     for name in main_outputs(run):
         variable = run.scene.fmu.variable(name)
-        unit, values = variable.shown(run.series(name))
-        figures = figures_of(STATISTICS, run.time, values)
+        unit, _ = variable.shown(0.0)
+        figures = figures_of(STATISTICS, run.time, run.series(name))
         # what is left of a difference of large numbers is rounding
         rounding = ROUNDING * max(map(abs, figures))
-        rounded = [figure if abs(figure) > rounding else 0.0 for figure in figures]
+        quantities = [Want(name, Statistic(word)).quantity(run.scene.fmu) for word in STATISTICS]
+        rounded = [quantity.shown(figure if abs(figure) > rounding else 0.0)[1] for quantity, figure in zip(quantities, figures)]
         rows.append((name, words.unit_text(unit), *(words.number(figure, 5) for figure in rounded)))
     span = f"{words.number(run.time[0])} to {words.quantity(run.time[-1], 's')}"
     found.add(Table(("output", "unit", *(word.replace("_", " ") for word in STATISTICS)), rows,

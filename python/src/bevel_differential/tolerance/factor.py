@@ -97,4 +97,4 @@ class Reader:
             raise DifferentialError(f"{variable.name} = {text}: {_USAGE}")
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name} = {text}: only real variables have a band; {_USAGE}")
-        return band(variable.name, *variable.numbers(parts, text), self.capability)
+        return band(variable.name, *variable.numbers(parts, text, spreads={1}), self.capability)

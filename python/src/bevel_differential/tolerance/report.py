@@ -12,7 +12,7 @@ from ..readable import in_words
 from ..records import write
 from ..text import aligned
 from ..values import FileName
-from ..want import Condition
+from ..want import Condition, Want
 from .figures import Estimate, Spread, proportion, verdicts
 from .plan import Plan
 from .study import Indices, Result
@@ -45,9 +45,12 @@ def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
     return write(file, ["run", *names, *wants, "message"], rows)
 
 
-def shown(plan: Plan, name: str, estimate: Estimate) -> tuple[str, Estimate]:
-    """Unit in which a figure of the output `name` is usually shown, and the estimate in it."""
-    variable = plan.scene.fmu.variable(name)
+def shown(plan: Plan, want: Want, estimate: Estimate) -> tuple[str, Estimate]:
+    """Unit in which a wanted figure is usually shown, and the estimate in it."""
+    return _shown(want.quantity(plan.scene.fmu), estimate)
+
+
+def _shown(variable, estimate):
     unit, _ = variable.shown(0.0)
     return unit, Estimate(*(variable.shown(value)[1] for value in (estimate.value, estimate.low, estimate.high)))
 
@@ -60,17 +63,10 @@ def _spreads(plan, result):
         if spread is None:
             lines.append((str(want), "", *["no runs"] * 6))
             continue
-        unit, mean = shown(plan, want.name, spread.mean)
-        quantiles = [_interval(shown(plan, want.name, each)[1]) for each in spread.quantiles.values()]
-        lines.append((str(want), unit or "1", _interval(mean), _interval(_scaled(plan, want.name, spread.deviation)), *quantiles))
+        unit, mean = shown(plan, want, spread.mean)
+        quantiles = [_interval(shown(plan, want, each)[1]) for each in spread.quantiles.values()]
+        lines.append((str(want), unit or "1", _interval(mean), _interval(_shown(want.quantity(plan.scene.fmu).differences(), spread.deviation)[1]), *quantiles))
     return lines
-
-
-def _scaled(plan, name, estimate):
-    """A difference in the usual unit: without the unit's offset."""
-    _, zero = plan.scene.fmu.variable(name).shown(0.0)
-    found = shown(plan, name, estimate)[1]
-    return Estimate(found.value - zero, found.low - zero, found.high - zero)
 
 
 def _yields(plan, result):
@@ -89,7 +85,7 @@ def _yields(plan, result):
 
 def limit_text(plan: Plan, limit: Condition) -> str:
     """A limit in the usual unit."""
-    unit, value = plan.scene.fmu.variable(limit.want.name).shown(limit.limit)
+    unit, value = limit.want.quantity(plan.scene.fmu).shown(limit.limit)
     return f"{limit.want} {limit.relation} {value:.6g} {unit}".strip()
 
 
@@ -118,7 +114,7 @@ def _alternatives(plan, result):
         cells = [_interval(proportion(draws.good)) if plan.study.limits else "", str(len(draws.failures))]
         for want in plan.study.wants:
             spread = Spread.of(draws.figures[str(want)], plan.study.seed)
-            unit, high = shown(plan, want.name, spread.quantiles[0.95]) if spread else ("", None)
+            unit, high = shown(plan, want, spread.quantiles[0.95]) if spread else ("", None)
             cells.append(f"{high.value:.4g} {unit}".strip() if high else "no runs")
         lines.append((name, *cells))
     return _table(lines)
@@ -156,7 +152,7 @@ def draw(plan: Plan, result: Result, file: FileName) -> Path:
 
 
 def _histogram(style, axes, plan, result, want):
-    variable = plan.scene.fmu.variable(want.name)
+    variable = want.quantity(plan.scene.fmu)
     figures = result.base.figures[str(want)]
     unit, values = variable.shown(figures[np.isfinite(figures)])
     if len(values):

@@ -1,6 +1,6 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use crate::declaration::units::{self, DEG_C, DisplayUnit, MPA};
+use crate::declaration::units::{self, DEG_C, DisplayUnit, MPA, Unit};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
@@ -69,12 +69,12 @@ impl Declare for StrengthSpec {
         ),
         temperature(
             "temperature.flash",
-            None,
+            (units::KELVIN_DIFFERENCE, None),
             "Largest flash temperature of the flanks over their whole face (Blok) with effects.tooth_friction; else 0",
         ),
         temperature(
             "temperature.contact",
-            Some(DEG_C),
+            (units::KELVIN, Some(DEG_C)),
             "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash temperature",
         ),
         Reading {
@@ -162,8 +162,12 @@ impl Declare for StrengthSpec {
 
 impl Effect for StrengthSpec {}
 
-const fn temperature(name: &'static str, display: Option<DisplayUnit>, description: &'static str) -> Reading {
-    Reading { name, unit: units::KELVIN, display, changes: Changes::Always, description }
+const fn temperature(
+    name: &'static str,
+    (unit, display): (Unit, Option<DisplayUnit>),
+    description: &'static str,
+) -> Reading {
+    Reading { name, unit, display, changes: Changes::Always, description }
 }
 
 const fn stress(name: &'static str, description: &'static str) -> Reading {

@@ -1,0 +1,138 @@
+"""Inputs that follow tables: one behaviour of `Differential` and `Scene`, between points, at jumps and in every period."""
+
+import numpy as np
+import pytest
+from bevel_differential import Differential, DifferentialError, Scene
+from bevel_differential.inputs import Table
+from bevel_differential.points import Steps
+
+# bodies that turn freely under the drive alone
+FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
+        "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
+DRIVE, SPEED = "carrier.torque_command", "carrier.speed"
+STEPS = [None, 0.3, 0.1, 0.01, 1e-3]
+
+
+@pytest.fixture(scope="module")
+def free(fmu_file):
+    with Differential(FREE, fmu=fmu_file) as driven:
+        yield driven
+
+
+@pytest.fixture(scope="module")
+def inertia(free):
+    """That of all bodies, kg·m², by a constant torque."""
+    return 100.0 / free.final([SPEED], {DRIVE: 100.0}, stop=1.0)[SPEED]
+
+
+def in_scene(tables, stop, step, fmu_file, **more):
+    with Scene(stop=stop, step=step, outputs=[SPEED, "carrier.angle"], set=FREE, tables=tables, fmu=fmu_file, **more) as scene:
+        return scene.run()
+
+
+@pytest.mark.parametrize("torque", [100.0, -100.0])
+@pytest.mark.parametrize("step", STEPS)
+def test_a_ramp_gives_its_momentum_at_any_step(step, torque, free, inertia, fmu_file):
+    times, values = [0.0, 1.0], [0.0, torque]
+    exact = 0.5 * torque / inertia
+    record = free.run({DRIVE: (times, values)}, [SPEED, DRIVE.removesuffix("_command")], 1.0, step)
+    assert record[SPEED][-1] == pytest.approx(exact, rel=1e-8)
+    assert record["carrier.torque"][-1] == pytest.approx(torque, rel=1e-8)
+    assert free.final([SPEED], {DRIVE: (times, values)}, stop=1.0)[SPEED] == pytest.approx(exact, rel=1e-8)
+    if step is not None:
+        of_scene = in_scene([(DRIVE, times, values, None)], 1.0, step, fmu_file)
+        assert np.array_equal(of_scene["time"], record["time"])
+        assert of_scene[SPEED] == pytest.approx(record[SPEED], rel=1e-12)
+
+
+@pytest.mark.parametrize("stop", [0.7, 3.0])
+def test_without_a_step_corners_and_jumps_count(stop, free, inertia):
+    times, values = [0.1, 0.4, 0.4, 0.55, 2.0], [50.0, 200.0, -100.0, 300.0, 0.0]
+    inputs = {DRIVE: (times, values)}
+    # the trapezoids, with the first value before and the last one after
+    knots = [0.0, *(time for time in times if time < stop), stop]
+    ends = [values[0], *(value for time, value in zip(times, values) if time < stop), np.interp(stop, times[3:], values[3:])]
+    exact = np.trapezoid(ends, knots) / inertia
+    assert free.final([SPEED], inputs, stop)[SPEED] == pytest.approx(exact, rel=1e-8)
+    record = free.run(inputs, [SPEED], stop, None)
+    assert record["time"].tolist() == sorted(set(knots))
+    assert record[SPEED][-1] == pytest.approx(exact, rel=1e-8)
+
+
+def test_held_values_are_a_staircase(free, inertia, fmu_file):
+    table = ([0.0, 1.0], [0.0, 100.0])
+    exact = 100.0 * np.sum(np.arange(10) * 0.1 * 0.1) / inertia
+    held = free.run({DRIVE: table}, [SPEED], 1.0, 0.1, input_slopes=False)
+    assert held[SPEED][-1] == pytest.approx(exact, rel=1e-7)
+    of_scene = in_scene([(DRIVE, *table, None)], 1.0, 0.1, fmu_file, input_slopes=False)
+    assert of_scene[SPEED] == pytest.approx(held[SPEED], rel=1e-12)
+
+
+def test_tables_that_no_long_step_follows_are_refused(fmu_file):
+    with Differential(FREE, effects__limited_slip=True, limited_slip__preload=50.0, limited_slip__torque_coefficient=0.0, fmu=fmu_file) as driven:
+        ramp = ([0.0, 1.0], [20.0, 80.0])
+        with pytest.raises(DifferentialError, match="limited_slip.preload: its table changes between its points.*a parameter is held"):
+            driven.final([SPEED], {"limited_slip.preload": ramp}, 1.0)
+        driven.run({"limited_slip.preload": ramp}, [SPEED], 0.01, 1e-3)
+        driven.final([SPEED], {"limited_slip.preload": ([0.0, 0.5, 0.5], [20.0, 20.0, 80.0])}, 1.0)
+        with pytest.raises(DifferentialError, match="carrier.torque_command.*without input_slopes"):
+            driven.run({DRIVE: ramp}, [SPEED], 1.0, None, input_slopes=False)
+        with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
+            driven.run({DRIVE: ramp}, [SPEED], 1.0, input_slopes="yes")
+
+
+PULSES = [0.0, 0.05, 0.05, 0.1], [100.0, 100.0, 0.0, 0.0], 0.1
+# by period: impulse in N·m·s, and jumps
+SAWTOOTH = [0.0, 0.1], [0.0, 100.0], 0.1
+CUT = [0.02, 0.06, 0.2], [100.0, 0.0, 70.0], 0.1
+
+
+@pytest.mark.parametrize("input_slopes", [True, False])
+@pytest.mark.parametrize("step", [0.08, 0.033, 0.4])
+def test_a_jump_comes_in_every_period(step, input_slopes, inertia, fmu_file):
+    record = in_scene([(DRIVE, *PULSES)], 1.0, step, fmu_file, input_slopes=input_slopes)
+    apart = np.abs(record["time"] - 0.05 * np.arange(1, 20)[:, np.newaxis]).min(axis=1)
+    assert apart.max() < 1e-12
+    assert record[SPEED][-1] == pytest.approx(50.0 / inertia, rel=1e-8)
+    # written out, without a period
+    times = [round(k * 0.1 + time, 12) for k in range(10) for time in PULSES[0]]
+    once = in_scene([(DRIVE, times, PULSES[1] * 10, None)], 1.0, step, fmu_file, input_slopes=input_slopes)
+    assert once["time"] == pytest.approx(record["time"], abs=1e-12)
+    assert once[SPEED] == pytest.approx(record[SPEED], rel=1e-9)
+
+
+@pytest.mark.parametrize("table, impulse", [(SAWTOOTH, 50.0), (CUT, 10.0 * (2.0 + 2.0 + 0.5 * 0.04 * 20.0))])
+@pytest.mark.parametrize("step", [0.08, 0.033])
+def test_the_end_of_a_period_is_a_jump_if_the_next_one_begins_otherwise(step, table, impulse, inertia, fmu_file):
+    record = in_scene([(DRIVE, *table)], 1.0, step, fmu_file)
+    assert np.abs(record["time"] - 0.1 * np.arange(1, 10)[:, np.newaxis]).min(axis=1).max() < 1e-12
+    if table is SAWTOOTH:
+        assert record[SPEED][-1] == pytest.approx(impulse / inertia, rel=1e-7)
+
+
+def test_a_period_that_ends_as_it_begins_has_no_jump(free):
+    variable = free.fmu.variable(DRIVE)
+    assert Table(variable, [0.0, 0.1, 0.3], [0.1, 0.7, 0.1], 0.3).jumps() == []
+    assert Table(variable, [0.0, 0.1, 0.1, 0.4, 0.4], [0.1, 0.7, 0.0, 0.1, 9.0], 0.2).jumps() == [(0.0, 0.2), (0.1, 0.2)]
+
+
+def test_jumps_that_are_the_same_are_one_point():
+    # 3 · 0.1 is more than 0.3 by rounding
+    steps = Steps.of(1.0, 0.08, ((0.0, 0.1), (0.3, None), (0.3 + 1e-13, None)))
+    assert np.diff(steps.points).min() > 1e-3
+    assert np.sum(np.abs(steps.points - 0.3) < 1e-6) == 1
+
+
+def test_countless_jumps_are_refused(fmu_file):
+    with pytest.raises(DifferentialError, match=r"period of 2e-10 s jump more than 1e\+08 times"):
+        in_scene([(DRIVE, [0.0, 1e-10, 1e-10], [1.0, 1.0, 0.0], 2e-10)], 1.0, 0.1, fmu_file)
+
+
+def test_a_scene_file_holds_or_follows_as_the_scene(tmp_path, fmu_file):
+    ramp = "[[table]]\ninput = 'carrier.torque_command'\ntime = [0.0, 1.0]\nvalue = [0.0, 100.0]\n"
+    for line, follows in (("", True), ("input_slopes = true\n", True), ("input_slopes = false\n", False)):
+        text = f"description = 'd'\nstop_time = 1\nstep = 0.1\noutputs = ['carrier.speed']\n{line}{ramp}"
+        (tmp_path / "ramp.toml").write_text(text, encoding="utf-8")
+        with Scene.load(tmp_path / "ramp.toml", fmu=fmu_file) as scene:
+            assert scene.input_slopes is follows
+            assert scene.contents()["input_slopes"] is follows
