@@ -20,7 +20,7 @@ def test_by_default_a_run_logs_nothing(categories):
 
 
 def test_debug_logging_reports_the_warning_of_the_start_values(categories):
-    assert categories(debug_logging=True) == ["logEvents", "logStatusWarning", "logEvents"]
+    assert categories(debug_logging=True) == ["logEvents", "logStatusWarning", "logEvents", "logEvents"]
 
 
 def test_errors_are_logged_without_debug_logging(through_fmpy):

@@ -93,7 +93,7 @@ def test_loads_that_nobody_set_and_that_turn_the_wheels_backward_are_named_at_th
     for torque, warns in [(300.0, True), (0.0, True), (-300.0, True), (-5000.0, True), (1669.9, True), (1670.0, False), (2000.0, False)]:
         assert len(backward(messages(fmu, kind, {**BY_TORQUE, "carrier.torque_command": torque}))) == warns, torque
         assert len(backward(messages3(fmu_file, kind, {**three, "carrier.torque_command": torque}))) == warns, torque
-    for given, warns in [({"left.load_torque": 100.0}, True), ({"left.load_torque": 835.0, "right.load_torque": 835.0}, False),
+    for given, warns in [({"left.load_torque": 100.0}, True), ({"left.load_torque": 900.0}, True), ({"left.load_torque": 835.0, "right.load_torque": 835.0}, False),
                          ({"left.load_torque": -900.0}, False), ({"effects.wheel_brake": True, "left.brake_torque": 2000.0}, False),
                          ({"scene.left_drive": "speed"}, True), ({"scene.left_drive": "speed", "right.load_torque": 835.0}, False)]:
         values = {**BY_TORQUE, "carrier.torque_command": 300.0, **given}

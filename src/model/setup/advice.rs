@@ -47,8 +47,9 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let unset: f64 = (0..2).filter(is_unset).map(load).sum();
     let brakes: f64 = if p.effects.wheel_brake { inputs.brake_torque.iter().sum() } else { 0.0 };
     // along the direction in which these loads turn the wheels
-    let [net, drive, without] = [unset + given - torque, -torque, given - torque].map(|of| of * unset.signum());
-    if unset == 0.0 || net <= brakes || without > 0.0 && drive <= 0.0 {
+    let [net, drive, alone, without] =
+        [unset + given - torque, -torque, unset - torque, given - torque].map(|of| of * unset.signum());
+    if unset == 0.0 || net <= brakes || without > 0.0 && alone <= 0.0 {
         return None;
     }
     let names: Vec<String> =
