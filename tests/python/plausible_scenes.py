@@ -69,8 +69,8 @@ BANDS = {
         "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2),
         "pv_limit": (0.0, 1e6), "beyond_limit": (0.5, 2.0)}.items()},
     "limited_slip.plate_coefficient": (0.05, 0.2), "wheel_brake.lining_coefficient": (0.2, 0.6),
-    # from the start for half
-    "strength.rate_from": (-0.02, 0.02)}
+    # from the start for half; half of the side gears have the mass of their solids
+    "strength.rate_from": (-0.02, 0.02), "inertia.side_gear_mass": (-1.0, 1.0)}
 # lengths that follow the module, in modules
 IN_MODULES = {
     "geometry.backlash": (0.0, 0.05), "geometry.planet_bore": (0.0, 2.0), "geometry.side_bore": (0.0, 4.0),

@@ -20,6 +20,9 @@ const EFFUSIVITY: f64 = 13_800.0;
 const COEFFICIENT: f64 = 0.05;
 const REGULARISATION: f64 = 1e-3;
 
+/// Sets one error to a size [m].
+type Set = fn(&mut ToothErrorSpec, f64);
+
 /// Rolling teeth with friction, with errors if any are given.
 fn rolling(law: ContactLaw, errors: Option<&ToothErrorSpec>, change: impl Fn(&mut Parameters)) -> Simulation {
     let mut p = Parameters::default();
@@ -155,7 +158,7 @@ fn flanks_flash_where_a_fine_search_over_the_face_says_inside_it_and_at_both_end
 fn temperatures_are_continuous_in_every_error() {
     // flanks that come nearer by 1e-12 m of a deflection of 10 μm are loaded more by 1e-7, which is 4e-6 K of 40 K; an offset of the
     // axes moves whole flanks
-    let errors: [(&str, fn(&mut ToothErrorSpec, f64)); 9] = [
+    let errors: [(&str, Set); 9] = [
         ("nothing", |_, _| {}),
         ("crowning", |e, x| e.crowning = x),
         ("planet relief", |e, x| e.planet_tip_relief = x),
