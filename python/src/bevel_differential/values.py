@@ -5,7 +5,7 @@ import difflib
 import math
 import os
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
@@ -23,6 +23,8 @@ _Shown = TypeVar("_Shown", float, np.ndarray)
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
+# between the middle of a band and its half
+BAND = re.compile(r"\+-|\+/-|±")
 # other ways to write units
 _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m", "1/min": "rpm"}
 
@@ -121,16 +123,16 @@ class Variable:
         number = self.number(value)
         return next((name for name, literal in self.literals.items() if literal == number), number)
 
-    def numbers(self, parts: Sequence[str], written: str, spreads: Collection[int] = ()) -> tuple[Number, ...]:
-        """Values of the texts in a list or range, `written` as a whole; `spreads` are the positions of differences, such as a
-        standard deviation. A unit that only some of them have is an error: in "4..5 mm" the first number would be 4 m."""
+    def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
+        """Values of the texts in a list, range, distribution or band, `written` as a whole. The second number of a normal distribution
+        and of a band is a difference. A unit that only some of them have is an error: in "4..5 mm" the first number would be 4 m."""
         matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
         bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
         if bare and any(match and match[2] for match in matches):
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
                                     "number")
-        spread = self.differences()
-        return tuple((spread if place in spreads else self).number(part) for place, part in enumerate(parts))
+        second = self.differences() if written.startswith("normal(") or BAND.search(written) else self
+        return tuple((second if place == 1 else self).number(part) for place, part in enumerate(parts))
 
     def has_unit(self, value: Value) -> bool:
         """Whether `value` is written with its unit."""

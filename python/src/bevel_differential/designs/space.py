@@ -99,7 +99,7 @@ class Dimension:
             # the factor has no unit
             numbers = (variable.number(parts[0]), _plain(variable, parts[1], text))
         else:
-            numbers = variable.numbers(parts, text, spreads={1} if kind == "normal" else ())
+            numbers = variable.numbers(parts, text)
         sane: dict[str, Callable[..., bool]] = {
             "uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
             "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}

@@ -8,13 +8,12 @@ import numpy as np
 from ..designs import Dimension
 from ..designs.space import Given as GivenValues
 from ..scene import Scene
-from ..values import DifferentialError, Number
+from ..values import BAND, DifferentialError, Number
 from .laws import Fixed, Gear, Given, Law, PitchGrade, RunoutGrade, band, gears, grade
 
 PITCH = "tooth_errors.accuracy_grade"
 RUNOUT = {"tooth_errors.planet_runout": "planet", "tooth_errors.side_runout": "side"}
 _GRADE = re.compile(r"grade\s+(\S+)$")
-_BAND = re.compile(r"\+-|\+/-|±")
 _USAGE = ("write \"grade 7\", \"0.1 mm +- 0.02 mm\", normal(MEAN, SD), uniform(A, B), triangular(A, PEAK, B), "
           "lognormal(MEDIAN, FACTOR), \"A..B\", a list or one value")
 # what the words do: the spread is so many times as large, or the grade so many steps coarser; how the former is said
@@ -73,7 +72,7 @@ class Reader:
             found = _GRADE.match(text)
             if found:
                 return self._grade(variable.name, found[1])
-            parts = _BAND.split(text)
+            parts = BAND.split(text)
             if len(parts) > 1:
                 return self._band(variable, text, [part.strip() for part in parts])
         dimension = Dimension.parse(self.fmu, variable.name, text)
@@ -97,4 +96,4 @@ class Reader:
             raise DifferentialError(f"{variable.name} = {text}: {_USAGE}")
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name} = {text}: only real variables have a band; {_USAGE}")
-        return band(variable.name, *variable.numbers(parts, text, spreads={1}), self.capability)
+        return band(variable.name, *variable.numbers(parts, text), self.capability)
