@@ -88,12 +88,12 @@ fn raise(worst: &mut RootSum, known: RootSum, more: RootSum) {
 }
 
 /// The planets' tooth in mesh with a side gear: with the other one it is half a revolution away.
-fn planet_tooth(place: &MeshPlace, rating: &Rating, side: usize) -> usize {
+fn planet_tooth(place: &MeshPlace, rating: &Rating, side: usize) -> (usize, usize) {
     place.tooth_of(rating.teeth[0], side * (rating.teeth[0] / 2))
 }
 
 /// Teeth of a side gear in mesh with the planets.
-fn side_teeth(place: &MeshPlace, rating: &Rating, planets: usize) -> impl Iterator<Item = usize> {
+fn side_teeth(place: &MeshPlace, rating: &Rating, planets: usize) -> impl Iterator<Item = (usize, usize)> {
     let (place, teeth) = (*place, rating.teeth[1]);
     (0..planets).map(move |planet| place.tooth_of(teeth, planet * teeth / planets))
 }

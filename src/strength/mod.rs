@@ -35,4 +35,4 @@ pub use rainflow::{LoadCycle, Rainflow};
 pub use rating::Rating;
 pub use root_stress::RootStress;
 pub use tooth_form::{Profile, ToothForm};
-pub use tooth_sums::{MOST_TEETH, ToothSums};
+pub use tooth_sums::ToothSums;

@@ -58,10 +58,10 @@ impl MeshPlace {
         Some(change)
     }
 
-    /// Of the gear with `teeth` teeth the one in mesh, where another was the first by `offset`.
-    pub fn tooth_of(&self, teeth: usize, offset: usize) -> usize {
+    /// Of a gear with `teeth` teeth the one that is in mesh `offset` teeth from where it is counted, and `teeth`.
+    pub fn tooth_of(&self, teeth: usize, offset: usize) -> (usize, usize) {
         let teeth = teeth.max(1);
-        ((self.tooth.rem_euclid(teeth as i64)) as usize + offset) % teeth
+        ((self.tooth.rem_euclid(teeth as i64) as usize + offset) % teeth, teeth)
     }
 }
 
@@ -106,7 +106,7 @@ mod tests {
         let change = place.advance(4.0).unwrap();
         // the first leaves at ½, the fourth comes at 3½
         assert_eq!((change.leaves, change.enters, place.tooth, place.place), (0.125, 0.875, 4, 0.0));
-        assert_eq!([(10, 0), (10, 5), (3, 0)].map(|(teeth, offset)| place.tooth_of(teeth, offset)), [4, 9, 1]);
+        assert_eq!([(10, 0), (10, 5), (3, 0)].map(|(teeth, offset)| place.tooth_of(teeth, offset).0), [4, 9, 1]);
         for step in [1e18, -1e300, f64::NAN, f64::INFINITY, f64::MAX] {
             place.advance(step);
             assert!(place.place.abs() <= 1.0 && place.entry.abs() <= 1.0, "{step} {place:?}");

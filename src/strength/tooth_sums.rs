@@ -1,38 +1,47 @@
 //! Damage sums of each tooth of a gear, in an array of fixed size; saved without the zeros behind the last tooth.
+//!
+//! Stacks are small where units run, and few gears of differentials have more than [`MOST_SUMS`] teeth: neighbours of such a gear
+//! share a sum, their mean.
 
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Most teeth of a gear.
-pub const MOST_TEETH: usize = 200;
+/// Most sums of a gear.
+pub const MOST_SUMS: usize = 64;
 
 /// Damage of both roots of each tooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToothSums([[f64; 2]; MOST_TEETH]);
+pub struct ToothSums([[f64; 2]; MOST_SUMS]);
 
 impl Default for ToothSums {
     fn default() -> Self {
-        Self([[0.0; 2]; MOST_TEETH])
+        Self([[0.0; 2]; MOST_SUMS])
     }
 }
 
 impl ToothSums {
-    /// Adds to both roots of a tooth; nothing if there is no such tooth.
-    pub fn add(&mut self, tooth: usize, roots: [f64; 2]) {
-        for (sum, root) in self.0.get_mut(tooth).into_iter().flatten().zip(roots) {
-            *sum += root;
+    /// Adds to both roots of a tooth of a gear with `teeth` teeth; nothing if there is no such tooth.
+    pub fn add(&mut self, (tooth, teeth): (usize, usize), roots: [f64; 2]) {
+        let share = sharing(teeth);
+        for (sum, root) in self.0.get_mut(tooth / share).into_iter().flatten().zip(roots) {
+            *sum += root / share as f64;
         }
     }
 
-    /// Both roots of a tooth.
-    pub fn of(&self, tooth: usize) -> [f64; 2] {
-        self.0.get(tooth).copied().unwrap_or_default()
+    /// Both roots of a tooth of a gear with `teeth` teeth.
+    pub fn of(&self, (tooth, teeth): (usize, usize)) -> [f64; 2] {
+        self.0.get(tooth / sharing(teeth)).copied().unwrap_or_default()
     }
 
     /// Largest sum at each of both roots.
     pub fn worst(&self) -> [f64; 2] {
         self.0.iter().fold([0.0; 2], |worst, roots| [worst[0].max(roots[0]), worst[1].max(roots[1])])
     }
+}
+
+/// How many teeth share a sum.
+fn sharing(teeth: usize) -> usize {
+    teeth.div_ceil(MOST_SUMS).max(1)
 }
 
 impl Serialize for ToothSums {
@@ -55,7 +64,7 @@ impl<'de> Visitor<'de> for Teeth {
     type Value = ToothSums;
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(formatter, "damage sums of up to {MOST_TEETH} teeth")
+        write!(formatter, "up to {MOST_SUMS} damage sums")
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut teeth: A) -> Result<ToothSums, A::Error> {

@@ -1,7 +1,7 @@
 //! Swings of the load while teeth are in mesh: teeth that stand, teeth that roll, and all between.
 
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::strength::{LoadCycle, Rating, TeethInMesh, ToothStrength, pulsating_range};
+use bevel_differential::strength::{LoadCycle, Rating, TeethInMesh, ToothStrength, ToothSums, pulsating_range};
 use std::f64::consts::{PI, TAU};
 
 const PLANETS: usize = 2;
@@ -132,8 +132,20 @@ fn the_mirror_image_and_a_saved_copy_are_the_same() {
     let saved = postcard::to_allocvec(&one).unwrap();
     assert_eq!(postcard::from_bytes::<TeethInMesh>(&saved).unwrap(), one);
     assert!(saved.len() < 3000, "{} bytes", saved.len());
-    let too_many = postcard::to_allocvec(&vec![[1.0; 2]; 201]).unwrap();
-    assert!(postcard::from_bytes::<bevel_differential::strength::ToothSums>(&too_many).is_err());
+    let too_many = postcard::to_allocvec(&vec![[1.0; 2]; 65]).unwrap();
+    assert!(postcard::from_bytes::<ToothSums>(&too_many).is_err());
+}
+
+#[test]
+fn gears_of_many_teeth_share_sums_of_neighbours() {
+    let mut sums = ToothSums::default();
+    for _ in 0..3 {
+        (0..200).for_each(|tooth| sums.add((tooth, 200), [1.0, 2.0]));
+    }
+    assert_eq!((sums.worst(), sums.of((0, 200)), sums.of((199, 200))), ([3.0, 6.0], [3.0, 6.0], [3.0, 6.0]));
+    sums.add((9, 10), [9.0, 0.0]);
+    sums.add((999, 10), [99.0, 0.0]);
+    assert_eq!((sums.worst(), sums.of((999, 10))), ([12.0, 6.0], [0.0; 2]));
 }
 
 #[test]
