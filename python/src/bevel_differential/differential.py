@@ -1,7 +1,6 @@
 """The differential, as a user has it."""
 
 import threading
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
@@ -14,7 +13,8 @@ from .inputs import Inputs, Signals
 from .instance import DISCARD, Closing, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
-from .values import DifferentialError, DifferentialWarning, FileName, Number, Value, Variable
+from .values import DifferentialError, FileName, Number, Value, Variable
+from .warned import warn
 
 if TYPE_CHECKING:
     import pandas
@@ -74,11 +74,6 @@ class Runner(Closing):
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
 
-    def _warn(self):
-        """Passes on what changed nothing in the last run, as warnings about the line that called `run`."""
-        for name, why in self.unfelt.items():
-            warnings.warn(f"{name}: {why}", DifferentialWarning, stacklevel=3)
-
     def _instance(self):
         if not hasattr(self._instances, "own"):
             self._instances.own = Instance(self.fmu)
@@ -115,12 +110,10 @@ class Differential(Runner):
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
         the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning,
-        `DifferentialWarning`; `warnings` has all warnings of the FMU."""
-        stop, step = span("stop", stop), None if step is None else span("step", step)
-        signals = Signals.of(self.fmu, inputs)
-        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
-        self._warn()
+        `DifferentialError` with the FMU's message. Warnings of the FMU are Python warnings, `DifferentialWarning`; `warnings` has
+        their texts."""
+        record = self._record(inputs, outputs, stop, step, values)
+        warn(self.warnings)
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
@@ -132,6 +125,12 @@ class Differential(Runner):
     def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, file=file)
+
+    def _record(self, inputs, outputs, stop, step, values=None):
+        """`run` without Python warnings."""
+        stop, step = span("stop", stop), None if step is None else span("step", step)
+        signals = Signals.of(self.fmu, inputs)
+        return self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
 
     def __getstate__(self) -> dict[str, Any]:
         # only the values go to other processes

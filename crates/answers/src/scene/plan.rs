@@ -3,9 +3,7 @@
 use std::fmt::Write as _;
 
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
-use bevel_differential::problem::Problem;
-use bevel_differential::variables::felt::{self, Situation};
-use bevel_differential::variables::{Causality, named, number, table, value_of};
+use bevel_differential::variables::{Causality, named, value_of};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -105,29 +103,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         let slopes = if scene.input_slopes { ", straight within steps" } else { "" };
         line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
     }
-    for warning in simulation.warnings().iter().chain(&unfelt(scene)) {
-        line("warning", &warning.to_string());
-    }
     out
-}
-
-/// Values that change nothing in `scene`, at the start or later, each variable once.
-fn unfelt(scene: &Scene) -> Vec<Problem> {
-    let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
-    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
-    let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
-        let index = table().rows.iter().position(|row| row.name == name);
-        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
-        found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
-    };
-    for setting in scene.events.iter().flat_map(|event| &event.settings) {
-        setting.apply(&mut parameters, &mut inputs);
-        later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
-    }
-    for table in &scene.input_tables {
-        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
-    }
-    found
 }
 
 /// Literal and meaning of an enumeration in `scene`.

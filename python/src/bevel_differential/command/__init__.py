@@ -6,13 +6,13 @@ import importlib
 import importlib.util
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
 from ..extras import install, version
 from ..text import aligned
-from ..values import DifferentialError, DifferentialWarning, suggestion
+from ..values import DifferentialError, suggestion
+from ..warned import printed
 
 NAME = "bevel-differential"
 # module, the extra of this package that it needs, what it does
@@ -86,9 +86,7 @@ def _run(name, arguments):
             parsed = parser.parse_args(arguments)
         except SystemExit as end:
             return end.code
-        with warnings.catch_warnings():
-            # commands print what the FMU warns of themselves
-            warnings.simplefilter("ignore", DifferentialWarning)
+        with printed():
             return module.run(parsed)
     except ModuleNotFoundError as missing:
         if missing.name.partition(".")[0] == PACKAGE:

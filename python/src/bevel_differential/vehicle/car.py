@@ -11,6 +11,7 @@ from ..instance import Instance
 from ..plot import plot
 from ..points import Steps, TimeValue, span
 from ..values import DifferentialError, FileName, Number, Value, suggestion
+from ..warned import warn
 from .motion import Motion
 from .parts import Body, Motor, Tyre
 from .signals import Course, course, speed_value
@@ -87,6 +88,7 @@ class Car:
                     else:
                         instance.set({name: value})
                 run.step(time, steps.points[row + 1] - time, [asked[name] for name in REQUESTS])
+            warn(instance.messages)
         return record
 
     def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":

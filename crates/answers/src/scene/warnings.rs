@@ -1,0 +1,32 @@
+//! Warnings about a scene before its first step: unusual values, and values that change nothing.
+
+use bevel_differential::model::{Parameters, Simulation};
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::{number, table};
+
+use super::Scene;
+
+/// Warnings about `scene`, whose `simulation` has started.
+pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<Problem> {
+    simulation.warnings().iter().cloned().chain(unfelt(scene)).collect()
+}
+
+/// Values that change nothing in `scene`, at the start or later, each variable once.
+fn unfelt(scene: &Scene) -> Vec<Problem> {
+    let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
+    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
+    let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
+        let index = table().rows.iter().position(|row| row.name == name);
+        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
+        found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
+    };
+    for setting in scene.events.iter().flat_map(|event| &event.settings) {
+        setting.apply(&mut parameters, &mut inputs);
+        later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
+    }
+    for table in &scene.input_tables {
+        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
+    }
+    found
+}
