@@ -36,7 +36,14 @@ impl<'a> Progress<'a> {
     /// `report` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go
     /// on.
     pub fn new(report: impl FnMut(f64, &str) -> bool + 'a) -> Self {
-        Self { report: Box::new(report), done: 0.0, task: String::new(), asked: None, stopped: false, warnings: Vec::new() }
+        Self {
+            report: Box::new(report),
+            done: 0.0,
+            task: String::new(),
+            asked: None,
+            stopped: false,
+            warnings: Vec::new(),
+        }
     }
 
     /// No caller: nothing is reported, and the work is never stopped.

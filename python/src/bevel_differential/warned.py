@@ -22,6 +22,16 @@ def warn(texts: Iterable[str]) -> None:
         warnings.warn(text, DifferentialWarning, stacklevel=level)
 
 
+def by_owner(warnings: Iterable[tuple[str, Iterable[str]]], kind: str) -> list[str]:
+    """Each text once, with the name of what it is about, or with the number of these. `warnings`: pairs (name, texts); `kind`: the
+    plural of what has the names."""
+    owners: dict[str, list[str]] = {}
+    for name, texts in warnings:
+        for text in dict.fromkeys(texts):
+            owners.setdefault(text, []).append(name)
+    return [f"{names[0] if len(names) == 1 else f'{len(names)} {kind}'}: {text}" for text, names in owners.items()]
+
+
 @contextmanager
 def printed() -> Iterator[None]:
     """Prints each different text once to standard error, until the end of the `with` statement."""

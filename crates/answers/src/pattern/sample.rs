@@ -102,7 +102,10 @@ impl Engagement {
         }
         let largest = contacts.iter().max_by(|a, b| a.line_load.total_cmp(&b.line_load));
         let Some(followed) = largest.map(|c| c.name).filter(|_| !solid) else {
-            bail!("scene {}: no pair of planet 1's left mesh came into touch and parted again before its end", scene.name);
+            bail!(
+                "scene {}: no pair of planet 1's left mesh came into touch and parted again before its end",
+                scene.name
+            );
         };
         let [planet, side] = followed.1;
         progress.warn(run.warnings());

@@ -14,7 +14,7 @@ from ..records import write
 from ..scene import Scene
 from ..text import aligned
 from ..values import DifferentialError, FileName, Value, suggestion
-from ..warned import silenced, warn
+from ..warned import by_owner, silenced, warn
 from .cycle import QUANTITIES, read_cycle
 from .damage import MODES, Event, EventDamage, evaluate
 from .driven import DRIVES, check_commands, drives_of, open_loads
@@ -108,11 +108,7 @@ class SpectrumResult:
     @property
     def warnings(self) -> list[str]:
         """What the FMU warned of, each warning once: with the name of its event, or with the number of its events."""
-        events: dict[str, list[str]] = {}
-        for event_damage in self.events:
-            for warning in event_damage.warnings:
-                events.setdefault(warning, []).append(event_damage.event.name)
-        return [f"{names[0] if len(names) == 1 else f'{len(names)} events'}: {warning}" for warning, names in events.items()]
+        return by_owner(((one.event.name, one.warnings) for one in self.events), "events")
 
     def table(self) -> np.ndarray:
         """A row for each event, the worst first: a structured array, which pandas takes as it is.
