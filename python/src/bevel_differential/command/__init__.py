@@ -25,7 +25,7 @@ COMMANDS = {
     "geometry": (".command.geometry", None,
                  "calculate all dimensions of the gears, check them for interference, make files for CAD"),
     "pattern": (".pattern.command", "plot",
-                "show the contact pattern of solid teeth: pressure on the planet's flank over one engagement"),
+                "show the contact pattern of a scene: pressure on the planet's flank over one engagement"),
     "sweep": (".command.sweep", "sweep", "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"),
     "optimise": (".optimise.command", "design", "optimise gears by several objectives at once"),
     "tolerance": (".tolerance.command", "design",
