@@ -75,7 +75,8 @@ def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle
     (["name,count,duration [s],left.load_torque [N.m]", "a,1,1,"], ["line 2, column left.load_torque [N.m]", "write a value"]),
     (["name,count,distance [m],speed [m/s]", "a,1,10,0"], ["line 2, column distance [m]", "speed other than 0"]),
     (["name,count,history", "a,1,missing.csv"], ["missing.csv", "No such file"]),
-    (["name,count,duration [s],lock.command", "a,1,1,7"], ["event 'a'", "lock.command"]),
+    (["name,count,duration [s],speed [m/s],wheel_radius [m],torque [N.m],lock.command", "a,1,1,5,0.3,100,7"],
+     ["event 'a'", "lock.command"]),
 ])
 def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
     with pytest.raises(DifferentialError) as error:
@@ -112,3 +113,58 @@ def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_pa
         assert main(["spectrum", *wrong, "--fmu", fmu_file]) == 1
         message = capsys.readouterr().err.strip().splitlines()[-1]
         assert message.startswith("bevel-differential: ") and part in message, message
+
+
+LOADS = ["left.load_torque", "right.load_torque"]
+
+
+def by_torque(result):
+    return list(result.damage.values())
+
+
+@pytest.mark.parametrize("head, row", [(HEAD, "turn,1,20,10,6,"), (HEAD.replace(",torque [N.m]", ""), "turn,1,20,10,6"),
+                                       (f"{HEAD.replace(',torque [N.m]', '')},left.load_torque [N.m]", "turn,1,20,10,6,")])
+def test_a_missing_load_is_refused_unless_the_scene_gives_it(cycle, tmp_path, head, row):
+    with pytest.raises(DifferentialError, match="line 2.*(torque|left.load_torque).*nobody gives"):
+        cycle(head, row)
+    scene = tmp_path / "car.toml"
+    scene.write_text('description = "a car"\nstop_time = 0.1\nstep = 1e-3\noutputs = ["left.speed"]\n[set]\n'
+                     'left.load_torque = 1100.0\nright.load_torque = 1100.0\n', encoding="utf-8")
+    found = cycle(head, row, scene=scene)
+    # half of a torque of the ring gear loads each side
+    assert by_torque(found) == pytest.approx(by_torque(cycle(HEAD, "turn,1,20,10,6,2200")), rel=1e-9)
+    assert found.loads == tuple(f"load not in the duty cycle: {name} = 1100 N·m from scene {scene}, in all events" for name in LOADS)
+    assert all(line in found.summary() for line in found.loads)
+    given = cycle(head, row, parameters=dict.fromkeys(LOADS, "1100 N.m"))
+    assert by_torque(given) == pytest.approx(by_torque(found), rel=1e-9) and "from the parameters (--set)" in given.loads[0]
+
+
+def test_one_blank_load_among_others_is_refused_and_a_full_duty_cycle_names_no_source(cycle):
+    lines = [HEAD, "one,1,20,10,6,2200", "two,1,20,10,6,"]
+    with pytest.raises(DifferentialError, match="line 3, column torque"):
+        cycle(*lines)
+    assert cycle(*lines[:2]).loads == ()
+    found = cycle(*lines, parameters=dict.fromkeys(LOADS, 300.0))
+    assert [line.endswith("in 1 event (two)") for line in found.loads] == [True, True]
+
+
+def test_a_carrier_that_is_driven_by_torque_needs_its_torque(cycle):
+    with pytest.raises(DifferentialError, match="carrier.torque_command in the scene.*nobody gives"):
+        cycle(HEAD, "a,1,20,10,6,", parameters={"scene.carrier_drive": "torque", **dict.fromkeys(LOADS, 300.0)})
+
+
+@pytest.mark.parametrize("driven, name", [("speed", "carrier.speed_command"), ("torque", None)])
+def test_a_missing_speed_is_refused(cycle, driven, name):
+    lines = ["name,count,duration [s],torque [N.m]", "a,1,20,900"]
+    if name is None:
+        assert cycle(*lines, parameters={"scene.carrier_drive": driven}).loads == ()
+        return
+    with pytest.raises(DifferentialError, match=f"line 2: speed.*{name}.*nobody gives"):
+        cycle(*lines, parameters={"scene.carrier_drive": driven})
+
+
+def test_events_from_python_need_their_loads_too(fmu_file):
+    from bevel_differential.spectrum import Event
+
+    with pytest.raises(DifferentialError, match="left.load_torque: event 'one'.*nobody gives"):
+        spectrum([Event("one", 1.0, 1.0, values={"carrier.speed_command": 50.0})], fmu=fmu_file)

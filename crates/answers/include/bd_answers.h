@@ -24,7 +24,8 @@ extern "C" {
  *
  * `question` is an object of JSON in UTF-8 that ends with a zero byte; `numbers` are the numbers that belong to it, `count` of
  * them. `progress` may be null. The reply is JSON that ends with a zero byte, to be freed by `bd_free`: `{"answer": ...}`, or
- * `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. It is null only where there is no memory.
+ * `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both have `"warnings": [...]`, texts about the scene or
+ * its gears, each once. It is null only where there is no memory.
  *
  * # Safety
  * `question` is null or points to a text with a zero byte at its end, `numbers` to `count` numbers or is null with a count of 0;

@@ -1,4 +1,5 @@
-//! Progress of the work on an answer, for the caller that waits for it. The caller may stop the work.
+//! Progress of the work on an answer, for the caller that waits for it, and warnings about what the question asks. The caller may
+//! stop the work.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -16,6 +17,7 @@ pub struct Progress<'a> {
     task: String,
     asked: Option<Instant>,
     stopped: bool,
+    warnings: Vec<String>,
 }
 
 /// The caller stopped the work.
@@ -34,7 +36,14 @@ impl<'a> Progress<'a> {
     /// `report` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go
     /// on.
     pub fn new(report: impl FnMut(f64, &str) -> bool + 'a) -> Self {
-        Self { report: Box::new(report), done: 0.0, task: String::new(), asked: None, stopped: false }
+        Self {
+            report: Box::new(report),
+            done: 0.0,
+            task: String::new(),
+            asked: None,
+            stopped: false,
+            warnings: Vec::new(),
+        }
     }
 
     /// No caller: nothing is reported, and the work is never stopped.
@@ -63,6 +72,20 @@ impl<'a> Progress<'a> {
         if self.stopped { Err(Stopped) } else { Ok(()) }
     }
 
+    /// Adds warnings to the answer, each text once.
+    pub fn warn(&mut self, warnings: impl IntoIterator<Item = impl fmt::Display>) {
+        for text in warnings.into_iter().map(|warning| warning.to_string()) {
+            if !self.warnings.contains(&text) {
+                self.warnings.push(text);
+            }
+        }
+    }
+
+    /// Warnings so far.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     fn ask(&mut self) {
         self.asked = Some(Instant::now());
         self.stopped = self.stopped || !(self.report)(self.done, &self.task);
@@ -72,6 +95,14 @@ impl<'a> Progress<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_warning_is_kept_once() {
+        let mut progress = Progress::silent();
+        progress.warn(["b", "a"]);
+        progress.warn(["a", "c"]);
+        assert_eq!(progress.warnings(), ["b", "a", "c"]);
+    }
 
     #[test]
     fn work_that_was_stopped_stays_so() {

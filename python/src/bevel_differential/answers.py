@@ -15,6 +15,7 @@ import numpy as np
 from . import machine
 from .interrupts import held_back
 from .values import DifferentialError
+from .warned import warn
 
 # told the part of the work that is done, from 0 to 1, and what is being done
 Progress: TypeAlias = Callable[[float, str], None]
@@ -23,7 +24,8 @@ _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, cty
 
 
 def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress: Progress | None = None) -> dict[str, Any]:
-    """The answer to a question, with the `numbers` that belong to it. Ctrl-C, or any error in `progress`, stops the work.
+    """The answer to a question, with the `numbers` that belong to it. Ctrl-C, or any error in `progress`, stops the work. Warnings
+    about a scene or its gears are Python warnings, `DifferentialWarning`.
 
     Raises `DifferentialError`; its `problems` are dicts with `message` and, where they are known, `variable`, `value`, `unit`,
     `range` and `hint`; its `kind` is "use" if the question makes no sense, otherwise "failed"."""
@@ -44,6 +46,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
         reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
         found = json.loads(ctypes.string_at(reply))
         library.bd_free(reply)
+    warn(found.get("warnings", ()))
     if "answer" not in found:
         message = "\n".join(problem["message"] for problem in found["problems"])
         raise DifferentialError(message, kind=found["kind"], problems=found["problems"])

@@ -1,7 +1,6 @@
 """The differential, as a user has it."""
 
 import threading
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
@@ -11,10 +10,11 @@ from .batches import Batches
 from .extras import require
 from .fmu import Fmu
 from .inputs import Inputs, Signals
-from .instance import DISCARD, LIKELY_NOT_MEANT, Closing, Instance
+from .instance import DISCARD, Closing, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
-from .values import DifferentialError, DifferentialWarning, FileName, Number, Value, Variable
+from .values import DifferentialError, FileName, Number, Value, Variable
+from .warned import warn
 
 if TYPE_CHECKING:
     import pandas
@@ -74,13 +74,6 @@ class Runner(Closing):
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
 
-    def _warn(self):
-        """Passes on what was likely not meant in the last run, as warnings about the line that called `run`: values that changed
-        nothing, values that acted and that nobody set, and speeds beyond all measure."""
-        for text in self.warnings:
-            if any(part in text for part in LIKELY_NOT_MEANT):
-                warnings.warn(text, DifferentialWarning, stacklevel=3)
-
     def _instance(self):
         if not hasattr(self._instances, "own"):
             self._instances.own = Instance(self.fmu)
@@ -118,13 +111,10 @@ class Differential(Runner):
         end at jumps, and between points inputs are straight. With `input_slopes=False` values are held within a step, as those of
         parameters always are. `values`: parameters for this run alone. Returns a structured array: field "time" (s) and one of each
         output, in SI; shape (points,). `step=None` takes one step to the end, or from corner to corner of the tables, and records these
-        points. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. A value that changes
-        nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has all warnings of the FMU."""
-        stop, step = span("stop", stop), None if step is None else span("step", step)
-        signals = Signals.of(self.fmu, inputs, input_slopes)
-        stops = signals.corners() if step is None else signals.jumps
-        record = self._simulate(Steps.of(stop, step, stops), signals, outputs, values)
-        self._warn()
+        points. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. Warnings of the FMU
+        are Python warnings, `DifferentialWarning`; `warnings` has their texts."""
+        record = self._record(inputs, outputs, stop, step, values, input_slopes)
+        warn(self.warnings)
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
@@ -136,6 +126,13 @@ class Differential(Runner):
     def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, file=file)
+
+    def _record(self, inputs, outputs, stop, step, values=None, input_slopes=True):
+        """`run` without Python warnings."""
+        stop, step = span("stop", stop), None if step is None else span("step", step)
+        signals = Signals.of(self.fmu, inputs, input_slopes)
+        stops = signals.corners() if step is None else signals.jumps
+        return self._simulate(Steps.of(stop, step, stops), signals, outputs, values)
 
     def __getstate__(self) -> dict[str, Any]:
         # only the values go to other processes

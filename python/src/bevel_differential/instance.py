@@ -18,8 +18,6 @@ LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
 UNFELT = " changes nothing in this scene: "
 # beginning of the line that lists values which act and which nobody set
 NOBODY_SET = "values of the study that nobody set act in this scene: "
-# parts of warnings about a result that is likely not meant
-LIKELY_NOT_MEANT = (UNFELT, "nobody set ", "faster than any differential turns")
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 # fmpy's class and the element of the model description for each kind of instance

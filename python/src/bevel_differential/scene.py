@@ -17,6 +17,7 @@ from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
 from .values import DifferentialError, FileName, Number, Value
+from .warned import warn
 
 if TYPE_CHECKING:
     import pandas
@@ -85,13 +86,13 @@ class Scene(Runner):
         Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
         DataFrame, by time."""
         record = self._record(outputs, values, stop)
-        self._warn()
+        warn(self.warnings)
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
         found = self._final(outputs, values)
-        self._warn()
+        warn(self.warnings)
         return found
 
     def says(self, values: Mapping[str, Value] | None = None) -> str:

@@ -49,7 +49,7 @@ class DifferentialError(ValueError):
 
 
 class DifferentialWarning(UserWarning):
-    """A value changes nothing in the scene in which it is set."""
+    """A warning of the FMU: an unusual value, a limit that is exceeded, or a value that changes nothing in its scene."""
 
 
 class Variable:

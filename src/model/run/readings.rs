@@ -147,6 +147,16 @@ impl Simulation {
         }
     }
 
+    /// Visits the load of every tooth pair of planet 1 with the left side gear, slice by slice if loads differ over the face.
+    /// The function in the second argument then gives the load per width [N/m] of that pair at any cone distance [m]. The
+    /// parts of the normal are left at zero.
+    pub fn loads_over_the_face(&self, visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>)) {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let Gears::Teeth(teeth) = &model.gears else { return };
+        let first = model.ideal.plan.group_of[0];
+        Largest::new(teeth, inputs, state).loads_over_the_face(&state.point(), first, 0, visit);
+    }
+
     /// State and what is watched with the step ahead completed up to the present.
     pub(super) fn completed(&self) -> (State, Watched) {
         let (mut state, mut watched) = (self.state, self.watched);

@@ -111,7 +111,7 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
             question.from, scene.name, scene.stop_time, scene.step
         )));
     }
-    SceneRun::start(&scene, scene.step)?;
+    progress.warn(SceneRun::start(&scene, scene.step)?.warnings());
     let richest = reference::richest(&scene)?;
     let (reference, spent) = reference::run(&richest.scene, &wants, question, progress)?;
     let uncertain = 3.0 * reference.0.error() > question.within;

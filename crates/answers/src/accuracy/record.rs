@@ -19,6 +19,8 @@ pub struct Record {
     pub phases: [Vec<f64>; 2],
     /// What it took.
     pub effort: Effort,
+    /// Warnings since the start.
+    pub warnings: Vec<String>,
 }
 
 /// What a run takes.
@@ -66,6 +68,7 @@ impl Record {
                 return Err(format!("given up at {:.3e} s, after {:.0} evaluations", run.time(), effort.evaluations));
             }
         }
+        record.warnings = run.warnings_since_start().iter().map(Problem::to_string).collect();
         record.effort.seconds = begun.elapsed().as_secs_f64() - record.effort.start;
         Ok(record)
     }

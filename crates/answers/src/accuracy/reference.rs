@@ -113,6 +113,7 @@ pub fn run(
         finest.errors = (0..wants.len()).map(stray).collect();
         let steady = finest.errors.iter().all(|&stray| stray < STEADY * question.within);
         if steady || refined == REFINED || tolerance <= tolerances()[0] {
+            progress.warn(&record.warnings);
             return Ok(((finest, scales), spent));
         }
         last = finest;

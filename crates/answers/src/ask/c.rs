@@ -18,7 +18,8 @@ pub type bd_progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f
 ///
 /// `question` is an object of JSON in UTF-8 that ends with a zero byte; `numbers` are the numbers that belong to it, `count` of
 /// them. `progress` may be null. The reply is JSON that ends with a zero byte, to be freed by `bd_free`: `{"answer": ...}`, or
-/// `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. It is null only where there is no memory.
+/// `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both have `"warnings": [...]`, texts about the scene or
+/// its gears, each once. It is null only where there is no memory.
 ///
 /// # Safety
 /// `question` is null or points to a text with a zero byte at its end, `numbers` to `count` numbers or is null with a count of 0;
@@ -33,10 +34,10 @@ pub unsafe extern "C" fn bd_ask(
 ) -> *mut c_char {
     let replied = catch_unwind(|| {
         if question.is_null() {
-            return reply(Err(Refusal::unreadable("there is no question: the pointer is null")));
+            return reply(Err(Refusal::unreadable("there is no question: the pointer is null")), &[]);
         }
         if numbers.is_null() && count > 0 {
-            return reply(Err(Refusal::unreadable(format!("{count} numbers are said to be at null"))));
+            return reply(Err(Refusal::unreadable(format!("{count} numbers are said to be at null"))), &[]);
         }
         // SAFETY: the caller's promise
         let question = unsafe { CStr::from_ptr(question) };
@@ -46,9 +47,10 @@ pub unsafe extern "C" fn bd_ask(
             // SAFETY: a function of the caller's, with its own context
             unsafe { progress(context, done, what.as_ptr()) == 0 }
         });
-        reply(answer(question, numbers, &mut reports))
+        let answer = answer(question, numbers, &mut reports);
+        reply(answer, reports.warnings())
     });
-    replied.unwrap_or_else(|_| reply(Err(internal("a fault of this library"))))
+    replied.unwrap_or_else(|_| reply(Err(internal("a fault of this library")), &[]))
 }
 
 /// Frees a reply; null is nothing to free.
@@ -102,10 +104,10 @@ fn internal(what: &str) -> Refusal {
     Refusal { kind: "internal", problems: vec![format!("{what}: please report it with the question").into()] }
 }
 
-fn reply(answer: Result<serde_json::Value, Refusal>) -> *mut c_char {
+fn reply(answer: Result<serde_json::Value, Refusal>, warnings: &[String]) -> *mut c_char {
     let value = match answer {
-        Ok(answer) => json!({"answer": answer}),
-        Err(Refusal { kind, problems }) => json!({"kind": kind, "problems": problems}),
+        Ok(answer) => json!({"answer": answer, "warnings": warnings}),
+        Err(Refusal { kind, problems }) => json!({"kind": kind, "problems": problems, "warnings": warnings}),
     };
     // zero bytes are escaped in JSON, so that there are none
     CString::new(value.to_string()).map_or(ptr::null_mut(), CString::into_raw)

@@ -44,10 +44,12 @@ impl GeometryQuestion {
         let (design, thicken) = self.checked()?;
         progress.begin_task(0.0, "turning the gears through a tooth pitch");
         let check = InterferenceCheck::with_progress(&design, thicken, progress)?;
-        let (dimensions, found) = (text::text(&design), check.text());
+        // the caller shows the warnings of the reply, and files have their own
+        let (dimensions, found) = (text::dimensions(&design), check.text());
+        progress.warn(&design.warnings);
         let mut files = Map::new();
         let mut add = |name: String, content: String| files.insert(name, Value::String(content));
-        add("dimensions.txt".into(), dimensions.clone());
+        add("dimensions.txt".into(), text::text(&design));
         add("dimensions.json".into(), json::text(&design, Some(&check))?);
         add("interference.txt".into(), found.clone());
         for curve in xyz::curves(&design.pair, &design.spec, self.facets + 1) {

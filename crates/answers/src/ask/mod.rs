@@ -57,7 +57,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
     let answer = match question {
         Question::Scenes(question) => question.answer(),
         Question::Scene(question) => question.values(),
-        Question::Plan(question) => question.plan(),
+        Question::Plan(question) => question.plan(progress),
         Question::Run(question) => question.answer(progress),
         Question::Export(question) => question.answer(),
         Question::Loads(question) => question.answer(progress),

@@ -107,9 +107,10 @@ impl SceneQuestion {
         }))
     }
 
-    pub(super) fn plan(&self) -> Result<Value> {
+    pub(super) fn plan(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene()?;
         let run = SceneRun::start(&scene, scene.step)?;
+        progress.warn(run.warnings());
         Ok(json!({"text": plan::text(&scene, &run.simulation)}))
     }
 }

@@ -7,6 +7,11 @@ use crate::text::table::{Table, wrapped};
 
 /// Dimensions, planar approximation and warnings of `design`.
 pub fn text(design: &Design) -> String {
+    format!("{}\n{}", dimensions(design), warnings(design))
+}
+
+/// Dimensions and planar approximation of `design`.
+pub fn dimensions(design: &Design) -> String {
     let mut out = String::from("Straight bevel gears of a differential, spherical-involute flanks\n");
     out.push_str(&wrapped(&set(design)));
     out.push_str(&wrapped(
@@ -23,8 +28,6 @@ pub fn text(design: &Design) -> String {
     }));
     out.push('\n');
     out.push_str(&planar(design));
-    out.push('\n');
-    out.push_str(&warnings(design));
     out
 }
 

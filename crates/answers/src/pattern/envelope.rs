@@ -8,7 +8,8 @@ use bevel_differential::geometry::Pair;
 
 use crate::text::csv_file::CsvFile;
 
-use super::sample::{Engagement, LoadedSection};
+use super::sample::Engagement;
+use super::sections::LoadedSection;
 
 /// Spots along the face and along the profile.
 const SPOTS: [usize; 2] = [61, 161];
@@ -37,7 +38,7 @@ impl Envelope {
         let mut pressure = vec![vec![0.0; SPOTS[1]]; SPOTS[0]];
         let contacts: Vec<&LoadedSection> = record.engagement().collect();
         let outermost = |better: fn(f64, f64) -> f64, from| record.contacts.iter().map(|c| c.cone).fold(from, better);
-        let face = [outermost(f64::min, f64::INFINITY), outermost(f64::max, 0.0)];
+        let face = record.ends.unwrap_or([outermost(f64::min, f64::INFINITY), outermost(f64::max, 0.0)]);
         for line in contacts.chunk_by(|a, b| a.time == b.time) {
             for (&cone, column) in cones.iter().zip(&mut pressure) {
                 let Some([polar, peak, half]) = between(line, cone, face) else { continue };

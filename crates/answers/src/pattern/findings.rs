@@ -1,12 +1,16 @@
 //! What a pattern shows, in numbers.
 
 use anyhow::{Context, Result};
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::GearContact;
 
+use crate::scene::Scene;
 use crate::text::csv_file::CsvFile;
 use crate::text::table::Table;
 
 use super::cases::PatternCase;
-use super::sample::{Engagement, LoadedSection};
+use super::sample::Engagement;
+use super::sections::LoadedSection;
 
 /// Numbers of one case, at the instant at which the pair is at the pitch point unless they say otherwise.
 #[derive(Clone, Debug)]
@@ -32,6 +36,8 @@ pub struct PatternFindings {
     pub most: f64,
     /// Heights on the planet at the middle of the face between which the pair carries [m].
     pub heights: [f64; 2],
+    /// Kind of teeth: `solid`, or the contact law.
+    pub teeth: &'static str,
 }
 
 impl PatternFindings {
@@ -64,6 +70,7 @@ impl PatternFindings {
                 record.engagement().map(|c| height(c, mean)).fold(f64::INFINITY, f64::min),
                 record.engagement().map(|c| height(c, mean)).fold(f64::NEG_INFINITY, f64::max),
             ],
+            teeth: teeth(&case.scene),
         })
     }
 
@@ -79,6 +86,16 @@ impl PatternFindings {
             format!("{:.0}", 100.0 * self.bearing),
             format!("{:+.2} to {:+.2}", 1e3 * self.heights[0], 1e3 * self.heights[1]),
         ]
+    }
+}
+
+/// Kind of teeth of `scene`.
+fn teeth(scene: &Scene) -> &'static str {
+    match (scene.parameters.scene.gear_contact, scene.parameters.contact.law) {
+        (GearContact::Solid, _) => "solid",
+        (_, ContactLaw::Impact) => "impact",
+        (_, ContactLaw::Line) => "line",
+        (_, ContactLaw::LineWeber) => "line_weber",
     }
 }
 
@@ -127,11 +144,11 @@ pub fn markdown(found: &[PatternFindings]) -> String {
 
 /// Columns of the file.
 const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
-                       lowest,highest";
+                       lowest,highest,teeth";
 
 /// The numbers as a file.
 pub fn csv(found: &[PatternFindings]) -> Result<String> {
-    let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm"])?;
+    let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm,-"])?;
     for f in found {
         let [name, title] = &f.case;
         let flank = if f.is_drive { "drive" } else { "coast" };
@@ -149,7 +166,8 @@ pub fn csv(found: &[PatternFindings]) -> Result<String> {
             1e3 * f.heights[1],
         ];
         let texts = [name, title, flank].map(str::to_owned);
-        file.push(texts.into_iter().chain(numbers.map(|x| format!("{x:.4}"))))?;
+        let numbers = numbers.map(|x| format!("{x:.4}"));
+        file.push(texts.into_iter().chain(numbers).chain([f.teeth.to_owned()]))?;
     }
     file.text()
 }

@@ -1,14 +1,15 @@
 //! The contact pattern: the largest pressure on each spot of a flank while a pair of teeth goes through mesh.
 //!
-//! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here teeth are solid
-//! (`scene.gear_contact = solid`). Every loaded section of planet 1's left mesh is followed over one whole engagement
-//! ([`sample`]), placed on the flank and given its Hertz pressure; the largest on each spot is the
-//! pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] the results in numbers.
+//! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here the tooth pairs of a scene
+//! (`scene.gear_contact = tooth` or `solid`) are divided over the face into sections ([`sections`]). Every loaded section of
+//! planet 1's left mesh is followed over one whole engagement ([`sample`]), placed on the flank and given its Hertz pressure;
+//! the largest on each spot is the pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] the results in numbers.
 
 pub mod cases;
 pub mod envelope;
 pub mod findings;
 pub mod sample;
+pub mod sections;
 
 use anyhow::Result;
 

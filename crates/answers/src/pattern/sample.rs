@@ -1,66 +1,37 @@
 //! One engagement of a pair of teeth, section by section and instant by instant.
 //!
-//! The followed pair is the first one of planet 1's left mesh to come into contact after the start. It is followed until it
-//! parts. A section lies where the solids touch, at the polar angle φ about the axis of each gear. On the unit sphere a flank
-//! has the radius of curvature tan ψ(φ) there. The relative radius at the cone distance R is
+//! The followed pair is the first one of planet 1's left mesh that comes into contact after the start and parts again. Teeth
+//! under a law may lift off and touch again in between. Their pair therefore counts only if it was loaded over a base pitch,
+//! which each pair is where the mesh never parts. If no pair gets through, as on a straight road, the pair with the largest
+//! force is followed instead, and a warning says so.
 //!
-//!   ρ = R / (cot ψ_p + cot ψ_s)
-//!
-//! A tip corner is no cylinder. Its pressure is calculated with the radii of the flanks at the end of the path, and so is less
-//! than the real pressure at the edge. Aligned teeth have one section for the whole face; here it is divided evenly.
+//! The steps are those of the scene, or shorter if a pair would pass in fewer than `INSTANTS` of them.
 
 use std::collections::HashMap;
 
-use anyhow::{Result, bail, ensure};
-use bevel_differential::contact::pairs::{Flank, Spot};
+use anyhow::{Result, bail};
+use bevel_differential::contact::ContactLaw;
 use bevel_differential::geometry::Pair;
-use bevel_differential::model::{GearContact, Simulation, ToothLoad, Touch};
-use bevel_differential::strength::LineContact;
+use bevel_differential::model::{GearContact, Parameters};
+use bevel_differential::variables::{Variable, named};
 
+use super::sections::{Flanks, LoadedSection, PairName};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 use crate::text::csv_file::CsvFile;
 
-/// Sections into which a section of the whole face is divided.
-const SECTIONS: usize = 8;
-
-/// A tooth pair: whether the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
-pub type PairName = (bool, [usize; 2]);
-
-/// A loaded section of a tooth pair at an instant.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadedSection {
-    /// Time [s].
-    pub time: f64,
-    /// Tooth pair.
-    pub name: PairName,
-    /// Whether the section touches at a tip corner.
-    pub is_corner: bool,
-    /// Place on the path of contact, as it follows from the planet's rotation [rad].
-    pub s: f64,
-    /// Cone distance [m].
-    pub cone: f64,
-    /// Width of the face that the section stands for [m].
-    pub width: f64,
-    /// Polar angles on planet and side gear [rad].
-    pub polar: [f64; 2],
-    /// Normal force per width [N/m].
-    pub line_load: f64,
-    /// Relative radius of curvature [m].
-    pub radius: f64,
-    /// Hertz pressure [Pa].
-    pub pressure: f64,
-    /// Half-width of the strip of contact [m].
-    pub half_width: f64,
-}
-
-impl LoadedSection {
-    /// Normal force [N].
-    pub fn force(&self) -> f64 {
-        self.line_load * self.width
-    }
-}
+/// Least number of instants for one tooth pitch of teeth under a law.
+const INSTANTS: f64 = 200.0;
+/// Tooth pitches after which the speed is known well enough for the steps.
+const PITCHES: f64 = 3.0;
+/// Part of a base pitch over which a pair under a law was loaded after it got through.
+const THROUGH: f64 = 0.9;
+/// Instants between which teeth under a law move by less than this part of a base pitch, and their force changes by less than
+/// this part, are the same.
+const SAME: f64 = 1e-3;
+/// Angle of planet 1 against the carrier.
+const ANGLE: &str = "planet[1].spin_angle";
 
 /// Loaded sections of the mesh until the engagement of one pair is complete.
 #[derive(Clone, Debug)]
@@ -71,42 +42,80 @@ pub struct Engagement {
     pub contacts: Vec<LoadedSection>,
     /// The pair with the complete engagement.
     pub followed: PairName,
+    /// Cone distances beyond which there is only the outermost section of the face [m]; none for solid teeth, whose sections move.
+    pub ends: Option<[f64; 2]>,
 }
 
 impl Engagement {
     /// Runs `scene` until a pair that came into contact after the start has parted.
     pub fn new(scene: &Scene, progress: &mut Progress) -> Result<Self> {
-        ensure!(
-            scene.parameters.scene.gear_contact == GearContact::Solid,
-            "scene {}: contact patterns need solid teeth: set scene.gear_contact = \"solid\"",
-            scene.name
-        );
-        let mut run = SceneRun::start(scene, scene.step)?;
-        let pair = *run.simulation.pair();
-        let m = &scene.parameters.material;
-        let line = LineContact::new(&pair, m.young_modulus, m.poisson_ratio);
-        let mut contacts = Vec::new();
-        // pairs in contact, and whether each of them came into contact after the start
-        let mut seen: HashMap<PairName, bool> = HashMap::new();
-        let mut first = true;
+        let p = &scene.parameters;
+        let solid = match p.scene.gear_contact {
+            GearContact::Solid => true,
+            GearContact::Tooth => false,
+            _ => bail!(
+                "scene {}: a contact pattern needs single tooth pairs: set scene.gear_contact = tooth, with contact.law = line or \
+                 line_weber, or scene.gear_contact = solid",
+                scene.name
+            ),
+        };
+        if !solid && p.contact.law == ContactLaw::Impact {
+            progress.warn([format!(
+                "contact.law: scene {}: impact has one resultant for the whole face, so that the pattern is even over the face \
+                 whatever the errors; line and line_weber have a load at each cone distance",
+                scene.name
+            )]);
+        }
+        let step = if solid { scene.step } else { step(scene, progress)? };
+        let mut run = SceneRun::start(scene, step)?;
+        let m = &p.material;
+        let flanks = Flanks::new(&run.simulation, m.young_modulus, m.poisson_ratio, grows(p));
+        let pair = flanks.pair;
+        let ends = (!solid).then(|| [pair.inner_cone + flanks.width(), pair.outer_cone - flanks.width()]);
+        let mut contacts: Vec<LoadedSection> = Vec::new();
+        // pairs in contact: whether each of them came into contact after the start, and its first and last place [rad]
+        let mut seen: HashMap<PairName, (bool, [f64; 2])> = HashMap::new();
+        let (mut first, mut last) = (true, Vec::new());
         while !run.is_over() {
             if !first {
                 run.advance()?;
                 progress.check_stopped()?;
             }
-            let now = instant(&run.simulation, &pair, &line);
-            now.iter().for_each(|c| {
-                seen.entry(c.name).or_insert(!first);
-            });
-            let parted = seen.iter().find(|(name, fresh)| **fresh && now.iter().all(|c| c.name != **name));
-            if let Some((&followed, _)) = parted {
-                return Ok(Self { pair, contacts, followed });
+            let now = flanks.instant(&run.simulation);
+            for c in &now {
+                let (_, [low, high]) = seen.entry(c.name).or_insert((!first, [c.s; 2]));
+                (*low, *high) = (low.min(c.s), high.max(c.s));
             }
-            seen.retain(|name, _| now.iter().any(|c| c.name == *name));
-            contacts.extend(now);
+            let through = |[low, high]: [f64; 2]| solid || high - low > THROUGH * pair.base_pitch;
+            let is_loaded = |name: &PairName| now.iter().any(|c| c.name == *name);
+            let parted = seen.iter().find(|(name, (fresh, range))| *fresh && through(*range) && !is_loaded(name));
+            if let Some((&followed, _)) = parted {
+                progress.warn(run.warnings());
+                return Ok(Self { pair, contacts, followed, ends });
+            }
+            seen.retain(|name, (fresh, _)| is_loaded(name) || (!solid && *fresh));
+            if solid || !is_same(&last, &now, pair.base_pitch) {
+                contacts.extend(&now);
+                last = now;
+            }
             first = false;
         }
-        bail!("scene {}: no pair of planet 1's left mesh came into touch and parted again before its end", scene.name)
+        let largest = contacts.iter().max_by(|a, b| a.line_load.total_cmp(&b.line_load));
+        let Some(followed) = largest.map(|c| c.name).filter(|_| !solid) else {
+            bail!(
+                "scene {}: no pair of planet 1's left mesh came into touch and parted again before its end",
+                scene.name
+            );
+        };
+        let [planet, side] = followed.1;
+        progress.warn(run.warnings());
+        progress.warn([format!(
+            "scene {}: no pair of planet 1's left mesh came into touch and parted again before its end, so that the pattern is that \
+             of the most loaded pair, planet tooth {planet} with side gear tooth {side}; for a whole engagement, let the wheels turn \
+             at different speeds, or longer",
+            scene.name
+        )]);
+        Ok(Self { pair, contacts, followed, ends })
     }
 
     /// Sections of the followed pair.
@@ -152,51 +161,35 @@ impl Engagement {
     }
 }
 
-/// Loaded sections of planet 1's left mesh at the present time of the simulation.
-pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<LoadedSection> {
-    let (mut all, time) = (Vec::new(), simulation.time());
-    simulation.tooth_loads(|load| {
-        if let (0, 0, Some(touch)) = (load.planet, load.side, load.touch) {
-            all.extend(sections(pair, load).map(|(cone, width)| contact(pair, line, time, load, &touch, cone, width)));
-        }
-    });
-    all
+/// Whether the load of an aligned pair grows with the cone distance.
+fn grows(p: &Parameters) -> bool {
+    p.contact.law != ContactLaw::Impact
 }
 
-/// Cone distances and widths of the sections of a load: several for a load of the whole face, one otherwise.
-fn sections(pair: &Pair, load: &ToothLoad) -> impl Iterator<Item = (f64, f64)> {
-    let (face, alone) = (pair.outer_cone - pair.inner_cone, load.normal / load.line_load);
-    let whole = alone > (1.0 - 1e-9) * face;
-    let (count, cone, inner) = (if whole { SECTIONS } else { 1 }, load.cone, pair.inner_cone);
-    let width = if whole { face / SECTIONS as f64 } else { alone };
-    (0..count).map(move |i| (if whole { inner + width * (i as f64 + 0.5) } else { cone }, width))
-}
-
-fn contact(
-    pair: &Pair,
-    line: &LineContact,
-    time: f64,
-    load: &ToothLoad,
-    t: &Touch,
-    cone: f64,
-    width: f64,
-) -> LoadedSection {
-    // a tip corner lies past the end of the path: arcs from the base circles are not taken below those at its ends
-    let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
-    let cot = |i: usize| 1.0 / pair.gears[i].action_arc(t.polar[i]).max(least[i]).tan();
-    let radius = cone / (cot(0) + cot(1));
-    let pressure = line.pressure_on(load.line_load, radius).unwrap_or(0.0);
-    LoadedSection {
-        time,
-        name: (load.flank == Flank::Drive, load.teeth),
-        is_corner: load.spot != Spot::Path,
-        s: load.s,
-        cone,
-        width,
-        polar: t.polar,
-        line_load: load.line_load,
-        radius,
-        pressure,
-        half_width: LineContact::half_width(load.line_load, pressure),
+/// Step of `scene` [s], or a shorter one in which the teeth move by no more than a pitch over `INSTANTS`.
+fn step(scene: &Scene, progress: &mut Progress) -> Result<f64> {
+    let mut run = SceneRun::start(scene, scene.step)?;
+    let Some(angle) = named(ANGLE) else { return Ok(scene.step) };
+    let per_pitch = run.simulation.pair().gears[0].tooth_pitch().recip();
+    let pitches = |run: &mut SceneRun, angle: &Variable| run.read(angle) * per_pitch;
+    let (start, mut fastest) = (pitches(&mut run, angle), 0.0_f64);
+    let mut last = start;
+    while !run.is_over() && (last - start).abs() < PITCHES {
+        run.advance()?;
+        progress.check_stopped()?;
+        let now = pitches(&mut run, angle);
+        fastest = fastest.max((now - last).abs());
+        last = now;
     }
+    Ok(scene.step / (INSTANTS * fastest).max(1.0))
+}
+
+/// Whether two instants have the same pairs, at nearly the same places and under nearly the same forces.
+fn is_same(last: &[LoadedSection], now: &[LoadedSection], base_pitch: f64) -> bool {
+    let close = |a: &LoadedSection, b: &LoadedSection| {
+        a.name == b.name
+            && (a.s - b.s).abs() < SAME * base_pitch
+            && (a.line_load - b.line_load).abs() <= SAME * a.line_load.max(b.line_load)
+    };
+    last.len() == now.len() && last.iter().zip(now).all(|(a, b)| close(a, b))
 }

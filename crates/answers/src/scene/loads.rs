@@ -85,6 +85,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         progress.advance(run.time() / scene.stop_time)?;
     }
     rows.flush().context("the loads cannot be written")?;
+    progress.warn(run.warnings());
     Ok(lines)
 }
 

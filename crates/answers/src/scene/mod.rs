@@ -12,6 +12,7 @@ pub mod set;
 pub mod ssv;
 pub mod times;
 pub mod units;
+pub mod warnings;
 
 use std::path::{Path, PathBuf};
 

@@ -3,14 +3,12 @@
 use std::fmt::Write as _;
 
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
-use bevel_differential::problem::Problem;
-use bevel_differential::variables::felt::{self, Situation};
-use bevel_differential::variables::unset::{self, SetValues};
-use bevel_differential::variables::{Causality, named, number, table, value_of};
+use bevel_differential::variables::{Causality, named, unset, value_of};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
 use super::set::literal;
+use super::warnings::set_values;
 use super::{Scene, units};
 use crate::text::{numbers, shown};
 
@@ -106,47 +104,10 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         let slopes = if scene.input_slopes { "" } else { ", held within steps" };
         line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
     }
-    let set = set_values(scene);
-    for group in unset::unset(&scene.parameters, &scene.inputs, &set) {
+    for group in unset::unset(&scene.parameters, &scene.inputs, &set_values(scene)) {
         line("not set", &format!("{}: {}", group.group, group.values.join(", ")));
     }
-    let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
-    for warning in simulation.warnings().iter().chain(&unfelt(scene)).chain(&runaway) {
-        line("warning", &warning.to_string());
-    }
     out
-}
-
-/// The variables that `scene` sets at any time.
-fn set_values(scene: &Scene) -> SetValues {
-    let mut set = SetValues::default();
-    let later = scene.events.iter().flat_map(|event| &event.settings);
-    let rows = scene.settings.iter().chain(later).map(|setting| setting.row);
-    for row in rows.chain(scene.input_tables.iter().map(|table| table.row)) {
-        if let Some(index) = table().rows.iter().position(|known| known.name == row.name) {
-            set.insert(index);
-        }
-    }
-    set
-}
-
-/// Values that change nothing in `scene`, at the start or later, each variable once.
-fn unfelt(scene: &Scene) -> Vec<Problem> {
-    let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
-    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
-    let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
-        let index = table().rows.iter().position(|row| row.name == name);
-        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
-        found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
-    };
-    for setting in scene.events.iter().flat_map(|event| &event.settings) {
-        setting.apply(&mut parameters, &mut inputs);
-        later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
-    }
-    for table in &scene.input_tables {
-        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
-    }
-    found
 }
 
 /// Literal and meaning of an enumeration in `scene`.

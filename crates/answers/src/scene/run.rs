@@ -4,11 +4,12 @@ use std::io::Write;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Simulation};
+use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Reported, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 
 use super::units;
+use super::warnings::at_start;
 use super::{InputTable, Jumps, Scene};
 use crate::problem::Problems;
 use crate::progress::Progress;
@@ -28,6 +29,9 @@ pub struct SceneRun<'a> {
     events: usize,
     /// Changes of inputs at once: those of events, and the jumps of each table.
     jumps: Vec<Jumps>,
+    reported: Reported,
+    /// Warnings since the start.
+    found: Vec<Problem>,
     /// The simulation.
     pub simulation: Simulation,
 }
@@ -50,7 +54,8 @@ impl<'a> SceneRun<'a> {
         let events = Jumps::once(scene.events.iter().map(|event| event.time).collect());
         let jumps = std::iter::once(events).chain(scene.input_tables.iter().map(InputTable::jumps)).collect();
         let Scene { parameters, inputs, .. } = *scene;
-        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, jumps, simulation })
+        let (reported, found) = (Reported::default(), Vec::new());
+        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, jumps, reported, found, simulation })
     }
 
     /// Time [s].
@@ -79,7 +84,22 @@ impl<'a> SceneRun<'a> {
         }
         self.simulation.advance(next).map_err(|failure| anyhow!("{failure}")).with_context(|| refused(self.scene))?;
         self.done += u64::from(change.is_none());
+        self.found.extend(self.simulation.unreported(&mut self.reported));
+        if self.is_over() {
+            self.found.extend(self.simulation.unreported_at_end(&mut self.reported));
+        }
         Ok(())
+    }
+
+    /// Warnings about the scene, and about its run up to now.
+    pub fn warnings(&self) -> Vec<String> {
+        let found = self.found.iter().map(Problem::to_string);
+        at_start(self.scene, &self.simulation).into_iter().chain(found).collect()
+    }
+
+    /// Warnings about the run up to now.
+    pub fn warnings_since_start(&self) -> &[Problem] {
+        &self.found
     }
 
     /// Sets what is due by `time`.
@@ -200,6 +220,7 @@ pub fn run(
     if let Some(rows) = &mut csv {
         rows.flush().context("the record cannot be written")?;
     }
+    progress.warn(run.warnings());
     let end = run.time();
     outputs.iter_mut().for_each(|summary| summary.mean = if end > 0.0 { summary.mean / end } else { summary.end });
     Ok(SceneResult {

@@ -3,10 +3,12 @@
 use answers::pattern::cases::{PatternCase, turn};
 use answers::pattern::envelope::Envelope;
 use answers::pattern::findings::{PatternFindings, centroid, markdown};
-use answers::pattern::sample::{Engagement, LoadedSection};
+use answers::pattern::sample::Engagement;
+use answers::pattern::sections::LoadedSection;
 use answers::progress::Progress;
+use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::errors::ToothErrorSpec;
-use bevel_differential::model::GearContact;
+use bevel_differential::model::{GearContact, PlanetSpin};
 
 fn record(errors: &ToothErrorSpec) -> Engagement {
     Engagement::new(&turn(errors).expect("a scene"), &mut Progress::silent()).expect("an engagement")
@@ -76,18 +78,154 @@ fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
     }
 }
 
+/// Torque of one mesh: half of that of a side gear with two planets [N·m].
+const TORQUE: f64 = 835.0 / 2.0;
+
+/// The turn with teeth of the linear law over the face, crowned by `crowning` [m].
+fn crowned(crowning: f64) -> Engagement {
+    let mut scene = turn(&ToothErrorSpec { crowning, ..ToothErrorSpec::default() }).expect("a scene");
+    scene.parameters.scene.gear_contact = GearContact::Tooth;
+    scene.parameters.contact.law = ContactLaw::Line;
+    Engagement::new(&scene, &mut Progress::silent()).expect("an engagement")
+}
+
+/// Torque of sections about the side gear's axis [N·m].
+fn torque(record: &Engagement, line: &[LoadedSection]) -> f64 {
+    line.iter().map(|c| c.force() * c.cone).sum::<f64>() * record.pair.sin_base()[1]
+}
+
+/// Opening of teeth that are crowned by `crowning` at toe and heel, a parabola [m].
+fn opening(record: &Engagement, crowning: f64, cone: f64) -> f64 {
+    let face = record.pair.outer_cone - record.pair.inner_cone;
+    crowning * ((cone - record.pair.mean_cone) / (0.5 * face)).powi(2)
+}
+
 #[test]
-fn scenes_without_solid_teeth_and_scenes_too_short_are_refused() {
+fn aligned_teeth_of_a_law_bear_over_face_and_path_with_a_load_that_grows_with_the_cone_distance() {
+    let record = crowned(0.0);
+    let (pair, all) = (&record.pair, record.engagement().collect::<Vec<_>>());
+    let (first, last) = (all[0], all[all.len() - 1]);
+    assert!(first.is_corner && last.is_corner && first.s < pair.path.low && last.s > pair.path.high);
+    let pitch = record.at_pitch_point();
+    assert!((torque(&record, &pitch) / TORQUE - 1.0).abs() < 1e-3, "{}", torque(&record, &pitch));
+    for c in &all {
+        // on the path the aligned flanks touch at equal arcs, wherever on the face
+        let arcs: f64 = (0..2).map(|i| pair.gears[i].action_arc(c.polar[i])).sum();
+        assert!(c.is_corner || (arcs - pair.line_of_action()).abs() < 1e-9, "{arcs}");
+    }
+    for c in &pitch {
+        let at_first = pitch[0].line_load / pitch[0].cone;
+        assert!((c.line_load / c.cone / at_first - 1.0).abs() < 1e-9);
+        // w and ρ are proportional to R, so that the pressure is even
+        assert!((c.pressure / pitch[0].pressure - 1.0).abs() < 1e-9);
+    }
+    let envelope = Envelope::new(&record);
+    let gear = &pair.gears[0];
+    // from where rigid contact begins to the tip, all of the face has been touched, and nothing below
+    let start = gear.polar_at(pair.pitch_arc[0] + pair.path.low);
+    for column in &envelope.pressure {
+        for (polar, pressure) in envelope.polars.iter().zip(column) {
+            if *polar > start + 2e-3 {
+                assert!(*pressure > 0.0, "{polar}");
+            } else if *polar < start - 5e-3 {
+                assert_eq!(*pressure, 0.0, "{polar}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_length_of_contact_of_crowned_teeth_follows_from_the_equilibrium_of_the_load() {
+    // a linear law: w = k (a R − e), with k from a light crowning
+    let (light, strong) = (20e-6, 300e-6);
+    let record = crowned(light);
+    let pitch = record.at_pitch_point();
+    let [one, two] = [pitch[2], pitch[pitch.len() - 3]];
+    let [e1, e2] = [one, two].map(|c| opening(&record, light, c.cone));
+    // from w₁ R₂ − w₂ R₁ = k (e₂ R₁ − e₁ R₂)
+    let k = (one.line_load * two.cone - two.line_load * one.cone) / (e2 * one.cone - e1 * two.cone);
+    let turned = (one.line_load / k + e1) / one.cone;
+    for c in &pitch {
+        let wanted = k * (turned * c.cone - opening(&record, light, c.cone));
+        // the approach of the moving teeth is damped, too, which is not in this formula
+        assert!((c.line_load / wanted - 1.0).abs() < 1e-4, "{} {wanted}", c.line_load);
+    }
+    assert!((torque(&record, &pitch) / TORQUE - 1.0).abs() < 1e-3);
+    // with this k, the approach that holds the torque of strongly crowned teeth, and the ends of their contact
+    let record = crowned(strong);
+    let [inner, outer] = [record.pair.inner_cone, record.pair.outer_cone];
+    let cones: Vec<f64> = (0..20000).map(|i| inner + (outer - inner) * (f64::from(i) + 0.5) / 20000.0).collect();
+    let line_load = |turned: f64, cone: f64| k * (turned * cone - opening(&record, strong, cone)).max(0.0);
+    let held = |turned: f64| {
+        let sum: f64 = cones.iter().map(|&cone| line_load(turned, cone) * cone).sum();
+        sum * (outer - inner) / 20000.0 * record.pair.sin_base()[1]
+    };
+    let (mut low, mut high) = (0.0, 0.1);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if held(middle) < TORQUE { low = middle } else { high = middle }
+    }
+    let loaded: Vec<f64> = cones.iter().copied().filter(|&cone| line_load(low, cone) > 0.0).collect();
+    let pitch = record.at_pitch_point();
+    let (first, last) = (pitch[0], pitch[pitch.len() - 1]);
+    assert!(loaded.len() < 19000, "the contact does not end within the face");
+    assert!((first.cone - 0.5 * first.width - loaded[0]).abs() < first.width, "{} {}", first.cone, loaded[0]);
+    let end = loaded[loaded.len() - 1];
+    assert!((last.cone + 0.5 * last.width - end).abs() < last.width, "{} {end}", last.cone);
+    for c in &pitch {
+        let wanted = line_load(low, c.cone);
+        assert!(
+            (c.line_load - wanted).abs() < 0.01 * line_load(low, record.pair.mean_cone),
+            "{} {wanted}",
+            c.line_load
+        );
+    }
+}
+
+#[test]
+fn solid_teeth_and_teeth_of_a_law_touch_the_same_flank() {
+    // solid teeth spread the load evenly, so that a law over the face has the arm R_F > R_m and the smaller force
+    let [law, solid] = [crowned(0.0), record(&ToothErrorSpec::default())];
+    let force = |record: &Engagement| record.at_pitch_point().iter().map(LoadedSection::force).sum::<f64>();
+    let [inner, outer] = [law.pair.inner_cone, law.pair.outer_cone];
+    let arm = (outer.powi(3) - inner.powi(3)) / 3.0 / (0.5 * (outer * outer - inner * inner));
+    assert!((force(&law) / force(&solid) * arm / law.pair.mean_cone - 1.0).abs() < 0.01);
+    let ends = |record: &Engagement| {
+        let angles = || record.engagement().map(|c| c.polar[0]);
+        [angles().fold(f64::INFINITY, f64::min), angles().fold(0.0, f64::max)]
+    };
+    // the same foot and tip, to 0.05 mm at the mean cone distance: a step of the solid run, and the shape of its tip
+    for (a, b) in ends(&law).into_iter().zip(ends(&solid)) {
+        assert!((a - b).abs() * law.pair.mean_cone < 5e-5, "{a} {b}");
+    }
+}
+
+#[test]
+fn teeth_that_stand_and_a_law_with_one_resultant_have_a_pattern_and_a_warning() {
+    let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
+    scene.parameters.scene.gear_contact = GearContact::Tooth;
+    scene.parameters.scene.planet_spin = PlanetSpin::Free;
+    scene.stop_time = 0.05;
+    let mut progress = Progress::silent();
+    let record = Engagement::new(&scene, &mut progress).expect("a pattern");
+    let said = |part: &str| progress.warnings().iter().filter(|text| text.contains(part)).count();
+    assert_eq!([said("impact has one resultant"), said("parted again"), said("geometry.face_width")], [1; 3]);
+    let pitch = record.at_pitch_point();
+    assert!(pitch.iter().all(|c| c.line_load > 0.0 && (c.line_load / pitch[0].line_load - 1.0).abs() < 1e-9));
+}
+
+#[test]
+fn scenes_without_tooth_pairs_and_scenes_of_solids_too_short_are_refused() {
     let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
     scene.stop_time = 0.1;
     assert!(
         Engagement::new(&scene, &mut Progress::silent()).expect_err("too short").to_string().contains("parted again")
     );
-    scene.parameters.scene.gear_contact = GearContact::Tooth;
+    scene.parameters.scene.gear_contact = GearContact::Lumped;
     assert!(
         Engagement::new(&scene, &mut Progress::silent())
-            .expect_err("no solids")
+            .expect_err("no pairs")
             .to_string()
-            .contains("scene.gear_contact")
+            .contains("scene.gear_contact = tooth")
     );
 }

@@ -6,13 +6,13 @@ import importlib
 import importlib.util
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
 from ..extras import install, version
 from ..text import aligned
-from ..values import DifferentialError, DifferentialWarning, suggestion
+from ..values import DifferentialError, suggestion
+from ..warned import printed
 
 NAME = "bevel-differential"
 # module, the extra of this package that it needs, what it does
@@ -25,7 +25,7 @@ COMMANDS = {
     "geometry": (".command.geometry", None,
                  "calculate all dimensions of the gears, check them for interference, make files for CAD"),
     "pattern": (".pattern.command", "plot",
-                "show the contact pattern of solid teeth: pressure on the planet's flank over one engagement"),
+                "show the contact pattern of a scene: pressure on the planet's flank over one engagement"),
     "sweep": (".command.sweep", "sweep", "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"),
     "optimise": (".optimise.command", "design", "optimise gears by several objectives at once"),
     "tolerance": (".tolerance.command", "design",
@@ -86,9 +86,7 @@ def _run(name, arguments):
             parsed = parser.parse_args(arguments)
         except SystemExit as end:
             return end.code
-        with warnings.catch_warnings():
-            # commands print what the FMU warns of themselves
-            warnings.simplefilter("ignore", DifferentialWarning)
+        with printed():
             return module.run(parsed)
     except ModuleNotFoundError as missing:
         if missing.name.partition(".")[0] == PACKAGE:

@@ -34,8 +34,6 @@ def run(arguments: argparse.Namespace) -> int:
     checked_picture(arguments.plot)
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
         record = scene.set(once("--set", arguments.set)).run(arguments.output, stop=arguments.stop)
-        for warning in scene.warnings:
-            print(f"warning: {warning}")
         print(scene.summary(record))
         writers: list[tuple[Callable[..., object], str | None]] = [
             (scene.to_parquet if is_parquet(arguments.csv) else scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet),

@@ -14,6 +14,7 @@ from typing import Any, Self
 from ..extras import require
 from ..interrupts import held_back
 from ..values import DifferentialError, Number
+from ..warned import warn
 from . import cluster
 from .task import Row, Task
 
@@ -34,7 +35,7 @@ class Farm:
 
     `workers`: how many (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: each worker is
     a process; otherwise threads of this one. `scheduler`: address of a dask scheduler whose workers are used instead.
-    `progress`: shows a bar on a terminal. Results are the same for all of these."""
+    `progress`: shows a bar on a terminal. Only the first run passes on what the FMU warns of, as there may be thousands. Results are the same for all of these."""
 
     def __init__(self, workers: int | None = None, processes: bool = True, scheduler: str | None = None, progress: bool = False):
         if workers is not None and workers < 0:
@@ -42,6 +43,7 @@ class Farm:
         self.workers, self.processes, self.scheduler, self.progress = workers, processes, scheduler, progress
         self._client: Any = None
         self._opened: Any = None
+        self._warned = False
 
     def __enter__(self) -> Self:
         if self.workers != 0 or self.scheduler:
@@ -62,7 +64,22 @@ class Farm:
         """Rows as they complete. `task`: a `Task`, or an object with its `evaluate` and `close` that can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _TaskRun(self._client, task, designs).rows()
+        rows = self._passing_on(rows, [run for run, _ in designs])
         return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
+
+    def _passing_on(self, rows, order):
+        """The rows; passes on the warnings of the first one in `order` that ran to its end, once for this farm."""
+        place, waiting = 0, {}
+        with closing(rows):
+            for row in rows:
+                if not self._warned:
+                    waiting[row.run] = row.warnings
+                    while not self._warned and place < len(order) and order[place] in waiting:
+                        found, place = waiting[order[place]], place + 1
+                        if found is not None:
+                            self._warned = True
+                            warn(found)
+                yield row
 
     @staticmethod
     def _here(task, designs):

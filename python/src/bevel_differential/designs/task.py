@@ -15,7 +15,7 @@ class Row:
     """A design and its results.
 
     `figures`: by want, SI; empty where the design failed, and `message` says why. `feasible`: it ran and all conditions hold.
-    `seconds`: duration of the run."""
+    `seconds`: duration of the run. `warnings` of the FMU; None if the FMU did not run to the end."""
 
     run: int
     values: dict[str, Number]
@@ -23,6 +23,7 @@ class Row:
     feasible: bool = False
     message: str = ""
     seconds: float = 0.0
+    warnings: tuple[str, ...] | None = None
 
 
 class Task:
@@ -53,7 +54,7 @@ class Task:
         begun = time.perf_counter()
         row = Row(run, dict(values))
         try:
-            row.figures = self._figures(values)
+            row.figures, row.warnings = self._figures(values), tuple(self.scene.warnings)
             row.feasible = all(one.holds(row.figures[str(one.want)]) for one in self.conditions)
         except DifferentialError as error:
             row.message = str(error)
@@ -73,7 +74,6 @@ class Task:
             return {str(want): float(last[want.name]) for want in self.figures}
         angles = {want.statistic.angle for want in self.figures} - {None}
         outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
-        # warnings are not passed on, as there may be thousands of runs
         record = self.scene._record(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
         # half a step, as communication points are rounded; the start itself is not counted

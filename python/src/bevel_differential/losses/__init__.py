@@ -15,6 +15,7 @@ from ..designs.store import Columns, Store
 from ..designs.sweep import going_on_later, hashed
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
+from ..warned import silenced
 from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
 from .point import AXES, FIGURES, PointTask, benched
 
@@ -208,7 +209,9 @@ def _chosen(scene, lines, within):
     """The cheapest model that is accurate in the middle of the map."""
     middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **inputs([np.median(line) for line in lines])},
                    fmu=scene.fmu)
-    found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
+    # the runs of the map pass on what the FMU warns of
+    with silenced():
+        found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
     if found.use is None:
         raise DifferentialError(f"within = {within}: no model is accurate enough; leave it out, or allow more")
     return found.use

@@ -71,7 +71,7 @@ class PointTask:
         begun, row = time.perf_counter(), Row(run, dict(values))
         try:
             figures, row.feasible = self._stuck(values) if _difference(values) == 0.0 else self._slipping(values)
-            row.figures = dict(zip(FIGURES, figures))
+            row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings()
         except DifferentialError as error:
             row.message = str(error)
         row.seconds = time.perf_counter() - begun
@@ -79,10 +79,12 @@ class PointTask:
 
     def warnings(self, values: Mapping[str, Number]) -> list[str]:
         """Warnings of the FMU in the run of a point, but for what the bench itself sets."""
-        self.evaluate(0, values)
+        return list(self.evaluate(0, values).warnings or ())
+
+    def _warnings(self):
         own = {*AXES[:-1], *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
         said = self._instance.messages if self._instance is not None else []
-        return [text for text in said if not (UNFELT in text and text.partition(": ")[0] in own)]
+        return tuple(text for text in said if not (UNFELT in text and text.partition(": ")[0] in own))
 
     def _begun(self, values):
         if self._instance is None:

@@ -2,10 +2,10 @@
 
 import argparse
 import math
-import sys
 from pathlib import Path
 
 from ..command.arguments import add_farm, add_fmu, farm
+from ..warned import warn
 
 # effort of --quick: enough for a front, not for a good one
 QUICK = {"population": 32, "generations": 12, "starts": 1}
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
     if start_warning := problem.start_warning():
-        print(f"warning: {start_warning}", file=sys.stderr, flush=True)
+        warn([start_warning])
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
     try:

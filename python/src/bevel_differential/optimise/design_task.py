@@ -91,7 +91,7 @@ class DesignTask(Task):
 
     def _simulated(self, row, complete):
         """Figures of the run go to the row; returns outputs by name."""
-        figures = self._figures(complete)
+        figures, row.warnings = self._figures(complete), tuple(self.scene.warnings)
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
         if without:

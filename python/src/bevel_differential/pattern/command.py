@@ -8,8 +8,8 @@ from ..command.arguments import add_progress, add_set, once
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
-    parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (default: the study's "
-                                                                   "turn, aligned and with one thing out of place at a time)")
+    parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names (default: solid teeth in the study's turn, "
+                                                                   "aligned and with one thing out of place at a time)")
     add_set(parser)
     parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
     add_progress(parser)

@@ -24,12 +24,17 @@ REMARKS = {
     "hypoid_forward": "planet 1 carries twice its share, at the toe",
     "hypoid_backward": "drive flank free, coast flank jams at the toe",
 }
+# kinds of teeth, for captions
+TEETH = {"solid": "solid teeth", "impact": "teeth with contact.law = impact", "line": "teeth with contact.law = line",
+         "line_weber": "teeth with contact.law = line_weber"}
 # cases whose lines of contact are drawn, the first two that are there
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
 # relative radius of the flanks, over that at the pitch point, below which the foot is a seam (as in the report and on the page)
 LEAST_RADIUS = 0.25
 COLUMNS = 3
+# least half-width of a line of contact in the picture, mm
+THINNEST = 0.12
 # inches above the panels for the legend
 LEGEND = 0.4
 
@@ -75,18 +80,21 @@ def patterns(folder, data, outlines, cases):
     height = {1: 6.8, 2: 4.8, 3: 3.55}[columns]
     figure = style.figure(height * rows + 2.2)
     # flank, line load, and a gap to the title of the next case
-    grid = figure.add_gridspec(3 * rows, columns, height_ratios=[2.6, 1, 0.3] * rows)
+    # one flank alone has margins, so that its height does not narrow it and its load lies below it
+    margins = 1 if columns == 1 else 0
+    grid = figure.add_gridspec(3 * rows, columns + 2 * margins, height_ratios=[2.6, 1, 0.3] * rows,
+                               width_ratios=[0.4, 1, 0.4] if margins else None)
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
     scale, first = plt.Normalize(0.0, top_of(data, cases)), None
     for i, (name, title) in enumerate(cases):
         row, column = divmod(i, columns)
-        axes = figure.add_subplot(grid[3 * row, column])
+        axes = figure.add_subplot(grid[3 * row, column + margins])
         first = first or axes
         result = next(one for one in data["summary"] if one["case"] == name)
         flank(axes, outlines[name], [one for one in data["pattern"] if one["case"] == name], scale)
         axes.set_title(f"{title} ({result['flank']} flank)", fontsize=11.5, loc="left", pad=19)
         style.note(axes, 0.0, 1.07, REMARKS.get(name, ""), ha="left", fontsize=style.SMALL)
-        below = figure.add_subplot(grid[3 * row + 1, column], sharex=axes)
+        below = figure.add_subplot(grid[3 * row + 1, column + margins], sharex=axes)
         line_load(below, outlines[name]["tip"], np.array(strip(data, name)), result, most_load)
         if column == 0:
             axes.set_ylabel("height, mm")
@@ -97,17 +105,23 @@ def patterns(folder, data, outlines, cases):
                           aspect=50, extend="max", pad=0.01)
     bar.set_label("largest Hertz pressure of the engagement, MPa")
     legend(figure, first)
-    where = "the study's turn (835 N·m on each half-shaft)" if REMARKS.keys() >= dict(cases).keys() else "the given scenes"
-    style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, solid teeth. The planet's flank is a "
+    is_study = REMARKS.keys() >= dict(cases).keys()
+    where = "the study's turn (835 N·m on each half-shaft)" if is_study else "the given scenes"
+    errors = ("Offsets bring one end of the face into contact first, and the load moves there; an error of the shaft angle turns the "
+              "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
+              "opposite one. ") if is_study else ""
+    style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
                   "trapezoid with the small end (toe) left; colour is the largest pressure at each spot while one pair goes from "
                   "first touch to parting, as marking compound would show it. One scale for all panels; only the seam at the base "
-                  "circle exceeds it, as the flank has no radius there. Blue: line load over the face when the pair touches at "
-                  "the pitch line. Red: the pair's force and its centroid, measured from mid-face toward the heel. Offsets bring "
-                  "one end of the face into contact first, and the load moves there; an error of the shaft angle turns the gears "
-                  "about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
-                  "opposite one. Where a tip corner carries, the pressure is calculated with the flanks' radii; the true one is "
-                  "higher.", LEGEND)
+                  "circle exceeds it, as the flank has no radius there. Blue: line load over the face while the pair is nearest to "
+                  f"the pitch line. Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
+                  "tip corner carries, the pressure is calculated with the flanks' radii; the true one is higher.", LEGEND)
     style.save(figure, folder / "contact_pattern.png")
+
+
+def teeth_of(data):
+    """Kinds of teeth of all cases, for captions."""
+    return " or ".join(dict.fromkeys(TEETH[row["teeth"]] for row in data["summary"]))
 
 
 def flank(axes, outline, rows, scale):
@@ -170,7 +184,7 @@ def lines(folder, data, outlines, cases):
             for pair in sorted({(row["planet_tooth"], row["side_tooth"]) for row in now}):
                 line = [row for row in now if (row["planet_tooth"], row["side_tooth"]) == pair]
                 draw_line(axes, line, lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
-            share = (time - picks[0]) / (picks[-1] - picks[0])
+            share = (time - picks[0]) / ((picks[-1] - picks[0]) or 1.0)
             axes.set_title(f"{names[name]}, {100.0 * share:.0f} % of the engagement, {1e-3 * force_of(now):.1f} kN in all",
                            fontsize=11, loc="left")
     for axes in grid[:, 0]:
@@ -180,22 +194,24 @@ def lines(folder, data, outlines, cases):
     tips = [outlines[name]["tip"] for name in chosen]
     for axes in grid.flat:
         axes.set_xlim(min(tip["toe_cone"] for tip in tips) - 1.3, max(tip["heel_cone"] for tip in tips) + 7.5)
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
+    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max",
+                          panchor=False if len(chosen) == 1 else (1.0, 0.5))
     bar.set_label("Hertz pressure, MPa")
     legend(figure, grid[0, 0])
-    style.caption(figure, "Lines of contact on the planet's drive flank while one pair goes from first touch (top) to parting (bottom), "
-                  "with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along a ray "
-                  "through the apex and over the whole face at once; misaligned teeth leave the ray only by their deflection. In "
-                  "this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip "
-                  "corner of the side gear and ends with its own. White marks: centroid of each line's load, a circle for the pair "
-                  "that is followed and a square for its neighbours.", LEGEND)
+    # of the turn of the documentation
+    spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
+            "the side gear and ends with its own. ") if names.keys() <= REMARKS.keys() else ""
+    style.caption(figure, "Lines of contact on the planet's flank while one pair goes from first touch (top) to parting (bottom), "
+                  f"{teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
+                  f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
+                  "each line's load, a circle for the pair that is followed and a square for its neighbours.", LEGEND)
     style.save(figure, folder / "contact_lines.png")
 
 
 def draw_line(axes, line, colour, indent):
     """One pair's line of contact, as wide as the contact and at least as wide as can be seen, with its force."""
     for row in line:
-        half = max(row["half_width"], 0.12)
+        half = max(row["half_width"], THINNEST)
         ends = [row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]]
         heights = [row["planet_height"] * end / row["cone"] for end in ends]
         corners = [(ends[k], heights[k] + side * half) for k, side in [(0, -1), (1, -1), (1, 1), (0, 1)]]

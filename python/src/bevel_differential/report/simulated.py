@@ -54,7 +54,7 @@ class Simulated:
         for effect in ONLY_GIVE_OUTPUTS:
             if not scene.values.get(effect):
                 try:
-                    scene.run(values={**added, effect: True}, stop=scene.step)
+                    scene._record(values={**added, effect: True}, stop=scene.step)
                     added[effect] = True
                 except DifferentialError as reason:
                     refused[effect] = reason_of(reason)

@@ -77,7 +77,7 @@ def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
     outputs = list(dict.fromkeys([*main_outputs(run), "solver.rhs_calls"]))
     begin = time.perf_counter()
     try:
-        record = run.scene.run(outputs, values)
+        record = run.scene._record(outputs, values)
     except DifferentialError as error:
         return Tried(label, 0.0, {}, {}, refused=reason_of(error))
     seconds = time.perf_counter() - begin

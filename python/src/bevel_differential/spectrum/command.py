@@ -1,7 +1,6 @@
 """The sub-command `spectrum`: damage and life over a duty cycle."""
 
 import argparse
-import sys
 
 from ..command.arguments import add_files, add_fmu, assignment, once
 from ..output_file import checked, checked_picture
@@ -30,6 +29,4 @@ def run(arguments: argparse.Namespace) -> int:
     for file, write in ((arguments.csv, result.save), (arguments.plot, result.plot)):
         if file:
             print(f"wrote {write(file)}")
-    for warning in dict.fromkeys(result.warnings):
-        print(f"warning: {warning}", file=sys.stderr)
     return 0

@@ -15,7 +15,7 @@ planets' spin is free.
 In a turn to the left the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive
 when the engine drives forward, the speed when the vehicle goes forward."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from math import nan, pi
 
 import numpy as np
@@ -24,6 +24,7 @@ from ..csv_table import CsvTable, Quantity, Text, Time
 from ..fmu import Fmu
 from ..values import DifferentialError, FileName, Variable, suggestion
 from .damage import Event
+from .driven import LOADS, drives_of, missing, wanted
 
 LENGTH = {"m": 1.0, "mm": 1e-3, "km": 1e3}
 QUANTITIES = {quantity.name: quantity for quantity in [
@@ -36,8 +37,7 @@ QUANTITIES = {quantity.name: quantity for quantity in [
     Quantity("track", LENGTH),
 ]}
 SPIN = "scene.planet_spin"
-# parameters for the drive of each shaft; sign of half the speed difference on each side
-DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
+# sign of half the speed difference on each side
 SIDES = {"left": 1.0, "right": -1.0}
 _COLUMNS: list[Quantity | Text] = [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
@@ -51,23 +51,18 @@ LONGEST, SHORTEST = 0.01, 1e-4
 
 
 def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int],
-               drives: Mapping[str, int]) -> list[Event]:
+               drives: Mapping[str, int], given: Container[str] = ()) -> list[Event]:
     """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
-    SI; `teeth` of planet and side gear; `drives`: values of `DRIVES` where an event does not set them. Raises
-    `DifferentialError` with file, line, column and value."""
+    SI; `teeth` of planet and side gear; `drives`: values of `driven.DRIVES` where an event does not set them; `given`: names of
+    variables that the scene or the parameters set. Raises `DifferentialError` with file, line, column and value."""
     def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
 
     table = CsvTable(file, known, needed=["name", "count"])
-    return [_event(table, line, row, fmu, vehicle, (teeth, _drives(row, drives, fmu))) for line, row in table.rows]
+    return [_event(table, line, row, fmu, vehicle, (teeth, drives_of(row, drives, fmu)), given) for line, row in table.rows]
 
 
-def _drives(row, drives, fmu):
-    """Literals of `DRIVES` in an event, {name: literal}."""
-    return {name: fmu.variable(name).written(int(row.get(name, drives[name]))) for name in DRIVES}
-
-
-def _event(table, line, row, fmu, vehicle, gears):
+def _event(table, line, row, fmu, vehicle, gears, given):
     for name in ("name", "count"):
         if name not in row:
             raise table.problem_at(line, name, "write a value", "")
@@ -86,9 +81,13 @@ def _event(table, line, row, fmu, vehicle, gears):
             raise
         raise table.problem(line, text=str(failure)) from None
     known_elsewhere = {*OWN, *QUANTITIES, *row, *driven}
-    missing = [name for name in table.columns if name not in known_elsewhere]
-    if missing:
-        raise table.problem_at(line, missing[0], "write a value", "")
+    blank = [name for name in table.columns if name not in known_elsewhere and name not in LOADS.values()]
+    if blank:
+        raise table.problem_at(line, blank[0], "write a value", "")
+    for command, column in missing(driven, gears[1], given).items():
+        if command in table.columns or column in table.columns:
+            raise table.problem_at(line, command if command in table.columns else column, wanted(command), "")
+        raise table.problem(line, text=f"{column}: there is no such column; {wanted(command)}")
     values = {name: value for name, value in driven.items() if np.ndim(value) == 0}
     signals = {name: (history["time"], value) for name, value in driven.items() if np.ndim(value) == 1}
     return Event(row["name"], row["count"], duration, distance, values, signals, _step(history))
@@ -177,7 +176,7 @@ def _variable(name, fmu, causalities):
 def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
               drives: Mapping[str, str]) -> dict[str, float | str | np.ndarray]:
     """Inputs and parameters of the FMU in SI. `vehicle`: quantities in SI, {name: number or array of shape (points,)}; `teeth`:
-    numbers of teeth of planet and side gear; `drives`: literals of `DRIVES` by name. Raises `DifferentialError` if a quantity is
+    numbers of teeth of planet and side gear; `drives`: literals of `driven.DRIVES` by name. Raises `DifferentialError` if a quantity is
     missing."""
     found: dict[str, float | str | np.ndarray] = {}
     by_speed = [side for side in SIDES if drives[f"scene.{side}_drive"] == "speed"]

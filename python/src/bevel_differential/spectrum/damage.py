@@ -81,7 +81,7 @@ def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -
 
 def _steady(differential, event, teeth):
     """Damage in the steady state times the duration."""
-    look = differential.run(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
+    look = differential._record(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
     settled = look[round(POINTS * SETTLING / LOOK):]
     span = settled["time"][-1] - settled["time"][0]
     frequency = abs(settled["planet[1].spin_angle"][-1] - settled["planet[1].spin_angle"][0]) / span * teeth[0] / (2.0 * pi)
@@ -94,7 +94,7 @@ def _steady(differential, event, teeth):
     cycles, period, steady = FEWEST_CYCLES, 1.0 / frequency, False
     while not steady and cycles <= MOST_CYCLES:
         before = max(1, ceil(SETTLING * frequency))
-        record = differential.run(None, OUTPUTS, (before + cycles) * period, period, event.values)
+        record = differential._record(None, OUTPUTS, (before + cycles) * period, period, event.values)
         damage = _damage(record)[[before, before + cycles // 2, before + cycles]]
         rate = (damage[2] - damage[0]) / (cycles * period)
         halves = np.diff(damage, axis=0)
@@ -108,7 +108,7 @@ def _steady(differential, event, teeth):
 
 def _history(differential, event, teeth):
     """Damage while teeth roll; while they stand, their stress."""
-    record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
+    record = differential._record(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
     # of the planets, which stay where side gears turn as teeth bend under a load
     angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
     pushed = pushed_along(angle, pitch)

@@ -14,8 +14,10 @@ from ..records import write
 from ..scene import Scene
 from ..text import aligned
 from ..values import DifferentialError, FileName, Value, suggestion
-from .cycle import DRIVES, QUANTITIES, read_cycle
+from ..warned import by_owner, silenced, warn
+from .cycle import QUANTITIES, read_cycle
 from .damage import MODES, Event, EventDamage, evaluate
+from .driven import DRIVES, check_commands, drives_of, open_loads
 from .slow import ORDERS, SlowCycles, Strength, count_slow_cycles
 
 HOUR, KM = 3600.0, 1000.0
@@ -33,7 +35,7 @@ class SpectrumResult:
     `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`:
     their Miner sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
     `teeth` of planet and side gear; `planets`: how many; `side_ratio`: root stress of the side gears over that of the planets;
-    `order`: in which events follow each other."""
+    `order`: in which events follow each other; `loads`: values and sources of loads that the duty cycle leaves open, a line each."""
 
     events: tuple[EventDamage, ...]
     slow: SlowCycles
@@ -43,6 +45,7 @@ class SpectrumResult:
     planets: int
     side_ratio: float
     order: str
+    loads: tuple[str, ...] = ()
 
     @property
     def by_event(self) -> np.ndarray:
@@ -105,11 +108,7 @@ class SpectrumResult:
     @property
     def warnings(self) -> list[str]:
         """What the FMU warned of, each warning once: with the name of its event, or with the number of its events."""
-        events: dict[str, list[str]] = {}
-        for event_damage in self.events:
-            for warning in event_damage.warnings:
-                events.setdefault(warning, []).append(event_damage.event.name)
-        return [f"{names[0] if len(names) == 1 else f'{len(names)} events'}: {warning}" for warning, names in events.items()]
+        return by_owner(((one.event.name, one.warnings) for one in self.events), "events")
 
     def table(self) -> np.ndarray:
         """A row for each event, the worst first: a structured array, which pandas takes as it is.
@@ -147,6 +146,7 @@ class SpectrumResult:
         """Life, damage by mode and by event, and safety factors, as text."""
         km = f", {self.km:.4g} km" if isfinite(self.km) else ""
         lines = [f"duty cycle: {len(self.events)} events, {self.hours:.4g} h{km}; order of events: {self.order}",
+                 *self.loads,
                  "damage per cycle: " + ", ".join(f"{name} {value:.3g}" for name, value in zip(NAMES, self.damage.values()))]
         if isfinite(self.cycles_to_failure):
             km = f", {self.life_km:.4g} km" if isfinite(self.life_km) else ""
@@ -187,6 +187,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     # events begin in their steady state, not as the scene does
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}
     of_scene.pop("scene.start", None)
+    sources = {**dict.fromkeys(of_scene, f"scene {scene}"), **dict.fromkeys(parameters or (), "the parameters (--set)")}
     given = {**of_scene, **(parameters or {})}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
@@ -194,9 +195,14 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     for name in values.keys() - variables.keys():
         raise DifferentialError(f"{name}: there is no such variable or quantity{suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
-        facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES], stop=1e-3)
+        # no event has the loads of this run
+        with silenced():
+            facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES], stop=1e-3)
         teeth = int(facts[TEETH[0]]), int(facts[TEETH[1]])
-        events = read_cycle(cycle, differential.fmu, vehicle, teeth, facts) if isinstance(cycle, (str, Path)) else list(cycle)
+        read = isinstance(cycle, (str, Path))
+        events = read_cycle(cycle, differential.fmu, vehicle, teeth, facts, values) if read else list(cycle)
+        for event in events:
+            check_commands(event, drives_of(event.values, facts, differential.fmu), values)
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
         damages = tuple(mapper(partial(_evaluated, differential=differential, teeth=teeth), events))
@@ -206,7 +212,10 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     histories, counts = [damage.standing for damage in damages], [event.count for event in events]
     slow = count_slow_cycles(histories, counts, order, GATE * strength.bending.strength)
     by_event = np.stack([_slow_by_event(cycles, strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
-    return SpectrumResult(damages, slow, by_event, strength, teeth, int(facts[PLANETS]), ratio, order)
+    result = SpectrumResult(damages, slow, by_event, strength, teeth, int(facts[PLANETS]), ratio, order,
+                            open_loads(events, facts, differential, sources))
+    warn(result.warnings)
+    return result
 
 
 def _evaluated(event, differential, teeth):

@@ -1,7 +1,6 @@
 """A car: motor, this differential, two tyres and the body, coupled step by step."""
 
 import math
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,8 @@ from ..fmu import Fmu
 from ..instance import Instance
 from ..plot import plot
 from ..points import Steps, TimeValue, span
-from ..values import DifferentialError, DifferentialWarning, FileName, Number, Value, suggestion
+from ..values import DifferentialError, FileName, Number, Value, suggestion
+from ..warned import warn
 from .equations import motor_torque
 from .motion import Motion
 from .parts import Body, Motor, Tyre
@@ -93,6 +93,7 @@ class Car:
                     else:
                         instance.set({name: value})
                 run.step(time, steps.points[row + 1] - time, [asked[name] for name in REQUESTS])
+            warn(instance.messages)
         return record
 
     def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":
@@ -110,7 +111,7 @@ class Car:
         unset = self.unset
         if unset and not self._is_told:
             listed = ", ".join(f"{name} = {value:g}" for name, value in unset.items())
-            warnings.warn(f"values of a passenger car that nobody set act in this car, SI units: {listed}", DifferentialWarning, stacklevel=3)
+            warn([f"values of a passenger car that nobody set act in this car, SI units: {listed}"])
         self._is_told = True
 
     def _checked(self, given):

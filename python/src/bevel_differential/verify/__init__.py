@@ -12,6 +12,7 @@ from fmpy import extract, read_model_description
 from ..answers import Progress
 from ..progress import silent
 from ..values import DifferentialError, FileName
+from ..warned import by_owner, warn
 from .evidence import Evidence
 from .experiment import Experiment, Unit
 from .files import Broken
@@ -34,6 +35,7 @@ def verify(fmu: FileName, quick: bool = False, progress: Progress = silent) -> F
         for number, experiment in enumerate(chosen):
             progress(number / len(chosen), experiment.name)
             found.append(_of(experiment, unit))
+        warn(by_owner(((each.name, each.warnings) for each in chosen), "experiments"))
         return found, evidence.faults + list(dict.fromkeys(fault for each in chosen for fault in each.faults))
 
 

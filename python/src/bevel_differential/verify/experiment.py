@@ -46,7 +46,7 @@ class Experiment:
 
     `kind`: "smoke test", "validation", "uncertainty analysis", or "default experiment" of a result that stands alone. Times in s;
     None: those of the default experiment. `solver_tolerance`: what the host tells the unit's solver. `problem`: what keeps it from
-    being run. `faults`: what is wrong in it and takes nothing from the comparison."""
+    being run. `faults`: what is wrong in it and takes nothing from the comparison. `warnings` of the FMU in its run."""
 
     name: str
     folder: Path
@@ -62,6 +62,7 @@ class Experiment:
     solver_tolerance: float | None = None
     problem: str = ""
     faults: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
     values: dict[str, Any] = field(default_factory=dict)
     signals: np.ndarray | None = None
     expected: np.ndarray | None = None
@@ -95,13 +96,19 @@ class Experiment:
     def run(self, unit: Unit) -> np.ndarray:
         """The FMU's record of the experiment, by fmpy. Raises `Broken`."""
         said: list[str] = []
+
+        def log(*words):
+            # both versions of FMI end with status, category and message; status 1 is a warning, 0 an event
+            if words[-3] != 0:
+                (self.warnings if words[-3] == 1 else said).append(_text(words[-1]))
+
         try:
             # fmpy prints inputs that have no signal, and what the FMU says
             with redirect_stdout(io.StringIO()):
                 return simulate_fmu(
                     str(unit.folder), model_description=unit.description, start_values=self.values, start_time=self.start,
                     stop_time=self.stop, output_interval=self.step, relative_tolerance=self.solver_tolerance, input=self.signals,
-                    output=list(self.columns), logger=lambda *words: said.append(_text(words[-1])))
+                    output=list(self.columns), logger=log, debug_logging=True)
         except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
             raise Broken(f"the unit fails: {' '.join('; '.join([*said, str(error)]).split())}") from None
 

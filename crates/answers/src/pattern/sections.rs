@@ -1,0 +1,172 @@
+//! Loaded sections of planet 1's left mesh at an instant.
+//!
+//! A section of solid teeth lies where the solids touch, at the polar angle φ about the axis of each gear. Teeth of a law
+//! touch where the aligned flanks do: on the path of contact, or at a tip corner; errors and displacements move the load
+//! along the face. On the unit sphere a flank has the radius of curvature tan ψ(φ). The relative radius at the cone
+//! distance R is
+//!
+//!   ρ = R / (cot ψ_p + cot ψ_s)
+//!
+//! A tip corner is no cylinder. Its pressure is calculated with the radii of the flanks at the end of the path, and so is less
+//! than the real pressure at the edge.
+//!
+//! The load per width w(R) of `line` and `line_weber` follows from the law at each cone distance. For aligned teeth that is
+//! w = 2FR/(R_e² − R_i²). `impact` has one resultant, which is spread evenly: w = F/b.
+
+use bevel_differential::contact::pairs::{Flank, Spot};
+use bevel_differential::geometry::Pair;
+use bevel_differential::geometry::action::LineOfAction;
+use bevel_differential::model::{Simulation, ToothLoad};
+use bevel_differential::strength::LineContact;
+
+/// Sections into which a section of the whole face is divided for solid teeth.
+const SECTIONS_OF_SOLIDS: usize = 8;
+/// Sections of the face under a law.
+const SECTIONS: usize = 32;
+/// A load with more than this share of the face stands for the whole face.
+const WHOLE: f64 = 1.0 - 1e-9;
+
+/// A tooth pair: whether the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
+pub type PairName = (bool, [usize; 2]);
+
+/// A loaded section of a tooth pair at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadedSection {
+    /// Time [s].
+    pub time: f64,
+    /// Tooth pair.
+    pub name: PairName,
+    /// Whether the section touches at a tip corner.
+    pub is_corner: bool,
+    /// Place on the path of contact, as it follows from the planet's rotation [rad].
+    pub s: f64,
+    /// Cone distance [m].
+    pub cone: f64,
+    /// Width of the face that the section stands for [m].
+    pub width: f64,
+    /// Polar angles on planet and side gear [rad].
+    pub polar: [f64; 2],
+    /// Normal force per width [N/m].
+    pub line_load: f64,
+    /// Relative radius of curvature [m].
+    pub radius: f64,
+    /// Hertz pressure [Pa].
+    pub pressure: f64,
+    /// Half-width of the strip of contact [m].
+    pub half_width: f64,
+}
+
+impl LoadedSection {
+    /// Normal force [N].
+    pub fn force(&self) -> f64 {
+        self.line_load * self.width
+    }
+}
+
+/// What sections are made of: the gears of a scene.
+pub struct Flanks {
+    /// The gears.
+    pub pair: Pair,
+    action: LineOfAction,
+    contact: LineContact,
+    /// Whether the load of an aligned pair grows with the cone distance.
+    grows: bool,
+}
+
+impl Flanks {
+    /// The gears of `simulation`, both of the same modulus [Pa] and Poisson's ratio. `grows`: the load of an aligned pair grows
+    /// with the cone distance.
+    pub fn new(simulation: &Simulation, young_modulus: f64, poisson_ratio: f64, grows: bool) -> Self {
+        let pair = *simulation.pair();
+        let (action, contact) = (LineOfAction::new(&pair), LineContact::new(&pair, young_modulus, poisson_ratio));
+        Self { pair, action, contact, grows }
+    }
+
+    /// Loaded sections of planet 1's left mesh at the present time of `simulation`.
+    pub fn instant(&self, simulation: &Simulation) -> Vec<LoadedSection> {
+        let (mut all, time): (Vec<LoadedSection>, f64) = (Vec::new(), simulation.time());
+        // slices of a pair come one after the other, and the first one gives the load of all
+        let mut last = None;
+        simulation.loads_over_the_face(|load, line_load| {
+            let name = (load.flank == Flank::Drive, load.teeth);
+            if load.touch.is_some() {
+                all.extend(self.of_solids(time, load));
+            } else if last.replace(name) != Some(name) {
+                all.extend(self.of_law(time, load, line_load));
+            }
+        });
+        all
+    }
+
+    /// Width of a section of teeth under a law [m].
+    pub fn width(&self) -> f64 {
+        (self.pair.outer_cone - self.pair.inner_cone) / SECTIONS as f64
+    }
+
+    fn of_law(
+        &self,
+        time: f64,
+        load: &ToothLoad,
+        line_load: Option<&dyn Fn(f64) -> f64>,
+    ) -> impl Iterator<Item = LoadedSection> {
+        let (width, face) = (self.width(), self.pair.outer_cone - self.pair.inner_cone);
+        let polar = self.polar(load);
+        let loads: Vec<[f64; 2]> = (0..SECTIONS)
+            .map(|i| self.pair.inner_cone + width * (i as f64 + 0.5))
+            .map(|cone| match line_load {
+                Some(line_load) => [cone, line_load(cone)],
+                None if self.grows => [cone, self.contact.line_load(load.normal, cone)],
+                None => [cone, load.normal / face],
+            })
+            .filter(|[_, line_load]| *line_load > 0.0)
+            .collect();
+        loads.into_iter().map(move |[cone, line_load]| self.section(time, load, polar, [cone, width], line_load))
+    }
+
+    /// Several sections for a load of the whole face, one otherwise.
+    fn of_solids(&self, time: f64, load: &ToothLoad) -> impl Iterator<Item = LoadedSection> {
+        let (face, alone) = (self.pair.outer_cone - self.pair.inner_cone, load.normal / load.line_load);
+        let whole = alone > WHOLE * face;
+        let (count, cone, inner) = (if whole { SECTIONS_OF_SOLIDS } else { 1 }, load.cone, self.pair.inner_cone);
+        let width = if whole { face / SECTIONS_OF_SOLIDS as f64 } else { alone };
+        let polar = load.touch.map_or([0.0; 2], |touch| touch.polar);
+        let cones = (0..count).map(move |i| if whole { inner + width * (i as f64 + 0.5) } else { cone });
+        let load = *load;
+        cones.map(move |cone| self.section(time, &load, polar, [cone, width], load.line_load))
+    }
+
+    /// Polar angles on planet and side gear at which the aligned flanks touch [rad].
+    fn polar(&self, load: &ToothLoad) -> [f64; 2] {
+        let contact = load.contact(&self.action);
+        [0, 1].map(|i| self.action.in_gear(&contact, i, 0.0, load.turn()).point.z.clamp(-1.0, 1.0).acos())
+    }
+
+    fn section(
+        &self,
+        time: f64,
+        load: &ToothLoad,
+        polar: [f64; 2],
+        [cone, width]: [f64; 2],
+        line_load: f64,
+    ) -> LoadedSection {
+        let pair = &self.pair;
+        // a tip corner lies past the end of the path: arcs from the base circles are not taken below those at its ends
+        let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
+        let cot = |i: usize| 1.0 / pair.gears[i].action_arc(polar[i]).max(least[i]).tan();
+        let radius = cone / (cot(0) + cot(1));
+        let pressure = self.contact.pressure_on(line_load, radius).unwrap_or(0.0);
+        LoadedSection {
+            time,
+            name: (load.flank == Flank::Drive, load.teeth),
+            is_corner: load.spot != Spot::Path,
+            s: load.s,
+            cone,
+            width,
+            polar,
+            line_load,
+            radius,
+            pressure,
+            half_width: LineContact::half_width(line_load, pressure),
+        }
+    }
+}

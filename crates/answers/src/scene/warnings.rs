@@ -1,0 +1,54 @@
+//! Warnings about a scene before its first step: unusual values, values that change nothing, and values that nobody set.
+
+use bevel_differential::model::{Parameters, Simulation};
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::unset::{self, SetValues};
+use bevel_differential::variables::{number, table};
+
+use super::Scene;
+
+/// Warnings about `scene`, whose `simulation` has started.
+pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let set = set_values(scene);
+    let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
+    let problems = simulation.warnings().iter().cloned().chain(unfelt(scene)).chain(runaway);
+    let mut found: Vec<String> = problems.map(|problem| problem.to_string()).collect();
+    if set.has_own_differential() {
+        let line = unset::in_one_line(&unset::unset(&scene.parameters, &scene.inputs, &set));
+        found.extend(Some(line).filter(|line| !line.is_empty()));
+    }
+    found
+}
+
+/// The variables that `scene` sets at any time.
+pub fn set_values(scene: &Scene) -> SetValues {
+    let mut set = SetValues::default();
+    let later = scene.events.iter().flat_map(|event| &event.settings);
+    let rows = scene.settings.iter().chain(later).map(|setting| setting.row);
+    for row in rows.chain(scene.input_tables.iter().map(|table| table.row)) {
+        if let Some(index) = table().rows.iter().position(|known| known.name == row.name) {
+            set.insert(index);
+        }
+    }
+    set
+}
+
+/// Values that change nothing in `scene`, at the start or later, each variable once.
+fn unfelt(scene: &Scene) -> Vec<Problem> {
+    let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
+    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
+    let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
+        let index = table().rows.iter().position(|row| row.name == name);
+        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
+        found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
+    };
+    for setting in scene.events.iter().flat_map(|event| &event.settings) {
+        setting.apply(&mut parameters, &mut inputs);
+        later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
+    }
+    for table in &scene.input_tables {
+        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
+    }
+    found
+}

@@ -1,0 +1,67 @@
+"""Loads and speeds that an event needs for the drives of its shafts, and where they come from.
+
+A start value of the FMU is nobody's value. A command that neither the event nor the scene nor the parameters give is therefore an
+error. A load that comes from the scene or the parameters is named in the result, because the duty cycle does not show it."""
+
+from collections.abc import Container, Iterable, Mapping
+from typing import Any
+
+from ..differential import Differential
+from ..fmu import Fmu
+from ..values import DifferentialError
+from .damage import Event
+
+# parameters for the drive of each shaft
+DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
+# load of each shaft that is driven by torque, and speed of each shaft that is driven by speed
+LOADS = dict(zip(DRIVES, ("carrier.torque_command", "left.load_torque", "right.load_torque")))
+SPEEDS = dict(zip(DRIVES, ("carrier.speed_command", "left.speed_command", "right.speed_command")))
+
+
+def drives_of(values: Mapping[str, Any], usual: Mapping[str, Any], fmu: Fmu) -> dict[str, str]:
+    """Literals of `DRIVES` where an event has these `values`, {name: literal}; `usual`: values where it has none."""
+    return {name: fmu.variable(name).written(fmu.variable(name).number(values.get(name, usual[name]))) for name in DRIVES}
+
+
+def needed(drives: Mapping[str, str]) -> dict[str, str]:
+    """Commands that act with these `drives`, and the column of a duty cycle from which each follows."""
+    by_speed = [name for name in DRIVES[1:] if drives[name] == "speed"]
+    found = {LOADS[name]: "torque" for name in DRIVES if drives[name] == "torque"}
+    # with two speed-driven sides the carrier's speed follows from both
+    speed_driven = [name for name in DRIVES if drives[name] == "speed" and (name in by_speed or len(by_speed) < 2)]
+    return found | {SPEEDS[name]: "speed" for name in speed_driven}
+
+
+def missing(values: Container[str], drives: Mapping[str, str], given: Container[str]) -> dict[str, str]:
+    """The `needed` commands that are neither in `values` of an event nor `given` for all events."""
+    return {command: column for command, column in needed(drives).items() if command not in values and command not in given}
+
+
+def wanted(command: str) -> str:
+    """What to do about a missing command."""
+    what = "a load" if command in LOADS.values() else "a speed"
+    return f"write a value, or set {command} in the scene or by --set; {what} that nobody gives is not taken from the start values"
+
+
+def check_commands(event: Event, drives: Mapping[str, str], given: Container[str]) -> None:
+    """Refuses an event without a command that it needs."""
+    for command in missing({*event.values, *event.signals}, drives, given):
+        raise DifferentialError(f"{command}: event {event.name!r} does not give it; {wanted(command)}")
+
+
+def open_loads(events: Iterable[Event], usual: Mapping[str, Any], differential: Differential, sources: Mapping[str, str]) -> tuple[str, ...]:
+    """A line for each load that events take from elsewhere: its value, its source and the names of the events."""
+    fmu, found = differential.fmu, dict[str, list[str]]()
+    events = list(events)
+    for event in events:
+        for command, column in needed(drives_of(event.values, usual, fmu)).items():
+            if column == "torque" and command not in event.values and command not in event.signals:
+                found.setdefault(command, []).append(event.name)
+    lines = []
+    for command, names in found.items():
+        if len(names) == len(events):
+            where = "all events"
+        else:
+            where = f"{len(names)} {'event' if len(names) == 1 else 'events'} ({', '.join(names)})"
+        lines.append(f"load not in the duty cycle: {command} = {float(differential.values[command]):g} N·m from {sources[command]}, in {where}")
+    return tuple(lines)
