@@ -8,9 +8,12 @@ TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "car
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
 # seconds of a scene that are compared
 LONGEST = 0.5
+# constants of oil, bearings and clutches
+DRAG = {"bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4,
+        "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
+CLUTCHES = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1}
 # a small car that launches, brakes to a stop, waits, backs away and stops again: inputs over time, and how long it takes [s]
-CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3,
-       "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3,
+CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True, **DRAG,
        "inertia.left_end": 12.0, "inertia.right_end": 12.0, "inertia.carrier": 0.1, "left.load_torque": 0.0, "right.load_torque": 0.0,
        "carrier.torque_command": 0.0}
 BRAKES = ([0.0, 1.2, 1.3, 3.2, 3.3, 4.4, 4.5, 6.0], [0.0, 0.0, 300.0, 300.0, 0.0, 0.0, 300.0, 300.0])
@@ -21,7 +24,7 @@ DRIVE = 6.0
 
 def all_scenes(folder, effects):
     """(name, start values, events, tables, duration [s]) of each scene."""
-    together = TURN | ENDS
+    together = TURN | ENDS | DRAG | CLUTCHES
     for effect in effects:
         if effect.switch and "tooth" in effect.contact:
             together |= effect.inputs | {effect.switch: True}
