@@ -22,7 +22,17 @@ fn set(host: &Host, scene: &Scene) {
         };
         assert_eq!(status, Status::Ok, "{name}: {:?}", host.log());
     }
-    assert_eq!(host.set_many(&["inertia.left_end", "inertia.right_end"], &[0.5, 0.5]), Status::Ok);
+    let given = [
+        ("inertia.left_end", 0.5),
+        ("inertia.right_end", 0.5),
+        ("limited_slip.preload", 50.0),
+        ("limited_slip.torque_coefficient", 0.1),
+        ("bearing_drag.carrier_torque", 0.5),
+        ("bearing_drag.carrier_churning", 1e-4),
+        ("bearing_drag.side_torque", 0.2),
+    ];
+    let (names, values): (Vec<&str>, Vec<f64>) = given.into_iter().unzip();
+    assert_eq!(host.set_many(&names, &values), Status::Ok);
 }
 
 fn starts(scene: &Scene) -> bool {

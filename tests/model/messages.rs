@@ -99,7 +99,10 @@ fn each_stress_above_its_strength_is_reported_once_with_gear_values_and_time() {
     inputs.load_torque[1] = 200.0 * planet.max(side) / planet.min(side);
     simulation.set_inputs(&inputs);
     simulation.advance(0.05).unwrap();
-    let found: Vec<String> = simulation.unreported(&mut reported).iter().map(ToString::to_string).collect();
+    // the unequal loads also turn the planets beyond all speeds
+    let reports = simulation.unreported(&mut reported);
+    let found: Vec<String> =
+        reports.iter().filter(|one| one.variable.starts_with("strength")).map(ToString::to_string).collect();
     let strength = format!("exceeds the strength of {:.1} MPa", planet.max(side) * 1e-6);
     assert_eq!(found.len(), 2, "{found:?}");
     assert!(found[0].contains("strength.bending_strength: root stress of planet[1]"), "{found:?}");

@@ -33,13 +33,16 @@ pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
 /// Friction or drag that the scene lacks, or more of it.
 fn what_ends_rattle(p: &Parameters) -> &'static str {
     let washers = p.scene.gear_contact != GearContact::Solid;
-    match (washers && !p.effects.thrust_friction, !p.effects.bearing_drag) {
+    let bearings = p.effects.bearing_drag && p.specs.bearing_drag.carrier_torque > 0.0;
+    match (washers && !p.effects.thrust_friction, !bearings) {
         (true, true) => {
             "real planets and carriers are braked by washers, pins and bearings, which end the rattle: \
-             effects.thrust_friction = true and effects.bearing_drag = true"
+             effects.thrust_friction = true, and effects.bearing_drag = true with bearing_drag.carrier_torque"
         }
         (true, false) => "friction of washers and pins ends the rattle of planets: effects.thrust_friction = true",
-        (false, true) => "drag of the carrier's bearings ends the rattle: effects.bearing_drag = true",
+        (false, true) => {
+            "drag of the carrier's bearings ends the rattle: effects.bearing_drag = true with bearing_drag.carrier_torque"
+        }
         (false, false) => {
             "more drag ends the rattle sooner: raise bearing_drag.carrier_torque and bearing_drag.side_torque"
         }

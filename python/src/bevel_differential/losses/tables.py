@@ -37,8 +37,8 @@ LEAST = 0.01
 CONVENTION = [
     f"% eta is power out over power in, without a difference of wheel speeds, at least {LEAST:g}: for torque in the direction of the",
     "% speed wheels over carrier, 1 - P/(T w); for torque against the speed (overrun) carrier over wheels, |T w|/(|T w| + P).",
-    "% The blocks' documentation has one eta for both directions, a factor of the torque that passes, and does not exchange input and",
-    "% output when the torque changes sign. For losses in overrun take the n-D tables below, which are right for both signs.",
+    "% The blocks' documentation names one table for both signs and no exchange of input and output; that of the Gearbox block, which",
+    "% reads the same table, multiplies the torque by eta. For losses in overrun take the n-D tables below, right for both signs.",
 ]
 # a torque below this is none, N·m: what the usual bound allows as an error of the map
 NONE = 0.1
