@@ -74,8 +74,9 @@ mod tests {
         for sign in [1.0, -1.0] {
             let mut place = MeshPlace::default();
             for i in 1..1000 {
-                let change = place.advance(sign * 0.01);
-                let tooth = (0.01 * f64::from(i) - 1e-9 + 0.5).floor() as i64;
+                // binary fractions, so that the places are exact
+                let change = place.advance(sign / 128.0);
+                let tooth = (f64::from(i) / 128.0 - 0.5).ceil() as i64;
                 assert_eq!(place.tooth, sign as i64 * tooth, "{i}");
                 assert!(change.is_none_or(|change| change.rolls_on && change.leaves == change.enters));
             }
