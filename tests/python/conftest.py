@@ -22,6 +22,11 @@ def pytest_addoption(parser):
                      help="how many random scenes (or by the environment variable SCENES)")
 
 
+def pytest_configure(config):
+    # tests of warnings catch them; elsewhere thousands would be listed
+    config.addinivalue_line("filterwarnings", "ignore::bevel_differential.values.DifferentialWarning")
+
+
 @pytest.fixture(scope="session")
 def fmu_file():
     """Path of the .fmu, from the environment variable FMU."""

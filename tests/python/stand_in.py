@@ -43,7 +43,7 @@ class StandIn:
         self.asked, self.ends = {}, ends
 
     def __call__(self, folder, model_description, start_values, start_time, stop_time, output_interval, relative_tolerance, input, output,
-                 logger):
+                 logger, debug_logging=False):
         self.asked = {"values": start_values, "start": start_time, "stop": stop_time, "step": output_interval, "tolerance": relative_tolerance}
         gain, start = float(start_values.get("gain", 1.0)), start_time or 0.0
         recorder = Recorder(self, model_description, output)

@@ -215,14 +215,15 @@ def test_the_plan_warns_of_loads_that_turn_the_wheels_backward(tmp_path):
     file = tmp_path / "own.toml"
     file.write_text('description = "own"\nstop_time = 0.1\nstep = 1e-2\noutputs = ["left.speed"]\n[set]\n'
                     'scene.gear_contact = "ideal"\nscene.carrier_drive = "torque"\ncarrier.torque_command = 300.0\n', encoding="utf-8")
-    assert "nobody set left.load_torque = 835 N.m" in ask({"ask": "plan", "of": about(file)})["text"]
+    with pytest.warns(DifferentialWarning, match="nobody set left.load_torque = 835 N.m"):
+        ask({"ask": "plan", "of": about(file)})
 
 
 def test_python_warns_of_them(fmu_file):
     with Differential({"geometry.module": "5 mm", "contact.law": "line"}, fmu=fmu_file) as differential:
         with pytest.warns(DifferentialWarning, match="nobody set.*right.load_torque = 835 N.m") as caught:
             differential.run(stop=0.002)
-    assert len(caught) == 1
+    assert sum("nobody set" in str(one.message) for one in caught) == 1
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])
@@ -257,7 +258,7 @@ def test_a_car_tells_which_values_nobody_gave(fmu_file):
     with pytest.warns(DifferentialWarning, match="nobody set.*motor.inertia = 0.03.*left_tyre.radius = 0.334") as caught:
         for _ in range(2):
             car.run(stop=0.01)
-    assert len(caught) == 1
+    assert sum("values of a passenger car" in str(one.message) for one in caught) == 1
     with warnings.catch_warnings():
-        warnings.simplefilter("error")
+        warnings.filterwarnings("error", ".*values of a passenger car")
         Car({"scene.gear_contact": "ideal"}, fmu=fmu_file).run(stop=0.01)

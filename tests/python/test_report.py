@@ -21,7 +21,7 @@ LONGEST = {"drive_cycle": 60.0, "hil": 3.0, "rattle": 0.1}
 # figures of a scene with teeth, planets that roll and inputs that change
 ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias",
        "power", "worth"}
-WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
+WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress", "worth"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
            "one_wheel_on_ice": {"inputs"}, "torque_bias": {"inputs"}, "rattle": {"bias"},
            "drive_cycle": {"pattern", "waterfall"}}
 

@@ -44,14 +44,14 @@ def load(mean, amplitude, frequency, time):
     return mean + amplitude * np.sin(2.0 * pi * frequency * time)
 
 
-def simulated(mean, amplitude, frequency, spin, stop, points=60, values=None):
+def simulated(fmu, mean, amplitude, frequency, spin, stop, points=60, values=None):
     """Damage of planet and side gear by the FMU, and both stresses at 1 N·m."""
     step = 1.0 / (points * frequency)
     time = np.arange(ceil(stop / step) + 1) * step
     torque = load(mean, amplitude, frequency, time)
     sides = dict.fromkeys(["left.load_torque", "right.load_torque"], (time, torque))
     scene = {**SCENE, "planet.spin_command": spin, "left.load_torque": torque[0], "right.load_torque": torque[0]}
-    with Differential({**scene, **(values or {})}) as differential:
+    with Differential({**scene, **(values or {})}, fmu=fmu) as differential:
         record = differential.run(sides, OUTPUTS, stop, step)
     largest = np.max(abs(load(mean, amplitude, frequency, np.linspace(0.0, stop, 1 << 16))))
     return [record[name][-1] for name in OUTPUTS[:2]], [np.max(record[name]) / largest for name in OUTPUTS[2:]]
@@ -92,17 +92,17 @@ def counted(mean, amplitude, frequency, spin, stop, per_torque):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: "{:g}±{:g} N·m, {:g} Hz, {:g} rad/s".format(*case))
-def test_damage_is_that_of_a_count_tooth_by_tooth(case):
+def test_damage_is_that_of_a_count_tooth_by_tooth(fmu_file, case):
     stop = duration(*case[2:])
-    ours, per_torque = simulated(*case, stop)
+    ours, per_torque = simulated(fmu_file, *case, stop)
     assert ours == pytest.approx(counted(*case, stop, per_torque), rel=0.1)
 
 
 @pytest.mark.parametrize("case", CASES[::4], ids=lambda case: "{:g}±{:g} N·m, {:g} Hz, {:g} rad/s".format(*case))
-def test_the_other_flanks_and_the_other_way_round_take_the_same_damage(case):
+def test_the_other_flanks_and_the_other_way_round_take_the_same_damage(fmu_file, case):
     mean, amplitude, frequency, spin = case
     stop = 0.3 * duration(frequency, spin)
-    ours, _ = simulated(*case, stop)
-    mirrored, _ = simulated(-mean, -amplitude, frequency, -spin, stop, values={"carrier.speed_command": -50.0})
+    ours, _ = simulated(fmu_file, *case, stop)
+    mirrored, _ = simulated(fmu_file, -mean, -amplitude, frequency, -spin, stop, values={"carrier.speed_command": -50.0})
     assert min(ours) > 0.0
     assert mirrored == pytest.approx(ours, rel=1e-9)

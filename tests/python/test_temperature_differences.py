@@ -98,9 +98,9 @@ def test_a_scene_gives_off_heat_by_the_change_of_the_air(way, kelvin, tmp_path, 
     assert given_off == pytest.approx(-conductance * kelvin, rel=1e-2)
 
 
-def test_the_command_sets_and_shows_them(tmp_path, capsys):
+def test_the_command_sets_and_shows_them(tmp_path, capsys, fmu_file):
     (tmp_path / "air.toml").write_text(SCENE.replace('"temperature.case"', '"temperature.gears"'), encoding="utf-8")
-    assert main(["run", str(tmp_path / "air.toml"), "--set", "warm_up.gears_above_oil=20 degC"]) == 0
+    assert main(["run", str(tmp_path / "air.toml"), "--fmu", fmu_file, "--set", "warm_up.gears_above_oil=20 degC"]) == 0
     line = next(line.split() for line in capsys.readouterr().out.splitlines() if line.startswith("temperature.gears"))
     assert line[1] == "degC" and float(line[4]) == pytest.approx(100.0, abs=0.1)
     assert main(["plan", str(tmp_path / "air.toml"), "--set", "warm_up.ambient_change=-10 degC"]) == 0

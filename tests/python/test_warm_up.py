@@ -254,7 +254,7 @@ def test_steady_heat_of_wheels_that_accelerate_against_each_other_names_a_wheel(
 
 
 @pytest.mark.parametrize("values", [
-    FREE | {"scene.carrier_drive": "torque", "carrier.torque_command": 1500.0, "effects.bearing_drag": True},
+    FREE | theory.DRAG | {"scene.carrier_drive": "torque", "carrier.torque_command": 1500.0},
     # too fast for three cycles, and for one
     FREE | {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "left.load_torque": 300.0, "right.load_torque": 250.0,
             "warm_up.cycle": 0.1, "inertia.left_end": 0.01, "inertia.right_end": 0.01},

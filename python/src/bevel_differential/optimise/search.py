@@ -74,9 +74,10 @@ def rows_of(table: pd.DataFrame, space: Space) -> list[DesignRow]:
     rows = []
     for entry in table.to_dict("records"):
         rows.append(DesignRow(entry["run"], {name: entry[name] for name in space.names},
-                              {name: entry[name] for name in figures if pd.notna(entry[name])}, entry["feasible"],
-                              entry["message"], entry["seconds"], entry["violation"],
-                              tuple(entry["refused"].split("; ")) if entry["refused"] else ()))
+                              {name: entry[name] for name in figures if pd.notna(entry[name])},
+                              feasible=entry["feasible"], message=entry["message"], seconds=entry["seconds"],
+                              violation=entry["violation"],
+                              refused=tuple(entry["refused"].split("; ")) if entry["refused"] else ()))
     return rows
 
 
