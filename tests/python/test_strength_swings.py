@@ -106,3 +106,41 @@ def test_the_other_flanks_and_the_other_way_round_take_the_same_damage(fmu_file,
     mirrored, _ = simulated(fmu_file, -mean, -amplitude, frequency, -spin, stop, values={"carrier.speed_command": -50.0})
     assert min(ours) > 0.0
     assert mirrored == pytest.approx(ours, rel=1e-9)
+
+
+def swung(unit, pieces, steps):
+    """Advances by 10 ms for each of the loads in `pieces`, in so many steps each; returns the damage."""
+    for torque in pieces:
+        unit.set(dict.fromkeys(["left.load_torque", "right.load_torque"], torque))
+        for _ in range(steps):
+            unit.step(0.01 / steps)
+    return unit.read(OUTPUTS[:2])
+
+
+def pieces(count):
+    """Loads that change sign and size from piece to piece, N·m."""
+    return [900.0 * np.sin(2.1 * k) + 300.0 * np.sin(0.7 * k) for k in range(count)]
+
+
+@pytest.mark.parametrize("spin", [0.4, -3.0])
+def test_damage_does_not_depend_on_communication_steps(fmu, spin):
+    damages = []
+    for steps in [1, 3, 10]:
+        with fmu.open() as unit:
+            unit.initialise({**SCENE, "planet.spin_command": spin})
+            damages.append(swung(unit, pieces(400), steps))
+    # stresses follow the solver's tolerance of 1e-6, damage the ninth power of stresses
+    assert min(damages[0]) > 0.0
+    assert damages[1:] == [pytest.approx(damages[0], rel=1e-4)] * 2
+
+
+def test_a_restored_state_counts_the_same_swings_here_and_in_another_instance(fmu):
+    with fmu.open() as unit, fmu.open() as other:
+        for each in (unit, other):
+            each.initialise({**SCENE, "planet.spin_command": 1.3})
+        swung(unit, pieces(150), 1)
+        saved = unit.save()
+        expected = swung(unit, pieces(250)[150:], 1)
+        for each in (unit, other):
+            each.restore(saved)
+            assert swung(each, pieces(250)[150:], 1) == expected
