@@ -60,6 +60,8 @@ pub struct Row<A> {
     pub switch: Option<&'static str>,
     /// Condition on other variables under which a scene can feel the value, as `variables::felt` reads it; none: always.
     pub when: Option<&'static str>,
+    /// Condition under which more depends on the value than outputs that repeat it; none: `when` decides.
+    pub acts_when: Option<&'static str>,
     /// The way to its value.
     pub access: A,
 }
@@ -92,6 +94,7 @@ impl<A> Row<A> {
             derivative_of: self.derivative_of,
             switch: self.switch,
             when: self.when,
+            acts_when: self.acts_when,
             access: to(self.access),
         }
     }
@@ -112,6 +115,7 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
         derivative_of: None,
         switch: None,
         when: None,
+        acts_when: None,
         access: (),
     }
 }
@@ -121,6 +125,12 @@ impl Row<()> {
     #[inline(never)]
     pub const fn when(self, condition: &'static str) -> Self {
         Row { when: Some(condition), ..self }
+    }
+
+    /// Outputs repeat the value; anything else depends on it only under `condition` (`variables::felt`).
+    #[inline(never)]
+    pub const fn acts_when(self, condition: &'static str) -> Self {
+        Row { acts_when: Some(condition), ..self }
     }
 
     /// The parameter may be changed while a simulation runs as well.

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use crate::instance::EVENT_INDICATORS;
 use crate::model::{Happening, MAX_PLANETS, Parameters};
-use crate::variables::{Access, table};
+use crate::variables::{Access, index_of, table};
 
 /// Prefix of the variables of the first planet, and of its loaded tooth pairs with the left side gear.
 const FIRST: &str = "planet[1].";
@@ -59,7 +59,7 @@ pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
 
 /// Index of the row `name`.
 fn place(name: &str) -> usize {
-    table().rows.iter().position(|row| row.name == name).unwrap_or(usize::MAX)
+    index_of(name).unwrap_or(usize::MAX)
 }
 
 /// Value reference of the number of planets, on which sizes of arrays depend.

@@ -1,8 +1,8 @@
 //! Swings of the load while teeth are in mesh, counted tooth by tooth.
 //!
 //! Each tooth has the damage of its own passages. A planet's tooth meshes once per revolution with each side gear, which load
-//! opposite flanks; of a side gear one tooth meshes with each planet. Planets are taken as alike, and so are the teeth of a side
-//! gear in mesh at an instant: the heaviest mesh of a side counts for all.
+//! opposite flanks; of a side gear one tooth meshes with each planet. All planets count as equal, and so do the teeth of a side
+//! gear that are in mesh at an instant: the heaviest mesh of a side counts for all.
 
 use serde::{Deserialize, Serialize};
 
@@ -32,7 +32,7 @@ impl TeethInMesh {
     }
 
     /// Counts an interval in which the planets, `planets` of them, roll by `angle` [rad]. `forces` [N] bend the teeth of each side
-    /// at its begin, in its middle and at its end, positive on the drive flank.
+    /// at its start, in its middle and at its end, positive on the drive flank.
     pub fn add(&mut self, rating: &Rating, planets: usize, angle: f64, forces: [Three; 2]) {
         let before = self.place;
         let change = self.place.advance(angle / rating.pitch[0]);

@@ -6,8 +6,9 @@
 //! of the other with the mean negated. One rainflow count serves both.
 //!
 //! A tooth that rolls through its mesh comes without load and leaves without load, so that all its cycles close; the largest of
-//! them is the passage itself, which counts elsewhere ([`super::ToothDamage`]). Of a tooth that stands all cycles count, the open
-//! ones as the halves that they are, so that the sum does not depend on rounding of two equal peaks.
+//! them is the passage itself, which counts elsewhere ([`super::ToothDamage`]). A cycle only closes inside a range that is at
+//! least as large, so the largest one is still open until the tooth leaves. All cycles of a standing tooth count, open ones as
+//! halves, so that the sum does not depend on rounding of two equal peaks.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,9 +26,7 @@ pub type RootSums = [[f64; 2]; 2];
 pub struct Passage {
     /// Force that bends it, positive on the drive flank [N].
     history: Rainflow,
-    /// Largest cycle so far of a tooth that rolls through its mesh.
-    largest: Option<LoadCycle>,
-    /// Damage of the other cycles.
+    /// Damage of closed cycles.
     roots: [[Damage; 2]; 2],
 }
 
@@ -39,31 +38,32 @@ impl Passage {
         passage
     }
 
-    /// Whether no force has been counted yet.
+    /// True if no force has been counted yet.
     pub fn is_new(&self) -> bool {
         self.history.is_empty()
     }
 
     /// Adds a force on the tooth, positive on the drive flank [N].
     pub fn add_force(&mut self, rating: &Rating, force: f64) {
-        let Self { history, largest, roots } = self;
+        let Self { history, roots } = self;
         if history.is_empty() && !history.returns() {
             *history = Rainflow::new(gate(rating));
         }
-        let returns = history.returns();
-        history.push(force, |cycle| {
-            let counting = if returns { beside_largest(largest, cycle) } else { Some(cycle) };
-            count(rating, roots, counting);
-        });
+        history.push(force, |cycle| count(rating, roots, cycle));
     }
 
     /// Damage of the tooth if it leaves the mesh now.
     pub fn sums(&self, rating: &Rating) -> RootSums {
-        let Self { history, mut largest, mut roots } = *self;
+        let Self { history, mut roots } = *self;
         if history.returns() {
-            history.rest_of_return(|cycle| count(rating, &mut roots, beside_largest(&mut largest, cycle)));
+            let mut largest = None;
+            history.rest_of_return(|cycle| {
+                if let Some(smaller) = beside_largest(&mut largest, cycle) {
+                    count(rating, &mut roots, smaller);
+                }
+            });
         } else {
-            history.rest(|cycle| count(rating, &mut roots, Some(cycle)));
+            history.rest(|cycle| count(rating, &mut roots, cycle));
         }
         roots.map(|flanks| flanks.map(|damage| damage.sum))
     }
@@ -83,8 +83,7 @@ fn beside_largest(largest: &mut Option<LoadCycle>, cycle: LoadCycle) -> Option<L
     }
 }
 
-fn count(rating: &Rating, roots: &mut [[Damage; 2]; 2], cycle: Option<LoadCycle>) {
-    let Some(cycle) = cycle else { return };
+fn count(rating: &Rating, roots: &mut [[Damage; 2]; 2], cycle: LoadCycle) {
     for (root, roots) in rating.root.iter().zip(roots) {
         for (damage, mean) in roots.iter_mut().zip([cycle.mean, -cycle.mean]) {
             let range = pulsating_range(&LoadCycle { mean, ..cycle }, rating.sensitivity);

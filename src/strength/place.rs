@@ -27,7 +27,7 @@ pub struct Change {
     pub leaves: f64,
     /// Part of the interval after which the last tooth comes into mesh: later than `leaves` if others pass between.
     pub enters: f64,
-    /// Whether the gears roll on in one direction, so that the passage of the last tooth counts as a cycle. After a reversal they
+    /// True if the gears roll on in one direction, so that the passage of the last tooth counts as a cycle. After a reversal they
     /// roll a pitch until passages count.
     pub rolls_on: bool,
 }
@@ -58,7 +58,7 @@ impl MeshPlace {
         Some(change)
     }
 
-    /// Of a gear with `teeth` teeth the one that is in mesh `offset` teeth from where it is counted, and `teeth`.
+    /// Returns the number of the tooth in mesh, shifted by `offset` teeth, for a gear with `teeth` teeth; and `teeth`, at least 1.
     pub fn tooth_of(&self, teeth: usize, offset: usize) -> (usize, usize) {
         let teeth = teeth.max(1);
         ((self.tooth.rem_euclid(teeth as i64) as usize + offset) % teeth, teeth)

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub const CAPACITY: usize = 32;
 
 /// A counted cycle, in the unit of the history.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadCycle {
     /// Peak minus valley.
     pub range: f64,
@@ -41,7 +41,7 @@ pub struct Rainflow {
     direction: i8,
     /// Reversals up to this are no turning points.
     gate: f64,
-    /// Whether the history ends where it begins, so that every cycle closes.
+    /// True if the history ends where it begins, so that every cycle closes.
     returns: bool,
 }
 
@@ -56,7 +56,7 @@ impl Rainflow {
         Self { returns: true, ..Self::new(gate) }
     }
 
-    /// Whether the history ends where it begins.
+    /// True if the history ends where it begins.
     pub fn returns(&self) -> bool {
         self.returns
     }

@@ -39,7 +39,7 @@ impl ToothSums {
     }
 }
 
-/// How many teeth share a sum.
+/// Number of teeth that share a sum.
 fn sharing(teeth: usize) -> usize {
     teeth.div_ceil(MOST_SUMS).max(1)
 }

@@ -10,8 +10,7 @@
 
 use std::sync::OnceLock;
 
-use super::named::{number, number_of};
-use super::parameters::bodies::OIL_TEMPERATURE_ACTS;
+use super::named::{index_of, number, number_of};
 use super::table::table;
 use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
@@ -65,7 +64,7 @@ impl Condition {
         }
         let mut words = text.split(' ');
         let (name, sign, values) = (words.next()?, words.next()?, words.next()?);
-        let index = table().rows.iter().position(|row| row.name == name)?;
+        let index = index_of(name)?;
         let values = values.split('|').map(|word| number_in(&table().rows[index], word)).collect::<Option<Vec<_>>>()?;
         match sign {
             "=" => Some(Self::OneOf(index, values)),
@@ -124,8 +123,7 @@ struct Needs {
     start: Option<f64>,
     switch: Option<Condition>,
     when: Option<Condition>,
-    /// Under which more than outputs that repeat the value depends on it.
-    acts: Option<Condition>,
+    acts_when: Option<Condition>,
 }
 
 impl Needs {
@@ -143,7 +141,7 @@ fn needs() -> &'static [Needs] {
             start: number(row, &mut parameters, &mut inputs),
             switch: row.switch.and_then(|name| Condition::read(&format!("{name} = true"))),
             when: row.when.and_then(Condition::read),
-            acts: if row.name == REPEATED { Condition::read(OIL_TEMPERATURE_ACTS) } else { None },
+            acts_when: row.acts_when.and_then(Condition::read),
         };
         table().rows.iter().map(&mut of).collect()
     })
@@ -154,14 +152,11 @@ pub fn is_felt(index: usize, parameters: &mut Parameters, situation: Situation) 
     needs()[index].all().all(|condition| condition.holds(parameters, situation))
 }
 
-/// Whether more depends on the value of row `index` in a scene of `parameters` than outputs that repeat it.
+/// True if anything but outputs that repeat it depends on the value of row `index` in a scene of `parameters`.
 pub fn acts(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
-    let needed = &needs()[index].acts;
+    let needed = &needs()[index].acts_when;
     is_felt(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
 }
-
-/// The variable that outputs repeat: temperatures of all surfaces, where nothing warms up.
-const REPEATED: &str = "oil.temperature";
 
 /// A warning, if `value` is not the start value of row `index` and nothing in a scene of `parameters` can feel it.
 pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situation: Situation) -> Option<Problem> {
@@ -169,13 +164,8 @@ pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situa
     if needs.start.is_none_or(|start| start == value) || acts(index, parameters, situation) {
         return None;
     }
-    if is_felt(index, parameters, situation) {
-        let acts = OIL_TEMPERATURE_ACTS;
-        return Some(problem!(
-            row.name,
-            "{}{UNFELT}{acts}; here only the outputs temperature.* repeat it",
-            written(row, value)
-        ));
+    if let Some(acts) = row.acts_when.filter(|_| is_felt(index, parameters, situation)) {
+        return Some(problem!(row.name, "{}{UNFELT}{acts}; here only outputs repeat it", written(row, value)));
     }
     let mut missing = |needed: &Option<Condition>| needed.as_ref().is_some_and(|c| !c.holds(parameters, situation));
     let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
@@ -202,7 +192,7 @@ fn written(row: &Variable, value: f64) -> String {
     }
 }
 
-/// A value as [`written`], in the unit that people think in.
+/// Text of a value like that of [`written`], but in the display unit of `row`.
 pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
     match (row.access, row.display) {
         (Access::Real(_) | Access::Input(_), Some(shown)) => {
@@ -239,8 +229,8 @@ mod tests {
         for (row, needs) in table().rows.iter().zip(needs()) {
             assert_eq!(row.switch.is_some(), needs.switch.is_some(), "{}", row.name);
             assert_eq!(row.when.is_some(), needs.when.is_some(), "{}: {:?}", row.name, row.when);
-            assert_eq!(row.name == REPEATED, needs.acts.is_some(), "{}", row.name);
-            needs.all().chain(&needs.acts).for_each(check);
+            assert_eq!(row.acts_when.is_some(), needs.acts_when.is_some(), "{}: {:?}", row.name, row.acts_when);
+            needs.all().chain(&needs.acts_when).for_each(check);
         }
     }
 

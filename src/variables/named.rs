@@ -5,6 +5,11 @@ use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 
+/// Index of the variable `name` in the table, which is its value reference in FMI 2.0.
+pub fn index_of(name: &str) -> Option<usize> {
+    table().rows.iter().position(|row| row.name == name)
+}
+
 /// The variable `name`, if there is one.
 pub fn named(name: &str) -> Option<&'static Variable> {
     table().rows.iter().find(|row| row.name == name)

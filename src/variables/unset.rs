@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::felt::{Situation, acts, written_as_shown};
-use super::named::number;
+use super::named::{index_of, number};
 use super::table::table;
 use super::{Access, Causality, Variable};
 use crate::model::{Inputs, Parameters, turned_backward};
@@ -35,7 +35,7 @@ impl SetValues {
 
     /// True if the variable `name` was set.
     fn contains_named(&self, name: &str) -> bool {
-        table().rows.iter().position(|row| row.name == name).is_some_and(|index| self.contains(index))
+        index_of(name).is_some_and(|index| self.contains(index))
     }
 
     /// True if any value of the differential itself was set: it is then another one than the study's.
@@ -116,7 +116,7 @@ pub fn in_one_line(found: &[Unset]) -> String {
     format!("{NOBODY_SET}{}", groups.join("; "))
 }
 
-/// How the line about these values begins.
+/// Start of the line that lists these values.
 pub const NOBODY_SET: &str = "values of the study that nobody set act in this scene: ";
 
 /// A warning if load torques that nobody set would turn the wheels backward from rest.
@@ -130,13 +130,9 @@ mod tests {
     use super::*;
     use crate::model::{CarrierDrive, GearContact};
 
-    fn index(name: &str) -> usize {
-        table().rows.iter().position(|row| row.name == name).unwrap()
-    }
-
     fn set_of(names: &[&str]) -> SetValues {
         let mut set = SetValues::default();
-        names.iter().for_each(|name| set.insert(index(name)));
+        names.iter().for_each(|name| set.insert(index_of(name).unwrap()));
         set
     }
 

@@ -15,6 +15,7 @@ os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)
 
 from bevel_differential import Differential, Fmu  # noqa: E402
 from driving import Drive  # noqa: E402
+from fmi3 import Unit3  # noqa: E402
 
 
 def pytest_addoption(parser):
@@ -46,6 +47,20 @@ def fmu(fmu_file):
 def outputs(fmu):
     """Names of all outputs."""
     return [variable.name for variable in fmu.variables.values() if variable.causality == "output"]
+
+
+@pytest.fixture(scope="session")
+def fmu3(fmu_file):
+    """Path of the unit for FMI 3.0, which is packaged beside that for FMI 2.0."""
+    return Path(fmu_file).with_name("BevelDifferential3.fmu")
+
+
+@pytest.fixture(scope="session")
+def plain_outputs(fmu3):
+    """Names of the continuous outputs of FMI 3.0 with one real number each."""
+    with Unit3(fmu3) as unit:
+        return [name for name, variable in unit.variables.items() if variable.causality == "output"
+                and variable.type == "Float64" and not variable.dimensions and not name.startswith("event.")]
 
 
 @pytest.fixture(scope="session")

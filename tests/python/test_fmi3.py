@@ -30,20 +30,6 @@ SCENES = {"braking": BRAKING, "clutch": CLUTCH, "fault": FAULT}
 STEP, END = 2e-3, 0.12
 
 
-@pytest.fixture(scope="module")
-def fmu3(fmu_file):
-    """The unit beside that of FMI 2.0."""
-    return Path(fmu_file).with_name("BevelDifferential3.fmu")
-
-
-@pytest.fixture(scope="module")
-def plain_outputs(fmu3):
-    """Outputs of one real number that are continuous."""
-    with Unit3(fmu3) as unit:
-        return [name for name, variable in unit.variables.items() if variable.causality == "output"
-                and variable.type == "Float64" and not variable.dimensions and not name.startswith("event.")]
-
-
 def test_the_unit_is_valid_by_fmpy_and_by_the_schema(fmu3):
     assert validate_fmu(str(fmu3)) == []
     with zipfile.ZipFile(fmu3) as archive:

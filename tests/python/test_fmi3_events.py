@@ -1,7 +1,6 @@
 """Events of the unit of FMI 3.0 that commands cause, and event mode: after each event `held.*` and `event.*` agree with a run
 without event mode, and the motion keeps its bits."""
 
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,20 +38,6 @@ COMMANDS = {
     # the drive loads each wheel by 50 N.m
     "lowered": (DRIVEN, 0.05, {6: {"left.brake_torque": 20.0}}, {6: [(LOOSE, LEFT)]}),
 }
-
-
-@pytest.fixture(scope="module")
-def fmu3(fmu_file):
-    """The unit beside that of FMI 2.0."""
-    return Path(fmu_file).with_name("BevelDifferential3.fmu")
-
-
-@pytest.fixture(scope="module")
-def outputs(fmu3):
-    """All outputs of one real number, without events."""
-    with Unit3(fmu3) as unit:
-        return [name for name, variable in unit.variables.items() if variable.causality == "output"
-                and variable.type == "Float64" and not variable.dimensions and not name.startswith("event.")]
 
 
 @pytest.fixture(scope="module")
@@ -105,14 +90,14 @@ class Run:
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("name", COMMANDS)
 @pytest.mark.parametrize("way", ["at the end of the step", "by early return", "in event mode", "in event mode, with early return"])
-def test_a_hold_by_command_is_an_event(fmu3, outputs, level, contact, name, way):
+def test_a_hold_by_command_is_an_event(fmu3, plain_outputs, level, contact, name, way):
     values, size, commands, expected = COMMANDS[name]
     values = values | level(contact)
     early, in_event_mode = "early" in way, "event mode" in way
-    plain = Run(fmu3, outputs, values, commands, step=size)
-    run = Run(fmu3, outputs, values, commands, True, early, in_event_mode, size)
+    plain = Run(fmu3, plain_outputs, values, commands, step=size)
+    run = Run(fmu3, plain_outputs, values, commands, True, early, in_event_mode, size)
     # the motion keeps its bits, and outputs that change only at events agree
-    assert np.array_equal(run.rows, plain.rows), [name for name, same in zip(outputs, (run.rows == plain.rows).all(0)) if not same]
+    assert np.array_equal(run.rows, plain.rows), [name for name, same in zip(plain_outputs, (run.rows == plain.rows).all(0)) if not same]
     assert run.last == plain.last
     for k, events in expected.items():
         assert run.kinds(k) == events
@@ -153,10 +138,10 @@ def test_held_bodies_are_shown_after_the_update_in_which_a_command_was_set(fmu3,
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(fmu3, outputs, level, contact):
+def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(fmu3, plain_outputs, level, contact):
     """Brakes on rolling wheels hold nothing, and loads are no commands to hold."""
     commands = {2: brakes(40.0), 4: {"left.load_torque": -80.0}, 5: {"left.load_torque": 10.0, "right.brake_torque": 0.0}}
-    runs = [Run(fmu3, outputs, ROLLING | level(contact), commands, *how)
+    runs = [Run(fmu3, plain_outputs, ROLLING | level(contact), commands, *how)
             for how in ((), (True, True), (True, True, True), (True, False, True))]
     for run in runs[1:]:
         assert np.array_equal(run.rows, runs[0].rows)
@@ -166,11 +151,11 @@ def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(f
 
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("early", [False, True])
-def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, outputs, level, contact, early):
+def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, plain_outputs, level, contact, early):
     """A controller applies a brake, reads that it holds, and releases the other one: all at one time."""
     values = DRIVEN | level(contact) | {"right.brake_torque": 0.0, "left.brake_torque": 0.0, "carrier.torque_command": 0.0}
     last = {"left.brake_torque": 0.0, "right.brake_torque": 80.0, "carrier.torque_command": 30.0}
-    plain = Run(fmu3, outputs, values, {3: last})
+    plain = Run(fmu3, plain_outputs, values, {3: last})
     rows = []
     with opened(fmu3, True, early) as unit:
         begin(unit, values, True)
@@ -184,16 +169,16 @@ def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, outputs, 
                 assert unit.reals(HELD).tolist() == [0, 0, 1]
                 unit.raw.enterStepMode()
             unit.step(k * STEP, (k + 1) * STEP - k * STEP)
-            rows.append(unit.reals(outputs))
+            rows.append(unit.reals(plain_outputs))
     assert np.array_equal(rows, plain.rows)
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_a_broken_tooth_by_trigger_is_an_event_at_the_start_of_the_step(fmu3, outputs, level, contact):
+def test_a_broken_tooth_by_trigger_is_an_event_at_the_start_of_the_step(fmu3, plain_outputs, level, contact):
     if contact != "tooth":
         pytest.skip("a tooth breaks only where there are teeth")
     values = ROLLING | {"effects.tooth_fault": True}
-    plain, *runs = [Run(fmu3, outputs, values, {3: {"fault.trigger": 1.0}}, *how)
+    plain, *runs = [Run(fmu3, plain_outputs, values, {3: {"fault.trigger": 1.0}}, *how)
                     for how in ((), (True, False), (True, True), (True, True, True))]
     assert all(np.array_equal(run.rows, plain.rows) and run.last == plain.last for run in runs)
     assert [run.reported[0][:4] for run in runs] == [(3, time, BREAKS, 0) for time in (4 * STEP, 3 * STEP, 3 * STEP)]
@@ -267,12 +252,12 @@ def mirrored(values):
 @pytest.mark.parametrize("values", [ROLLING | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}, DRIVEN],
                          ids=["rolling", "driven"])
 @pytest.mark.parametrize("in_event_mode", [False, True])
-def test_a_mirrored_scene_has_the_same_events(fmu3, outputs, level, contact, values, in_event_mode):
+def test_a_mirrored_scene_has_the_same_events(fmu3, plain_outputs, level, contact, values, in_event_mode):
     commands = {4: {"left.brake_torque": 20.0}, 6: brakes(400.0)}
     found = []
     for scene in (values, mirrored(values)):
-        run = Run(fmu3, outputs, scene | level(contact), commands, True, True, in_event_mode, step=0.05)
-        found.append((run.reported, run.rows[:, [outputs.index(name) for name in HELD]].tolist()))
+        run = Run(fmu3, plain_outputs, scene | level(contact), commands, True, True, in_event_mode, step=0.05)
+        found.append((run.reported, run.rows[:, [plain_outputs.index(name) for name in HELD]].tolist()))
     (reported, held), (reported_back, held_back) = found
     assert held == held_back and len(reported) >= 1
     assert [(event[0], *event[2:4]) for event in reported] == [(event[0], *event[2:4]) for event in reported_back]
@@ -283,9 +268,9 @@ def test_a_mirrored_scene_has_the_same_events(fmu3, outputs, level, contact, val
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("in_event_mode", [False, True])
-def test_a_restored_state_has_the_events_and_holds_of_its_time(fmu3, outputs, level, contact, early, in_event_mode):
+def test_a_restored_state_has_the_events_and_holds_of_its_time(fmu3, plain_outputs, level, contact, early, in_event_mode):
     """Also in another instance, and from within event mode between two reports."""
-    names = outputs
+    names = plain_outputs
 
     def go_on(unit):
         """From 0.02 s on; brakes are applied there."""
@@ -478,7 +463,7 @@ CHATTER = REST | {"scene.start": 2, "effects.thrust_friction": True, "left.load_
 
 
 @pytest.mark.parametrize("early", [False, True])
-def test_switches_in_quick_succession_keep_their_bits_with_communication_points_and_early_returns(fmu3, outputs, early):
+def test_switches_in_quick_succession_keep_their_bits_with_communication_points_and_early_returns(fmu3, plain_outputs, early):
     def end(points):
         with opened(fmu3, False, early) as unit:
             unit.initialise(CHATTER)
@@ -486,17 +471,17 @@ def test_switches_in_quick_succession_keep_their_bits_with_communication_points_
                 time, going = begin, True
                 while going:
                     _, _, going, time = unit.step(time, until - time)
-            return unit.reals(outputs)
+            return unit.reals(plain_outputs)
 
     with opened(fmu3, False, False) as unit:
         unit.initialise(CHATTER)
         unit.step(0.0, 0.02)
-        expected = unit.reals(outputs)
+        expected = unit.reals(plain_outputs)
     for points in ([0.0, 0.02], np.linspace(0.0, 0.02, 21).tolist(), np.linspace(0.0, 0.02, 201).tolist()):
         assert np.array_equal(end(points), expected), len(points)
 
 
-def test_looking_at_the_steps_of_the_solver_changes_no_bit_after_a_tooth_breaks_at_its_onset(fmu3, outputs):
+def test_looking_at_the_steps_of_the_solver_changes_no_bit_after_a_tooth_breaks_at_its_onset(fmu3, plain_outputs):
     values = ROLLING | {"effects.tooth_fault": True, "tooth_fault.onset": 0.03}
     commands = {1: {"left.load_torque": -50.0}, 2: {"left.load_torque": -100.0}}
     rows = []
@@ -506,5 +491,5 @@ def test_looking_at_the_steps_of_the_solver_changes_no_bit_after_a_tooth_breaks_
             for k in range(4):
                 unit.set(commands.get(k, {}))
                 unit.step(0.02 * k, 0.02)
-            rows.append(unit.reals(outputs))
+            rows.append(unit.reals(plain_outputs))
     assert np.array_equal(*rows)

@@ -109,7 +109,7 @@ class Variable:
         return self._whole(self._float(value, value))
 
     def differences(self) -> Self:
-        """What stands for differences between values of the variable: without the offsets of units, and without a range. They are
+        """A variable for differences between values of this one: without the offsets of units, and without a range. They are
         shown in SI if the usual unit has an offset: 5 K between two temperatures in degC."""
         found = copy.copy(self)
         found.is_relative, found.start, found.minimum, found.maximum = True, None, None, None

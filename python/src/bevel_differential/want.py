@@ -81,7 +81,7 @@ class Want:
         return self.quantity(fmu).unit or "1"
 
     def quantity(self, fmu: Variables) -> Variable:
-        """What the figure is of: it reads a number with its unit, and shows one."""
+        """The variable of the figure, which reads a number with its unit and shows one."""
         if self.statistic.word == "time_of_peak":
             return Time("time")
         variable = fmu.variable(self.name)

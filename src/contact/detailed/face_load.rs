@@ -9,8 +9,10 @@
 //! e/R = E/R + turn + bend R is least at an end of the face, at the edge of a broken tooth, or at R² = E/bend.
 
 use super::face::Cut;
+use super::sums::Approach;
 use super::{Detailed, Opening, SliceLoad};
 use crate::contact::Spring;
+use crate::contact::laws::AnySpring;
 use crate::numeric::sqrt;
 
 /// A loaded slice of the pair.
@@ -33,11 +35,16 @@ impl Detailed {
     /// Load per width [N/m] of the pair of `slice` at the cone distance `cone` [m], on a slice or between them.
     pub fn line_load(&self, slice: &SliceLoad, cone: f64) -> f64 {
         let arc = slice.approach.arc - slice.opening.at(cone) / cone;
+        self.line_load_at(&self.spring.place(slice.s), &slice.approach, arc, cone)
+    }
+
+    /// Load per width [N/m] at the `place` of a spring and the cone distance `cone` [m], where the flanks penetrate by `arc` [rad].
+    pub fn line_load_at(&self, place: &<AnySpring as Spring>::Place, approach: &Approach, arc: f64, cone: f64) -> f64 {
         if arc <= 0.0 {
             return 0.0;
         }
-        let rate = slice.approach.rate - slice.approach.opening_rate / cone;
-        let elastic = self.spring.at(arc, slice.s);
+        let rate = approach.rate - approach.opening_rate / cone;
+        let elastic = self.spring.respond(place, arc);
         cone * self.damping.apply(elastic.torque, elastic.stiffness, arc, rate).total
     }
 

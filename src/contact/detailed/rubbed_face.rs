@@ -54,12 +54,7 @@ impl Detailed {
             let Some(Span { ends, .. }) = carrying(approach, even, opening.bend, [from, to]) else { continue };
             largest = largest.max(largest_between(ends, |cone| {
                 let arc = approach - even / cone - opening.bend * cone;
-                if arc <= 0.0 {
-                    return 0.0;
-                }
-                let elastic = self.spring.respond(&place, arc);
-                let rate = slice.approach.rate - slice.approach.opening_rate / cone;
-                rubbed(cone, cone * self.damping.apply(elastic.torque, elastic.stiffness, arc, rate).total)
+                rubbed(cone, self.line_load_at(&place, &slice.approach, arc, cone))
             }));
         }
         largest

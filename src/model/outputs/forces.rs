@@ -61,8 +61,8 @@ pub struct Forces {
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 where the sum of the torques is below
-/// [`LEAST_TORQUE`]. The sum's sign decides which side is fast. Where it vanishes, rounding alone would decide, and differently
-/// for each representation of the gears.
+/// [`LEAST_TORQUE`]. The sum's sign decides which side is fast. If the sum vanishes, only rounding would decide, and its result
+/// would depend on the level of gear contact.
 ///
 /// The fast side is the one ahead in the sense in which the torques act, (ω_L − ω_R)(T_L + T_R) > 0 for the left one,
 /// forward or backward, in drive or overrun, and whether or not the carrier turns. Friction turns the power
@@ -71,7 +71,7 @@ pub struct Forces {
 /// be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
-    // written so that NaN is neutral
+    // a torque that is NaN has no bias
     if sum.abs().is_nan() || sum.abs() < LEAST_TORQUE {
         return (1.0, 0.0);
     }

@@ -34,8 +34,9 @@ macro_rules! over_temperature {
     };
 }
 
-/// Where more depends on `oil.temperature` than the outputs that repeat it. Flash temperatures of rated teeth count from it.
-pub const OIL_TEMPERATURE_ACTS: &str = concat!(
+/// Condition under which more depends on `oil.temperature` than the outputs `temperature.*`. The flash temperatures of rated
+/// teeth are added to it.
+const OIL_TEMPERATURE_ACTS: &str = concat!(
     "effects.warm_up = true or effects.strength = true or ",
     over_temperature!("limited_slip"),
     " or ",
@@ -65,6 +66,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         )
         .tunable()
         .when("effects.warm_up = false or warm_up.sump_given = true or initialisation")
+        .acts_when(OIL_TEMPERATURE_ACTS)
         .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.oil.temperature),
         row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
             .when(OILED)

@@ -1,7 +1,7 @@
 //! Rows of the parameters, one file for each group of them; those of effects come from the effects. All are fixed but
 //! those that say tunable. Their order gives the value references.
 
-pub(super) mod bodies;
+mod bodies;
 mod contact;
 mod gears;
 mod solver;

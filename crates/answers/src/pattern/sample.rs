@@ -161,7 +161,7 @@ impl Engagement {
     }
 }
 
-/// Whether the load of an aligned pair grows with the cone distance.
+/// True if the load of an aligned pair grows with the cone distance.
 fn grows(p: &Parameters) -> bool {
     p.contact.law != ContactLaw::Impact
 }
@@ -184,7 +184,7 @@ fn step(scene: &Scene, progress: &mut Progress) -> Result<f64> {
     Ok(scene.step / (INSTANTS * fastest).max(1.0))
 }
 
-/// Whether two instants have the same pairs, at nearly the same places and under nearly the same forces.
+/// True if two instants have the same pairs, at nearly the same places and under nearly the same forces.
 fn is_same(last: &[LoadedSection], now: &[LoadedSection], base_pitch: f64) -> bool {
     let close = |a: &LoadedSection, b: &LoadedSection| {
         a.name == b.name

@@ -26,7 +26,7 @@ const SECTIONS: usize = 32;
 /// A load with more than this share of the face stands for the whole face.
 const WHOLE: f64 = 1.0 - 1e-9;
 
-/// A tooth pair: whether the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
+/// A tooth pair: true if the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
 pub type PairName = (bool, [usize; 2]);
 
 /// A loaded section of a tooth pair at an instant.
@@ -36,7 +36,7 @@ pub struct LoadedSection {
     pub time: f64,
     /// Tooth pair.
     pub name: PairName,
-    /// Whether the section touches at a tip corner.
+    /// True if the section touches at a tip corner.
     pub is_corner: bool,
     /// Place on the path of contact, as it follows from the planet's rotation [rad].
     pub s: f64,
@@ -63,13 +63,13 @@ impl LoadedSection {
     }
 }
 
-/// What sections are made of: the gears of a scene.
+/// Gears of a scene, with what their sections need.
 pub struct Flanks {
     /// The gears.
     pub pair: Pair,
     action: LineOfAction,
     contact: LineContact,
-    /// Whether the load of an aligned pair grows with the cone distance.
+    /// True if the load of an aligned pair grows with the cone distance.
     grows: bool,
 }
 
@@ -125,10 +125,10 @@ impl Flanks {
 
     /// Several sections for a load of the whole face, one otherwise.
     fn of_solids(&self, time: f64, load: &ToothLoad) -> impl Iterator<Item = LoadedSection> {
-        let (face, alone) = (self.pair.outer_cone - self.pair.inner_cone, load.normal / load.line_load);
-        let whole = alone > WHOLE * face;
+        let (face, loaded) = (self.pair.outer_cone - self.pair.inner_cone, load.normal / load.line_load);
+        let whole = loaded > WHOLE * face;
         let (count, cone, inner) = (if whole { SECTIONS_OF_SOLIDS } else { 1 }, load.cone, self.pair.inner_cone);
-        let width = if whole { face / SECTIONS_OF_SOLIDS as f64 } else { alone };
+        let width = if whole { face / SECTIONS_OF_SOLIDS as f64 } else { loaded };
         let polar = load.touch.map_or([0.0; 2], |touch| touch.polar);
         let cones = (0..count).map(move |i| if whole { inner + width * (i as f64 + 0.5) } else { cone });
         let load = *load;

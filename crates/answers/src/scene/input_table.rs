@@ -82,10 +82,10 @@ impl InputTable {
     }
 }
 
-/// Times at which an input changes at once, in every period.
+/// Times at which an input jumps, in every period.
 #[derive(Clone)]
 pub struct Jumps {
-    /// Those of one period [s], rising.
+    /// Times of the jumps in the first period [s], rising.
     times: Vec<f64>,
     /// Period [s], if they repeat.
     period: Option<f64>,

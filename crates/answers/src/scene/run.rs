@@ -27,7 +27,7 @@ pub struct SceneRun<'a> {
     /// Whole communication steps done, and events.
     done: u64,
     events: usize,
-    /// Changes of inputs at once: those of events, and the jumps of each table.
+    /// Jumps of inputs: the times of events, and the jumps of each table.
     jumps: Vec<Jumps>,
     reported: Reported,
     /// Warnings since the start.

@@ -4,7 +4,7 @@ use bevel_differential::model::{Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
 use bevel_differential::variables::unset::{self, SetValues};
-use bevel_differential::variables::{number, table};
+use bevel_differential::variables::{index_of, number};
 
 use super::Scene;
 
@@ -27,7 +27,7 @@ pub fn set_values(scene: &Scene) -> SetValues {
     let later = scene.events.iter().flat_map(|event| &event.settings);
     let rows = scene.settings.iter().chain(later).map(|setting| setting.row);
     for row in rows.chain(scene.input_tables.iter().map(|table| table.row)) {
-        if let Some(index) = table().rows.iter().position(|known| known.name == row.name) {
+        if let Some(index) = index_of(row.name) {
             set.insert(index);
         }
     }
@@ -39,8 +39,8 @@ fn unfelt(scene: &Scene) -> Vec<Problem> {
     let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
     let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
     let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
-        let index = table().rows.iter().position(|row| row.name == name);
-        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
+        let problem =
+            index_of(name).zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
         found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
     };
     for setting in scene.events.iter().flat_map(|event| &event.settings) {

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use bevel_differential::numeric::lanes;
-use bevel_differential::variables::{guid, table};
+use bevel_differential::variables::{guid, index_of};
 use clap::Args;
 
 use crate::check::fuzz;
@@ -23,8 +23,7 @@ const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];
 
 /// Value reference of `name`, as an argument.
 pub fn reference(name: &str) -> Result<OsString> {
-    let found = table().rows.iter().position(|row| row.name == name);
-    found.map(|i| i.to_string().into()).with_context(|| format!("there is no variable {name}"))
+    index_of(name).map(|i| i.to_string().into()).with_context(|| format!("there is no variable {name}"))
 }
 
 /// A program on the library, as the hosts in C take it: library, GUID, references of an input and of an output.

@@ -195,7 +195,7 @@ def _drawn(lines, count, seed):
 
 
 def _depends_on_oil(scene, temperatures):
-    """Whether torques and losses depend on the oil's temperature. What rates the teeth depends on it, too, but moves nothing."""
+    """Returns True if torques and losses depend on the oil's temperature. The rating of teeth also depends on it, but moves nothing."""
     start = scene.fmu.variable(VARIABLES[3]).start
     other = next(float(temperature) for temperature in temperatures if temperature != start)
     try:

@@ -144,7 +144,7 @@ class Confirmed:
     models: dict[str, DesignRow]
 
     def difference(self, model: str, want: str) -> float:
-        """What the model changes of a figure, relative to the search's own; NaN if the model did not run or if the search's figure
+        """Change of a figure by the model, relative to the search's own; NaN if the model did not run or if the search's figure
         vanishes next to the model's."""
         first = self.row.figures[want]
         other = self.models[model].figures.get(want, float("nan")) if model in self.models else float("nan")

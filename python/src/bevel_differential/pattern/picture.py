@@ -80,7 +80,7 @@ def patterns(folder, data, outlines, cases):
     height = {1: 6.8, 2: 4.8, 3: 3.55}[columns]
     figure = style.figure(height * rows + 2.2)
     # flank, line load, and a gap to the title of the next case
-    # one flank alone has margins, so that its height does not narrow it and its load lies below it
+    # a single flank gets margins, so that its load curve below it has the same width
     margins = 1 if columns == 1 else 0
     grid = figure.add_gridspec(3 * rows, columns + 2 * margins, height_ratios=[2.6, 1, 0.3] * rows,
                                width_ratios=[0.4, 1, 0.4] if margins else None)

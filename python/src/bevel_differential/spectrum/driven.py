@@ -38,7 +38,7 @@ def missing(values: Container[str], drives: Mapping[str, str], given: Container[
 
 
 def wanted(command: str) -> str:
-    """What to do about a missing command."""
+    """Advice on a missing command."""
     what = "a load" if command in LOADS.values() else "a speed"
     return f"write a value, or set {command} in the scene or by --set; {what} that nobody gives is not taken from the start values"
 
@@ -54,8 +54,8 @@ def open_loads(events: Iterable[Event], usual: Mapping[str, Any], differential: 
     fmu, found = differential.fmu, dict[str, list[str]]()
     events = list(events)
     for event in events:
-        for command, column in needed(drives_of(event.values, usual, fmu)).items():
-            if column == "torque" and command not in event.values and command not in event.signals:
+        for command, column in missing({*event.values, *event.signals}, drives_of(event.values, usual, fmu), ()).items():
+            if column == "torque":
                 found.setdefault(command, []).append(event.name)
     lines = []
     for command, names in found.items():

@@ -43,7 +43,7 @@ class Motion:
                 for i, (stiffness, limit) in enumerate(zip((body.front_stiffness, body.rear_stiffness), self._limits))]
 
     def torque(self, speeds: Sequence[float]) -> float:
-        """Torque of the motor, N.m. The lagging torque is limited again, because the limit falls at once when the speed rises."""
+        """Torque of the motor, N.m. The lagging torque is limited again, because the limit falls immediately when the speed rises."""
         return motor_torque(self.motor, self.x[0], self.motor.ratio * speeds[0])
 
     def rates(self, x: Sequence[float], speeds: Sequence[float], request: float, steer: float) -> list[float]:

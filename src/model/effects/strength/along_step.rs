@@ -35,7 +35,7 @@ impl Rolled {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// The same of the side gears, up to the sign.
+    /// Rolling of the side gears, up to the sign.
     fn side(&self, members: &[f64], rating: &Rating) -> f64 {
         self.mean(members) * rating.pitch[1] / rating.pitch[0]
     }

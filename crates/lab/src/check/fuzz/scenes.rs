@@ -1,7 +1,7 @@
 //! Instances brought to where steps happen: scenes and effects at random.
 
 use bevel_differential::fmi2::*;
-use bevel_differential::variables::{Access, table};
+use bevel_differential::variables::{Access, index_of, table};
 
 use super::instance::FuzzedInstance;
 use super::random::Random;
@@ -63,7 +63,7 @@ fn initialised(instance: &FuzzedInstance) -> bool {
 fn draw(instance: &FuzzedInstance, r: &mut Random) {
     let mut integers: Vec<(&str, i32)> = vec![("geometry.planet_count", 2 + r.below(3) as i32), ("solid.facets", 4)];
     for name in CHOICES {
-        let Some(Access::Enumeration(kind, ..)) = find(name).map(|i| table().rows[i].access) else { continue };
+        let Some(Access::Enumeration(kind, ..)) = index_of(name).map(|i| table().rows[i].access) else { continue };
         if r.chance(2) {
             let value = r.pick(kind.choices).value;
             let dear = name == "scene.gear_contact" && value == SOLID && !r.chance(8);
@@ -76,7 +76,7 @@ fn draw(instance: &FuzzedInstance, r: &mut Random) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
     for (name, value) in integers {
-        if let Some(i) = find(name) {
+        if let Some(i) = index_of(name) {
             // SAFETY: a live component and one value
             unsafe { fmi2SetInteger(instance.component, &(i as u32), 1, &value) };
         }
@@ -90,15 +90,11 @@ fn draw(instance: &FuzzedInstance, r: &mut Random) {
     let values =
         [("inertia.left_end", 0.5), ("inertia.right_end", 0.5), ("lock.command", 1.0), ("left.brake_torque", 500.0)];
     for (name, value) in values {
-        if let (true, Some(i)) = (r.chance(2), find(name)) {
+        if let (true, Some(i)) = (r.chance(2), index_of(name)) {
             // SAFETY: a live component and one value
             unsafe { fmi2SetReal(instance.component, &(i as u32), 1, &value) };
         }
     }
-}
-
-fn find(name: &str) -> Option<usize> {
-    table().rows.iter().position(|row| row.name == name)
 }
 
 /// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
