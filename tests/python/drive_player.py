@@ -152,7 +152,7 @@ def play(fmu, drive, names=READ, host=None):
 
 
 def mesh_forces(fmu, drive):
-    """Normal force of each mesh at each step of the solver, a column for each mesh. Planets that stay alike have one column.
+    """Normal force of each mesh at each step of the solver, a column for each mesh. Identical planets share a column.
 
     The drive is repeated with FMI 3.0, whose intermediate updates change no bit of the motion. Inputs are held, because FMI 3.0 has
     no derivatives of inputs."""

@@ -19,7 +19,7 @@ ENERGY_OF_FIXED_STEPS = 0.02
 RESOLVED = 1.0
 # Speed of a wheel that stands [rad/s], and creep of a held wheel, however long it is held [rad]: at a tyre's radius of 0.3 m half a
 # millimetre per second and a hundredth of a millimetre. The spring of the brake also yields to the torque of the half-shaft, which
-# swings with the carrier; its factor is that of a load that is applied at once.
+# swings with the carrier; its factor is that of a load that is applied suddenly.
 STANDS, CREEP, AT_ONCE = 2e-3, 3e-5, 2.0
 # Speed below which a body is at rest [rad/s]: ten times the least speed that the solver resolves. Shortest time at rest that is
 # looked at [s].

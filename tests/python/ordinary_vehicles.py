@@ -92,7 +92,7 @@ def brake(random, vehicle):
 
 
 def sticky(random, effect):
-    """Friction that is higher at rest, and falls at once or with the sliding speed."""
+    """Friction that is higher at rest, and falls immediately or with the sliding speed."""
     return {f"{effect}.static_ratio": random.uniform(1.05, 1.2), f"{effect}.stribeck_speed": float(random.choice([0.0, 0.05]))}
 
 

@@ -19,7 +19,7 @@ NEUTRAL = ["limited_slip.preload", "limited_slip.torque_coefficient", *(f"bearin
 
 
 def messages(fmu, kind, values, steps=()):
-    """What an instance of FMI 2.0 logs: at the start, and in steps up to these times."""
+    """Messages that an instance of FMI 2.0 logs, at the start and in steps up to these times."""
     with fmu.open(kind) as opened:
         opened.initialise(values)
         if kind == "CoSimulation":
@@ -35,7 +35,7 @@ def messages(fmu, kind, values, steps=()):
 
 
 def messages3(fmu_file, kind, values):
-    """What an instance of FMI 3.0 logs at the start."""
+    """Messages that an instance of FMI 3.0 logs at the start."""
     with Unit3(fmu_file.replace("BevelDifferential.fmu", "BevelDifferential3.fmu"), kind, loggingOn=True) as unit:
         unit.set(values)
         unit.raw.enterInitializationMode(startTime=0.0, stopTime=None)
