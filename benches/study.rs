@@ -40,7 +40,7 @@ fn prepared(case: &Case) -> Host {
     if case.turning {
         done.push(host.set_integer("scene.planet_spin", 2));
         done.push(host.set("carrier.speed_command", 954f64.to_radians()));
-        done.push(host.set("planet.spin_command", 200f64.to_radians()));
+        done.push(host.set("spin.command", 200f64.to_radians()));
     }
     assert!(done.iter().all(|&status| status == Status::Ok), "{:?}", host.log());
     host.start();

@@ -21,7 +21,7 @@ use crate::variables::{Access, Variable, assign, named, number_of, tuned, value_
 ///     turn.set_text("contact.law", "line")?;
 ///     turn.set_text("scene.planet_spin", "imposed")?;
 ///     turn.set("carrier.speed_command", 16.65)?;
-///     turn.set("planet.spin_command", 3.49)?;
+///     turn.set("spin.command", 3.49)?;
 ///     turn.advance(0.1)?;
 ///     let (left, right) = (turn.get("left.speed")?, turn.get("right.speed")?);
 ///     assert!((left + right - 2.0 * 16.65).abs() < 0.01, "the mean of both wheels is the carrier's speed");

@@ -28,7 +28,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "crates" / "lab" / "py
 from tools import say  # noqa: E402
 
 STRAIGHT_SPEED, TURN_SPEED, SPIN = np.radians([2861.0, 954.0, 200.0])
-TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": TURN_SPEED, "planet.spin_command": SPIN}
+TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": TURN_SPEED, "spin.command": SPIN}
 # scenes/clunk.toml; before the blow the coast flanks lie against each other, integrated as closely as can be
 CLUNK = {"scene.carrier_drive": "torque", "geometry.backlash": 0.1885e-3, "effects.half_shaft": "true",
          "half_shaft.left_stiffness": 1e4, "half_shaft.right_stiffness": 1e4, "half_shaft.left_damping": 0.0,

@@ -38,7 +38,7 @@ class Program:
         if self.wanted["contact"] == "tooth":
             values["contact.law"] = self.wanted["law"]
         if self.case.spin is not None:
-            values |= {"scene.planet_spin": "imposed", "planet.spin_command": self.case.spin}
+            values |= {"scene.planet_spin": "imposed", "spin.command": self.case.spin}
         return self.fmu.open().initialise(values)
 
     def timed(self, working):

@@ -96,7 +96,7 @@ def square_root(te_one, exponent):
 
 def turn(changes, step=1e-4):
     """A record of the turn with changed start values, after a tooth."""
-    values = {"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"), "carrier.speed_command": (CARRIER, "deg/s")}
+    values = {"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"), "carrier.speed_command": (CARRIER, "deg/s")}
     outputs = [f"{side}.speed" for side, _ in SIDES] + ["planet[1].left_transmission_error"]
     with Differential(values | changes, fmu=FMU) as differential:
         record = differential.run(outputs=outputs, stop=3 * PERIOD, step=step)
@@ -134,7 +134,7 @@ def variants():
     yield "4 planets", {"geometry.planet_count": 4}, 1.5, 1e-4
     yield "half the load", {"left.load_torque": LOAD / 2, "right.load_torque": LOAD / 2}, 1.5, 1e-4
     yield "all speeds × 10", {"carrier.speed_command": (CARRIER * 10, "deg/s"),
-                              "planet.spin_command": (SPIN * 10, "deg/s")}, 1.5, 1e-5
+                              "spin.command": (SPIN * 10, "deg/s")}, 1.5, 1e-5
     # laws from the teeth's shape, for which no rule is calculated
     for law in ["line", "line_weber"]:
         yield f"law `{law}`", {"contact.law": law}, None, 1e-4

@@ -4,7 +4,7 @@ import tomllib
 
 from bevel_differential.scene_file import flat
 
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
 # seconds of a scene that are compared
 LONGEST = 0.5

@@ -9,7 +9,7 @@ use crate::variables::{Access, index_of, table};
 
 /// Prefix of the variables of the first planet, and of its loaded tooth pairs with the left side gear.
 const FIRST: &str = "planet[1].";
-const PAIR: &str = "planet[1].left_pair[";
+const PAIR: &str = "mesh.pair[";
 
 /// Where a variable has its value.
 #[derive(Clone, Debug)]
@@ -114,11 +114,7 @@ fn arrays() -> Vec<Added> {
         if let Some(pair) = row.name.strip_prefix(PAIR).and_then(|rest| rest.strip_prefix("1].")) {
             let members = (1..).map_while(|k| place(&format!("{PAIR}{k}].{pair}"))).collect();
             let description = format!("{}, for each loaded pair", row.description);
-            arrays.push(Added {
-                name: format!("planet[1].left_pairs_{pair}"),
-                description,
-                item: Item::Pairs(members),
-            });
+            arrays.push(Added { name: format!("mesh.pairs_{pair}"), description, item: Item::Pairs(members) });
         } else if let Some(quantity) = row.name.strip_prefix(FIRST).filter(|rest| !rest.contains('[')) {
             let members: Vec<usize> =
                 (1..=MAX_PLANETS).filter_map(|k| place(&format!("planet[{k}].{quantity}"))).collect();

@@ -149,11 +149,11 @@ pub fn rows() -> Vec<Output> {
     rows.extend(planet!("planet[2]", 1));
     rows.extend(planet!("planet[3]", 2));
     rows.extend(planet!("planet[4]", 3));
-    rows.extend(pair!("planet[1].left_pair[1]", 0));
-    rows.extend(pair!("planet[1].left_pair[2]", 1));
-    rows.extend(pair!("planet[1].left_pair[3]", 2));
+    rows.extend(pair!("mesh.pair[1]", 0));
+    rows.extend(pair!("mesh.pair[2]", 1));
+    rows.extend(pair!("mesh.pair[3]", 2));
     rows.extend([
-        row("planet.spin_torque", "Torque that imposes the spin, all planets together; 0 when the spin is free")
+        row("spin.torque", "Torque that imposes the spin, all planets together; 0 when the spin is free")
             .output(units::NEWTON_METRE, Forces(|f| f.spin_torque)),
         row("mesh.frequency", "Tooth engagements per second of one mesh")
             .output(units::HERTZ, Motion(|m| m.mesh_frequency)),

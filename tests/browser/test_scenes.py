@@ -42,7 +42,7 @@ def test_speeds_follow_the_willis_equation_when_a_control_is_changed(live, found
     live.go("scene=study_turning&scene.gear_contact=ideal")
     cases = [(954.0, 200.0, 10), (1908.0, 200.0, 10), (1908.0, 400.0, 10), (1908.0, 400.0, 12)]
     for carrier, spin, teeth in cases:
-        for name, value in [("carrier.speed_command", carrier), ("planet.spin_command", spin), ("geometry.planet_teeth", teeth)]:
+        for name, value in [("carrier.speed_command", carrier), ("spin.command", spin), ("geometry.planet_teeth", teeth)]:
             if live.control(name).input_value() != f"{value:g}":
                 answer = live.put(name, f"{value:g}")
                 assert "over" in answer, answer

@@ -116,10 +116,10 @@ fn one_long_step_with_derivatives_equals_many_short_steps() {
                 // short steps hold the value of their middle
                 let at = if with_rates { t } else { t + 0.5 * h };
                 assert_eq!(host.set("left.load_torque", 835.0 + 3e4 * at), Status::Ok);
-                assert_eq!(host.set("planet.spin_command", 200.0 * at), Status::Ok);
+                assert_eq!(host.set("spin.command", 200.0 * at), Status::Ok);
                 if with_rates {
                     set_derivative(&host, "left.load_torque", 1, 3e4);
-                    set_derivative(&host, "planet.spin_command", 1, 200.0);
+                    set_derivative(&host, "spin.command", 1, 200.0);
                 }
                 assert_eq!(host.step(t, h), Status::Ok, "{:?}", host.log());
             }

@@ -52,7 +52,7 @@ fn model_exchange_gives_the_results_of_co_simulation() {
         ("tooth, a turn", 1e-6, 4000, |host| {
             level(host, 3);
             assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-            assert_eq!(host.set("planet.spin_command", 20.0), Status::Ok);
+            assert_eq!(host.set("spin.command", 20.0), Status::Ok);
             assert_eq!(host.set_integer("scene.start", 2), Status::Ok);
         }),
         ("tooth, by torque, four planets", 1e-6, 4000, |host| {
@@ -107,7 +107,7 @@ fn speed_jumps_of_gears_without_teeth_give_the_same_speeds_in_both_kinds() {
                 assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
             }
         };
-        let command = if imposed { "planet.spin_command" } else { "carrier.speed_command" };
+        let command = if imposed { "spin.command" } else { "carrier.speed_command" };
         let mut solver = Solver::new(set);
         let steps = Host::new();
         set(&steps);

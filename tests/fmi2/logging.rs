@@ -97,7 +97,7 @@ fn a_law_outside_its_range_is_reported_once_with_logging_on_and_never_with_loggi
         assert_eq!(host.set_boolean("effects.tooth_friction", 1), Status::Ok);
         assert_eq!(host.set_integer("tooth_friction.law", 4), Status::Ok, "{:?}", host.log());
         assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-        assert_eq!(host.set("planet.spin_command", 3.0), Status::Ok);
+        assert_eq!(host.set("spin.command", 3.0), Status::Ok);
         host.start();
         host.steps(0.0, 1e-3, 20);
         let lines = host.log().into_iter().filter(|line| line.message.contains("tooth_friction.law")).count();

@@ -29,7 +29,7 @@ fn turn(sign: f64, integers: &[(&str, i32)], switches: &[&str]) -> Host {
     for &(name, value) in integers {
         assert_eq!(host.set_integer(name, value), Status::Ok);
     }
-    let names = ["carrier.speed_command", "planet.spin_command", "left.load_torque", "right.load_torque"];
+    let names = ["carrier.speed_command", "spin.command", "left.load_torque", "right.load_torque"];
     assert_eq!(host.set_many(&names, &[sign * 16.65, sign * SPIN, sign * 400.0, sign * 400.0]), Status::Ok);
     host.start();
     host
@@ -180,7 +180,7 @@ fn there_is_no_value_before_a_whole_cycle_nor_straight_ahead_nor_where_it_is_off
     let off = turn(1.0, &[], &[]);
     assert_eq!(off.reset(), Status::Ok);
     assert_eq!(off.set_integer("scene.planet_spin", 2), Status::Ok);
-    assert_eq!(off.set("planet.spin_command", SPIN), Status::Ok);
+    assert_eq!(off.set("spin.command", SPIN), Status::Ok);
     off.start();
     off.steps(0.0, 1e-3, 60);
     assert_eq!(peak_to_peak(&off), [0.0; 6]);
@@ -194,7 +194,7 @@ fn the_motion_is_the_same_to_the_last_bit_with_and_without() {
         let host = Host::new();
         assert_eq!(host.set_boolean("effects.mesh_history", on), Status::Ok);
         assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-        assert_eq!(host.set("planet.spin_command", SPIN), Status::Ok);
+        assert_eq!(host.set("spin.command", SPIN), Status::Ok);
         host.start();
         host.steps(0.0, 1e-3, 60);
         names.map(|name| host.get(name).to_bits())

@@ -18,7 +18,7 @@ SIDES = ["left", "right"]
 CARRIER = np.radians(2861.0)
 # the study's turn from equilibrium, and from rolling, unloaded teeth
 STEADY_TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": np.radians(954.0),
-               "planet.spin_command": np.radians(200.0)}
+               "spin.command": np.radians(200.0)}
 TURN = STEADY_TURN | {"scene.start": "rolling"}
 # the carrier driven by torque, wheels held at different speeds: the difference of shaft torques shows friction
 BIAS = {"scene.carrier_drive": "torque", "carrier.torque_command": 1670.0, "carrier.speed_command": 50.0,

@@ -22,7 +22,7 @@ UNITS = {"speed": "rad/s", "torque": "N.m", "force": "N", "error": "m"}
 
 # the plain model has no solids to take inertias from
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
-TURN = {"carrier.speed_command": radians(954.0), "planet.spin_command": radians(200.0), "scene.planet_spin": "imposed"}
+TURN = {"carrier.speed_command": radians(954.0), "spin.command": radians(200.0), "scene.planet_spin": "imposed"}
 TURNING = {"carrier_speed": radians(954.0), "spin": radians(200.0), "spin_imposed": True}
 # Planets of a given inertia have that across their axis (about the apex) in the proportion of their solid; this is the
 # solid's at the clunk's backlash, as the FMU divides it into facets: transverse_at_apex / axial of `gear_mass`, or 100 N·m

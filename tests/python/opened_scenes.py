@@ -57,5 +57,5 @@ def scene(number, seed=30):
         if chance(share):
             values[f"effects.{effect}"] = True
     if chance(0.2):
-        values |= {"scene.planet_spin": "imposed", "planet.spin_command": 0.0}
+        values |= {"scene.planet_spin": "imposed", "spin.command": 0.0}
     return values

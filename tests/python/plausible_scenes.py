@@ -52,7 +52,7 @@ BANDS = {
     "tooth_friction.coefficient": (0.0, 0.15), "thrust_friction.coefficient": (0.0, 0.2),
     "thrust_friction.pin_coefficient": (0.0, 0.2), "tooth_errors.shaft_angle_error": (-1e-3, 1e-3),
     "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
-    "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "planet.spin_command": (-60.0, 60.0),
+    "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "spin.command": (-60.0, 60.0),
     "strength.tool_radius": (0.0, 0.3),
     "oil.temperature": (250.0, 400.0), "warm_up.ambient_temperature": (243.0, 323.0), "oil.viscosity_40": (5e-05, 0.0003),
     "oil.viscosity_100": (5e-06, 3e-05), "oil.density": (800.0, 950.0), "oil.density_fall": (0.5, 0.8),

@@ -57,9 +57,9 @@ def test_free_planets_roll_beyond_the_steepest_slope_of_their_well(drive, thresh
 @pytest.mark.parametrize("law", ["impact", "line", "line_weber"])
 def test_the_threshold_is_the_largest_torque_that_turning_the_planets_slowly_takes(drive, law, threshold):
     points = 400
-    turned = drive({"contact.law": law, "scene.planet_spin": "imposed", "planet.spin_command": SLOW})
+    turned = drive({"contact.law": law, "scene.planet_spin": "imposed", "spin.command": SLOW})
     torques = []
-    turned.to(theory.TOOTH_PITCH / SLOW, theory.TOOTH_PITCH / SLOW / points, lambda d: torques.append(d["planet.spin_torque"]))
+    turned.to(theory.TOOTH_PITCH / SLOW, theory.TOOTH_PITCH / SLOW / points, lambda d: torques.append(d["spin.torque"]))
     # a difference of the loads by ΔT turns the planets by ΔT z_p/z_s
     steepest = np.max(np.abs(torques)) * theory.SIDE_TEETH / theory.PLANET_TEETH
     if law == "impact":

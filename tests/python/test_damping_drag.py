@@ -42,7 +42,7 @@ def coefficient():
 def lost(drive, spin):
     """Mean power over whole cycles of the teeth at a spin."""
     cycle = theory.TOOTH_PITCH / spin
-    driven = drive({"scene.planet_spin": "imposed", "planet.spin_command": spin}).to(4.0 * cycle, cycle)
+    driven = drive({"scene.planet_spin": "imposed", "spin.command": spin}).to(4.0 * cycle, cycle)
     before = driven["heat.contact"]
     return (driven.to(8.0 * cycle, cycle)["heat.contact"] - before) / (4.0 * cycle)
 

@@ -13,7 +13,7 @@ LAB = Path(__file__).parents[2] / "crates" / "lab" / "python"
 sys.path.append(str(LAB))
 import emulated  # noqa: E402
 
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 
 
 @pytest.fixture

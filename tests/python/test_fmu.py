@@ -13,7 +13,7 @@ DISCARD, ERROR = 2, 3
 STRAIGHT = {"scene.start": "rolling"}
 CARRIER, SPIN = 954.0, 200.0
 TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": (CARRIER, "deg/s"),
-        "planet.spin_command": (SPIN, "deg/s")}
+        "spin.command": (SPIN, "deg/s")}
 SIDES = ["left", "right"]
 
 
@@ -225,7 +225,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
                 with fmu.open(kind) as opened:
                     opened.initialise(scene | {"geometry.planet_count": 4, "scene.gear_contact": contact,
                                                "scene.carrier_drive": carrier, "scene.planet_spin": spin,
-                                               "planet.spin_command": 1.0})
+                                               "spin.command": 1.0})
                     if kind == "CoSimulation":
                         opened.step(1e-3)
                     observed |= acted_on(opened, inputs, outputs)

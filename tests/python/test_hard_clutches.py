@@ -67,7 +67,7 @@ def test_a_clutch_that_is_crossed_under_far_more_than_it_holds_turns_round_witho
 def test_washers_of_gears_that_rattle_stick_and_slip_without_a_long_search(drive, load):
     # hardly loaded side gears bounce in their backlash: what holds their washers comes and goes, and their speed turns round
     scene = drive({"scene.gear_contact": "lumped", "scene.start": "equilibrium", "scene.planet_spin": "imposed",
-                   "effects.thrust_friction": True, "carrier.speed_command": 18.75, "planet.spin_command": 0.025,
+                   "effects.thrust_friction": True, "carrier.speed_command": 18.75, "spin.command": 0.025,
                    "left.load_torque": 5.5, "right.load_torque": 5.5})
     scene.to(0.05, 1e-2)
     scene.load(load, load)

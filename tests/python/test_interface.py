@@ -15,8 +15,8 @@ import bevel_differential
 from bevel_differential import Differential, DifferentialError
 from bevel_differential.instance import NOBODY_SET
 
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
-TURN_FMPY = {"scene.planet_spin": 2, "planet.spin_command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
+TURN_FMPY = {"scene.planet_spin": 2, "spin.command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}
 OUTPUTS = ["left.speed", "right.speed", "planet[1].left_pairs", "left.normal_force", "held.sides", "solver.steps"]
 
 

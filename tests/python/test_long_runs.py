@@ -56,7 +56,7 @@ def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, s
 def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive):
     # five mesh periods an hour and a half: 80 in a day
     spin = 80.0 * 2.0 * np.pi / theory.PLANET_TEETH / DAY
-    scene = drive(TURN | {"scene.start": "equilibrium", "planet.spin_command": spin})
+    scene = drive(TURN | {"scene.start": "equilibrium", "spin.command": spin})
     begin = scene["left.tangential_force"]
     scene.to(DAY, 60.0)
     ratio = theory.PLANET_TEETH / theory.SIDE_TEETH

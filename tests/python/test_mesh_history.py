@@ -10,7 +10,7 @@ ERRORS = [f"planet[{i}].{side}_transmission_error" for i in (1, 2) for side in (
 NAMES = SPEEDS + ERRORS
 # a tooth passes in 21 ms
 TURN = {"effects.mesh_history": True, "scene.planet_spin": "imposed", "carrier.speed_command": 16.65,
-        "planet.spin_command": 30.0, "left.load_torque": 400.0, "right.load_torque": 400.0}
+        "spin.command": 30.0, "left.load_torque": 400.0, "right.load_torque": 400.0}
 STOP = 0.045
 
 

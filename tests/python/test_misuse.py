@@ -13,7 +13,7 @@ from bevel_differential.designs.sweep import sweep
 from bevel_differential.tolerance.plan import Plan as Tolerances
 from bevel_differential.want import Condition
 
-SPIN, TORQUE = "planet.spin_command", "left.load_torque"
+SPIN, TORQUE = "spin.command", "left.load_torque"
 WIDE = """description = "a backlash below 0"
 scene = "study_turning"
 wants = ["left.speed:mean"]

@@ -12,7 +12,7 @@ PRELOAD = 20.0
 CLUTCH = {"effects.limited_slip": True, "limited_slip.preload": PRELOAD, "limited_slip.torque_coefficient": 0.0}
 LEFT = {"scene.left_drive": "speed"}
 FLOWS = {
-    "carrier drives": {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, "left.load_torque": 400.0,
+    "carrier drives": {"scene.planet_spin": "imposed", "spin.command": 20.0, "left.load_torque": 400.0,
                        "right.load_torque": 400.0},
     "left drives right": LEFT | {"carrier.speed_command": 0.0, "left.speed_command": 30.0, "right.load_torque": -300.0},
     "right drives left": LEFT | {"carrier.speed_command": 0.0, "left.speed_command": 30.0, "right.load_torque": 300.0},
@@ -29,7 +29,7 @@ def test_efficiency_is_what_is_not_lost_of_the_power_that_ports_feed(drive, flow
     values = {name: sign * value if name.endswith(("command", "torque")) else value for name, value in FLOWS[flow].items()}
     driven = drive(CLUTCH | {"effects.thrust_friction": contact != "ideal", "scene.gear_contact": contact} | values)
     driven.to(0.3, 0.01)
-    ports = [driven["carrier.torque"] * driven["carrier.speed"], driven["planet.spin_torque"] * driven["planet[1].spin_speed"]]
+    ports = [driven["carrier.torque"] * driven["carrier.speed"], driven["spin.torque"] * driven["planet[1].spin_speed"]]
     ports += [-driven[f"{side}.shaft_torque"] * driven[f"{side}.wheel_speed"] for side in SIDES]
     fed = sum(max(port, 0.0) for port in ports)
     assert fed > 1e3

@@ -162,8 +162,8 @@ def test_the_drawn_teeth_touch_where_the_fmu_has_them_touch(simulated):
     pair, last = pair_of(run), run.record[-1]
     planet, side = pair.gears
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
-    polar = planet.pitch + last["planet[1].left_pair[1].height"] / mean
-    tooth = last["planet[1].left_pair[1].tooth"]
+    polar = planet.pitch + last["mesh.pair[1].height"] / mean
+    tooth = last["mesh.pair[1].tooth"]
     side_turn = last["left.angle"] - last["carrier.angle"]
     flank = []
     for k in range(side.teeth):

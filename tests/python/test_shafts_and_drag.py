@@ -72,7 +72,7 @@ def test_the_final_drive_excites_the_carrier_with_its_mesh_order(run, contact):
 
 def test_a_chipped_tooth_shows_once_per_revolution_of_its_planet_in_each_mesh(run):
     names = ["planet[1].left_transmission_error", "planet[1].right_transmission_error", "planet[1].spin_angle"]
-    base = {**STEADY_TURN, "planet.spin_command": 10.0, "contact.law": "line"}
+    base = {**STEADY_TURN, "spin.command": 10.0, "contact.law": "line"}
     stop = 2.0 * pi / 10.0
     sound = run(base, stop=stop, output=names)
     broken = run({**base, "effects.tooth_fault": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 3,

@@ -24,7 +24,7 @@ def over_kinetic(speed):
 @pytest.mark.parametrize("spin", [0.02, 1.0, 20.0, 150.0])
 def test_a_clutch_has_the_torque_of_its_slip_and_temperature(drive, spin, sign):
     temperature, cold = 303.15, 1.4
-    driven = drive(CLUTCH | {"planet.spin_command": sign * spin, "oil.temperature": temperature, "limited_slip.cold_factor": cold})
+    driven = drive(CLUTCH | {"spin.command": sign * spin, "oil.temperature": temperature, "limited_slip.cold_factor": cold})
     driven.to(0.1, 1e-2)
     slip = driven["left.speed"] - driven["carrier.speed"]
     assert abs(slip) == pytest.approx(spin * theory.RATIO, rel=1e-12)
@@ -50,7 +50,7 @@ def over_unlimited(pv, limit):
 def test_a_clutch_has_the_torque_of_its_pressure_times_speed_which_temperature_leaves_as_it_is(drive, share, sign):
     slip = 20.0 * theory.RATIO
     pv = PRELOAD * slip / (PLATES * AREA)
-    driven = drive(CLUTCH | {"planet.spin_command": sign * 20.0, "oil.temperature": 303.15, "limited_slip.cold_factor": 1.4,
+    driven = drive(CLUTCH | {"spin.command": sign * 20.0, "oil.temperature": 303.15, "limited_slip.cold_factor": 1.4,
                              "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": PLATES,
                              "limited_slip.pv_limit": pv / share, "limited_slip.beyond_limit": BEYOND}).to(0.1, 1e-2)
     assert driven["pv.clutch"] == pytest.approx(pv, rel=1e-12)
@@ -64,7 +64,7 @@ def test_a_clutch_has_the_torque_of_its_pressure_times_speed_which_temperature_l
 @pytest.mark.parametrize("share", [0.5, 1.02, 3.0])
 def test_a_brake_has_the_torque_of_its_pressure_times_speed(drive, share, sign):
     pv = 400.0 * SPEED / (0.35 * 0.008)
-    driven = drive({"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "planet.spin_command": 0.0,
+    driven = drive({"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "spin.command": 0.0,
                     "carrier.speed_command": sign * SPEED, "effects.wheel_brake": True, "left.brake_torque": 400.0,
                     "wheel_brake.lining_coefficient": 0.35, "wheel_brake.friction_area": 0.008, "wheel_brake.pv_limit": pv / share,
                     "wheel_brake.beyond_limit": BEYOND, "left.load_torque": 0.0, "right.load_torque": 0.0}).to(0.02, 1e-2)
@@ -92,7 +92,7 @@ def test_washers_and_pins_have_the_pressure_times_speed_of_their_forces_and_the_
 
 
 def test_a_pressure_times_speed_above_its_limit_is_reported_once_in_a_run(drive):
-    values = CLUTCH | {"planet.spin_command": 20.0, "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": PLATES,
+    values = CLUTCH | {"spin.command": 20.0, "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": PLATES,
                        "limited_slip.pv_limit": 2e5}
     driven = drive(values).to(0.3, 1e-2)
     pv = PRELOAD * 20.0 * theory.RATIO / (PLATES * AREA) * 1e-6
@@ -111,7 +111,7 @@ def test_a_pressure_times_speed_above_its_limit_is_reported_once_in_a_run(drive)
 
 # a wheel with its end's inertia on an undamped half-shaft between a speed and a brake
 END, STIFFNESS, LINING, TORQUE, SPEED = 0.8, 6000.0, 0.12, 400.0, 10.0
-BRAKED = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "planet.spin_command": 0.0, "carrier.speed_command": SPEED,
+BRAKED = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "spin.command": 0.0, "carrier.speed_command": SPEED,
           "effects.half_shaft": True, "half_shaft.left_stiffness": STIFFNESS, "half_shaft.left_damping": 0.0,
           "inertia.left_end": END, "inertia.right_end": END, "effects.wheel_brake": True, "wheel_brake.mean_radius": LINING,
           "left.load_torque": 0.0, "right.load_torque": 0.0, "solver.relative_tolerance": 1e-10}

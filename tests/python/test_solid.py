@@ -108,7 +108,7 @@ def test_other_gears_and_reversals_of_load_run(drive, teeth):
     planets = 3 if teeth[1] == 15 else 2
     driven = drive(SOLID | {"geometry.planet_teeth": teeth[0], "geometry.side_teeth": teeth[1],
                             "geometry.planet_count": planets, "scene.planet_spin": "imposed",
-                            "planet.spin_command": 3.0, "scene.start": "rolling"}).to(0.05, 1e-3)
+                            "spin.command": 3.0, "scene.start": "rolling"}).to(0.05, 1e-3)
     driven.load(-400.0)
     driven.to(0.15, 1e-3)
     ratio = teeth[0] / teeth[1]

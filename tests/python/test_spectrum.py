@@ -38,7 +38,7 @@ def stress(fmu_file):
 
 
 def event(name="event", count=1.0, duration=10.0, speed=15.0, spin=0.0, left=400.0, right=400.0, **more):
-    values = {"carrier.speed_command": speed, "scene.planet_spin": "imposed", "planet.spin_command": spin,
+    values = {"carrier.speed_command": speed, "scene.planet_spin": "imposed", "spin.command": spin,
               "left.load_torque": left, "right.load_torque": right}
     return Event(name, count, duration, values=values, **more)
 
@@ -163,7 +163,7 @@ def test_a_history_that_turns_and_stands_counts_each_once(fmu_file):
     load = np.array([0.0, 400.0, 400.0, 0.0, 700.0, 0.0, 700.0, 0.0, 0.0])
     spin = (np.array([0.0, 10.0, 10.0, 20.0]), np.array([3.5, 3.5, 0.0, 0.0]))
     loads = {side: (times, load) for side in ("left.load_torque", "right.load_torque")}
-    mixed = spectrum([event(duration=20.0, signals={**loads, "planet.spin_command": spin})], fmu=fmu_file)
+    mixed = spectrum([event(duration=20.0, signals={**loads, "spin.command": spin})], fmu=fmu_file)
     turn = spectrum([event(duration=9.9, spin=3.5)], fmu=fmu_file)
     swings = spectrum([event(count=2.0, left=700.0, right=700.0)], fmu=fmu_file)
     assert mixed.damage["damage.planet_flank"] == pytest.approx(turn.damage["damage.planet_flank"], rel=0.02)
@@ -196,7 +196,7 @@ def test_twice_the_counts_do_twice_the_damage_and_halves_of_events_the_same(fmu_
 
 @pytest.mark.parametrize("mirror", [
     lambda v: {"left.load_torque": v["right.load_torque"], "right.load_torque": v["left.load_torque"],
-               "planet.spin_command": -v["planet.spin_command"]},
+               "spin.command": -v["spin.command"]},
     lambda v: {name: -v[name] for name in v if name != "scene.planet_spin"},
 ], ids=["left and right", "all signs"])
 def test_a_mirrored_cycle_does_the_same_damage(fmu_file, mirror):

@@ -23,7 +23,7 @@ def test_damage_counts_relative_revolutions_and_nothing_without_them(run):
     straight = run({"effects.strength": True}, output=names)
     assert straight["damage.planet"][-1] == 0.0
     assert straight["damage.side"][-1] == 0.0
-    turn = run({**STEADY_TURN, "effects.strength": True, "planet.spin_command": 20.0}, stop=2.0, output=names)
+    turn = run({**STEADY_TURN, "effects.strength": True, "spin.command": 20.0}, stop=2.0, output=names)
     # Miner's sum at a constant stress: each side gear loads another flank of a planet's tooth once a revolution,
     # N planets the same flank of a side gear's tooth
     slope = log(3e6 / 1e3) / log(2.5)
@@ -46,7 +46,7 @@ def test_damage_of_a_ramp_of_load_is_its_integral(fmu, steps):
     loads = ["left.load_torque", "right.load_torque"]
     with fmu.open() as instance:
         instance.initialise({"scene.gear_contact": "lumped", "scene.planet_spin": "imposed", "scene.start": "equilibrium",
-                             "effects.strength": True, "planet.spin_command": spin, **dict.fromkeys(loads, low)})
+                             "effects.strength": True, "spin.command": spin, **dict.fromkeys(loads, low)})
         for k in range(steps):
             instance.set_slopes(dict.fromkeys(loads, high - low))
             instance.do_step(k / steps, 1.0 / steps)

@@ -50,7 +50,7 @@ def simulated(fmu, mean, amplitude, frequency, spin, stop, points=60, values=Non
     time = np.arange(ceil(stop / step) + 1) * step
     torque = load(mean, amplitude, frequency, time)
     sides = dict.fromkeys(["left.load_torque", "right.load_torque"], (time, torque))
-    scene = {**SCENE, "planet.spin_command": spin, "left.load_torque": torque[0], "right.load_torque": torque[0]}
+    scene = {**SCENE, "spin.command": spin, "left.load_torque": torque[0], "right.load_torque": torque[0]}
     with Differential({**scene, **(values or {})}, fmu=fmu) as differential:
         record = differential.run(sides, OUTPUTS, stop, step)
     largest = np.max(abs(load(mean, amplitude, frequency, np.linspace(0.0, stop, 1 << 16))))
@@ -127,7 +127,7 @@ def test_damage_does_not_depend_on_communication_steps(fmu, spin):
     damages = []
     for steps in [1, 3, 10]:
         with fmu.open() as unit:
-            unit.initialise({**SCENE, "planet.spin_command": spin})
+            unit.initialise({**SCENE, "spin.command": spin})
             damages.append(swung(unit, pieces(400), steps))
     # stresses follow the solver's tolerance of 1e-6, damage the ninth power of stresses
     assert min(damages[0]) > 0.0
@@ -137,7 +137,7 @@ def test_damage_does_not_depend_on_communication_steps(fmu, spin):
 def test_a_restored_state_counts_the_same_swings_here_and_in_another_instance(fmu):
     with fmu.open() as unit, fmu.open() as other:
         for each in (unit, other):
-            each.initialise({**SCENE, "planet.spin_command": 1.3})
+            each.initialise({**SCENE, "spin.command": 1.3})
         swung(unit, pieces(150), 1)
         saved = unit.save()
         expected = swung(unit, pieces(250)[150:], 1)

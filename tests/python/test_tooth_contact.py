@@ -18,7 +18,7 @@ INNER, MIDDLE, OUTER = theory.OUTER_CONE - theory.FACE_WIDTH, theory.MEAN_CONE, 
 RESULTANT = 2.0 / 3.0 * (OUTER**3 - INNER**3) / (OUTER**2 - INNER**2)
 SLICES = INNER + (np.arange(4000) + 0.5) * theory.FACE_WIDTH / 4000
 
-PAIRS = [f"planet[1].left_pair[{k}]" for k in (1, 2, 3)]
+PAIRS = [f"mesh.pair[{k}]" for k in (1, 2, 3)]
 WATCHED = ["planet[1].left_transmission_error", "planet[1].left_normal_force"] + [
     f"{pair}.{value}" for pair in PAIRS
     for value in ("force", "height", "tooth", "toe_pressure", "middle_pressure", "heel_pressure")]
@@ -58,7 +58,7 @@ def of_load(law, approach, crowning, wanted):
 def standing(run, law, crowning, torque, **values):
     """A planet whose left mesh stands in equilibrium; nothing where more than one pair carries."""
     record = run({"contact.law": law, "effects.tooth_errors": True, "tooth_errors.crowning": crowning, "effects.strength": True,
-                  "scene.planet_spin": "imposed", "planet.spin_command": 0.0, "scene.start": "equilibrium",
+                  "scene.planet_spin": "imposed", "spin.command": 0.0, "scene.start": "equilibrium",
                   "left.load_torque": torque, "right.load_torque": torque, **values},
                  stop=0.02, output=WATCHED + ["stress.contact_pitch", "stress.contact_max"])
     last = {name: record[name][-1] for name in WATCHED + ["stress.contact_pitch", "stress.contact_max"]}
@@ -111,7 +111,7 @@ def test_pairs_have_the_pressure_of_their_load_at_toe_middle_and_heel(run, law, 
 def test_the_pressure_at_the_pitch_point_is_hertz_s_of_the_resultant(run, contact, law, resultant, planets):
     names = ["stress.contact_pitch", "stress.contact_max", "safety.flank_min", "stress.root_planet_max"]
     record = run({"effects.strength": True, "scene.gear_contact": contact, "contact.law": law, "geometry.planet_count": planets,
-                  "scene.planet_spin": "imposed", "planet.spin_command": 0.0, "scene.start": "equilibrium"},
+                  "scene.planet_spin": "imposed", "spin.command": 0.0, "scene.start": "equilibrium"},
                  stop=0.02, output=names)
     last = {name: record[name][-1] for name in names}
     gears = Gears()

@@ -112,7 +112,7 @@ def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_he
     names = ("toe", "middle", "heel")
     largest = 0.0
     for k in (1, 2, 3):
-        squares = np.array([o[f"planet[1].left_pair[{k}].{name}_pressure"] for name in names]) ** 2
+        squares = np.array([o[f"mesh.pair[{k}].{name}_pressure"] for name in names]) ** 2
         if squares[1] == 0.0:
             continue
         assert np.all(squares > 0.0)

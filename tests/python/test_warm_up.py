@@ -7,12 +7,12 @@ import pytest
 import theory
 from bevel_differential import DifferentialError
 
-SLIP = {"scene.planet_spin": "imposed", "planet.spin_command": 20.0, **theory.CLUTCHES}
+SLIP = {"scene.planet_spin": "imposed", "spin.command": 20.0, **theory.CLUTCHES}
 NODES = ["oil", "gears", "clutch", "washers", "case"]
 CLOSED = {"warm_up.clutch_to_oil": 0.0, "warm_up.oil_share": 0.0}
 FRICTIONS = {**theory.CLUTCHES, "effects.thrust_friction": True, **theory.DRAG,
              "effects.tooth_friction": True}
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": 3.5, "carrier.speed_command": 16.6}
+TURN = {"scene.planet_spin": "imposed", "spin.command": 3.5, "carrier.speed_command": 16.6}
 
 
 @pytest.mark.parametrize("contact", ["ideal", "lumped"])
@@ -270,7 +270,7 @@ def test_steady_heat_is_not_refused_with_advice_on_cooling_where_the_motion_runs
 @pytest.mark.parametrize("values", [
     {"scene.gear_contact": contact, **given} for contact in ("ideal", "lumped", "tooth") for given in (
         {"left.load_torque": 300.0, "right.load_torque": 300.0},
-        {"left.load_torque": 300.0, "right.load_torque": 250.0, "scene.planet_spin": "imposed", "planet.spin_command": 5.0},
+        {"left.load_torque": 300.0, "right.load_torque": 250.0, "scene.planet_spin": "imposed", "spin.command": 5.0},
         {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 42.0,
          "right.speed_command": 38.0, "carrier.torque_command": 600.0})])
 @pytest.mark.parametrize("cycle", [0.01, 1.0])
@@ -285,7 +285,7 @@ def test_steady_heat_of_a_part_of_a_mesh_cycle_names_the_heat(drive):
     """A mesh period of 2π/(10 teeth 0.5 rad/s) is 1.26 s; the heat of a fifth of a second depends on where in it that is."""
     length = 0.2
     values = {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "effects.warm_up": True, "scene.planet_spin": "imposed",
-              "planet.spin_command": 0.5, "left.load_torque": 800.0, "right.load_torque": 800.0, "warm_up.cycle": length}
+              "spin.command": 0.5, "left.load_torque": 800.0, "right.load_torque": 800.0, "warm_up.cycle": length}
     [warned] = said(drive(values | {"scene.start": "steady_heat"}))
     run = drive(values | {"scene.start": "equilibrium"}).to(length, length)
     heat = [run["heat.tooth_friction"]]

@@ -26,7 +26,7 @@ carrier.speed_command = 50.0
 left.load_torque = 400.0
 right.load_torque = 400.0
 scene.planet_spin = "imposed"
-planet.spin_command = 20.0
+spin.command = 20.0
 geometry.module = "4.3 mm"
 left.brake_torque = 200.0
 """

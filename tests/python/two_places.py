@@ -161,7 +161,7 @@ def forces(scene, o):
 def loaded(o):
     """Loaded pairs of planet 1 with the left side gear."""
     names = ["tooth", "force", "height", *(f"{end}_pressure" for end in ENDS)]
-    pairs = [{name: o[f"planet[1].left_pair[{k}].{name}"] for name in names} for k in range(1, PAIRS + 1)]
+    pairs = [{name: o[f"mesh.pair[{k}].{name}"] for name in names} for k in range(1, PAIRS + 1)]
     return [pair for pair in pairs if pair["tooth"] >= 0.0]
 
 
@@ -195,7 +195,7 @@ def powers(scene, o):
     p = scene.p
     ends = [o[f"{side}.end_speed"] if has else o[f"{side}.speed"] for side, has in zip(SIDES, scene.has_ends)]
     torques = [o[f"{side}.shaft_torque"] for side in SIDES]
-    given = [o["carrier.torque"] * o["carrier.speed"], o["planet.spin_torque"] * o["planet[1].spin_speed"]]
+    given = [o["carrier.torque"] * o["carrier.speed"], o["spin.torque"] * o["planet[1].spin_speed"]]
     taken = [torque * speed for torque, speed in zip(torques, ends)]
     yield "power in", o["power.in"], sum(given), sum(map(abs, given))
     yield "power out", o["power.out"], sum(taken), sum(map(abs, taken))

@@ -65,7 +65,7 @@ fn ramp(level: i32, method: i32, sign: f64, [low, high]: [f64; 2], steps: usize)
     let integers = [("solver.method", method)];
     let values = [
         ("carrier.speed_command", 50.0 * sign),
-        ("planet.spin_command", SPIN * sign),
+        ("spin.command", SPIN * sign),
         (LOADS[0], low * sign),
         (LOADS[1], low * sign),
     ];
@@ -144,7 +144,7 @@ fn damage_of_teeth_that_pass_does_not_depend_on_communication_steps() {
 fn swinging(method: i32, [low, high]: [f64; 2]) -> (Host, f64) {
     // the spring constant from two loads
     let angle = |torque: f64| {
-        let still = host(2, &[], &[("planet.spin_command", 0.0), (LOADS[0], torque), (LOADS[1], torque)]);
+        let still = host(2, &[], &[("spin.command", 0.0), (LOADS[0], torque), (LOADS[1], torque)]);
         still.start();
         still.get("left.angle") - still.get("carrier.angle")
     };
@@ -153,7 +153,7 @@ fn swinging(method: i32, [low, high]: [f64; 2]) -> (Host, f64) {
     let values = [
         ("contact.damping", 0.0),
         ("carrier.speed_command", 0.0),
-        ("planet.spin_command", 0.0),
+        ("spin.command", 0.0),
         ("inertia.side_gear", inertia),
         ("inertia.left_end", 0.0),
         ("inertia.right_end", 0.0),
@@ -203,7 +203,7 @@ fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_ste
 #[test]
 fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
     let run = |from: f64, until: f64| {
-        let values = [("carrier.speed_command", 50.0), ("planet.spin_command", SPIN), ("strength.rate_from", from)];
+        let values = [("carrier.speed_command", 50.0), ("spin.command", SPIN), ("strength.rate_from", from)];
         let host = host(2, &[], &values);
         host.start();
         set_slopes(&host, -300.0);
@@ -234,7 +234,7 @@ fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
     for (start, from, strength, has_note) in
         [(3, 0.0, 1, true), (2, 0.0, 1, true), (1, 0.0, 1, false), (2, 0.05, 1, false), (2, 0.0, 0, false)]
     {
-        let values = [("planet.spin_command", 3.5), ("strength.rate_from", from)];
+        let values = [("spin.command", 3.5), ("strength.rate_from", from)];
         let host = host(3, &[("scene.start", start)], &values);
         assert_eq!(host.set_boolean("effects.strength", strength), Status::Ok);
         host.start();
@@ -257,7 +257,7 @@ fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
 #[test]
 fn a_pulse_between_two_communication_points_is_seen() {
     // half a wave of load, which is 0 at both ends of one step
-    let host = host(2, &[], &[("planet.spin_command", 0.0), (LOADS[0], 300.0), (LOADS[1], 300.0)]);
+    let host = host(2, &[], &[("spin.command", 0.0), (LOADS[0], 300.0), (LOADS[1], 300.0)]);
     set_slopes(&host, 0.0);
     host.start();
     let references = LOADS.map(reference);

@@ -62,7 +62,7 @@ fn standing_teeth_have_the_full_strength_over_the_stress_of_their_load() {
 
 #[test]
 fn planets_that_roll_have_their_idler_strength_and_safety_only_falls() {
-    let host = started(&[("carrier.speed_command", 16.65), ("planet.spin_command", 3.5)], true);
+    let host = started(&[("carrier.speed_command", 16.65), ("spin.command", 3.5)], true);
     let mut last = [1e3; 2];
     let (mut largest, mut most) = ([0.0f64; 2], f64::NEG_INFINITY);
     for k in 0..300 {

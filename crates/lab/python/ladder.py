@@ -26,7 +26,7 @@ STEP, RUNS, ROUNDS = 1e-3, 5, 3
 OUTPUTS = ["left.speed", "carrier.speed", "planet[1].left_normal_force", "left.shaft_torque", "planet[1].left_transmission_error"]
 # the study's turn with inertias as the references in tests/data have them
 TURN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5, "scene.planet_spin": "imposed",
-        "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+        "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 
 
 class Turn:

@@ -115,7 +115,7 @@ class Case:
         """Nothing is solved in a turn of ideal gears with imposed speeds: Willis' equation and static forces."""
         with self.fmu.open() as instance:
             instance.initialise(self.values)
-            carrier, spin, *forces = instance.read(["carrier.speed_command", "planet.spin_command", *COMPARED[2:]])
+            carrier, spin, *forces = instance.read(["carrier.speed_command", "spin.command", *COMPARED[2:]])
             planet, side = instance.read(["geometry.planet_teeth", "geometry.side_teeth"])
         return np.array([[carrier + spin * planet / side, carrier - spin * planet / side, *forces]] * len(self.times))
 

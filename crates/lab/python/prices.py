@@ -25,7 +25,7 @@ DEAR = 1.3
 RUNS, FEW = 9, 3
 # seconds of the processor that a timed run is to take, and its steps
 LONG, FEWEST, MOST = 0.1, 100, 20_000
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_contact": "lumped"}, "line": {"contact.law": "line"},
           "line_weber": {"contact.law": "line_weber"}, "solid": {"scene.gear_contact": "solid", "solid.facets": 32}}
 # what the richest scene of gears in service has on

@@ -23,7 +23,7 @@ STEP = 1e-3
 # parts of the drive of the scene hil whose steps are counted [s]: what changes begins and ends there
 WINDOWS = ((0.0, 0.05), (1.99, 2.06), (2.48, 2.53), (2.98, 3.05), (3.98, 4.03), (4.98, 5.25))
 # teeth: the study's turn, with loads that alternate every 50 steps, as many steps as without C
-TEETH = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+TEETH = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 LOADS, TURN, STEPS = ("left.load_torque", "right.load_torque"), 50, 300
 OUTPUTS = ("carrier.speed", "left.shaft_torque", "right.shaft_torque", "planet[1].spin_speed")
 

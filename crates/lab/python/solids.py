@@ -30,7 +30,7 @@ SMOOTHINGS = (0.02, 1.0)
 TIGHT, USUAL = 1e-9, 1e-6
 RUNS = 5
 SPEED, SPIN, LOAD = 954.0, 200.0, 835.0
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"), "carrier.speed_command": (SPEED, "deg/s")}
+TURN = {"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"), "carrier.speed_command": (SPEED, "deg/s")}
 WILLIS = [SPEED + sign * SPIN * gears.PLANET_TEETH / gears.SIDE_TEETH for sign in (1.0, -1.0)]
 # by facets: largest relative deviation of the mean force from that of exact teeth
 BOUNDS = {32: 1e-2, 128: 1e-3}

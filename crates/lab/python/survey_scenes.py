@@ -89,7 +89,7 @@ def _drive(d, load, spin, carrier, ratio):
         for side, sign in (("left", 1.0), ("right", -1.0)):
             values |= {f"scene.{side}_drive": "speed", f"{side}.speed_command": f"{carrier + sign * spin * ratio:.1f} deg/s"}
         return values
-    values = {"scene.planet_spin": "imposed", "planet.spin_command": f"{spin:.1f} deg/s",
+    values = {"scene.planet_spin": "imposed", "spin.command": f"{spin:.1f} deg/s",
               "left.load_torque": load, "right.load_torque": load}
     if kind == 2:
         values |= {"inertia.left_end": load * 1e-3, "inertia.right_end": load * 1e-3 * d.between(0.5, 2.0)}

@@ -61,10 +61,10 @@ def examples(page):
 
 
 def same_bits():
-    package = Differential({"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"),
+    package = Differential({"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"),
                             "carrier.speed_command": (CARRIER, "deg/s")}).run(outputs=OUTPUTS)
     fmpy = simulate_fmu(str(shipped()), output=OUTPUTS, stop_time=0.5, output_interval=0.001, logger=lambda *_: None,
-                        start_values={"scene.planet_spin": 2, "planet.spin_command": (SPIN, "deg/s"),
+                        start_values={"scene.planet_spin": 2, "spin.command": (SPIN, "deg/s"),
                                       "carrier.speed_command": (CARRIER, "deg/s")})
     assert len(package) == len(fmpy) == 501
     for name in ["time", *OUTPUTS]:

@@ -3,7 +3,7 @@ import { shown } from "./table.js";
 
 const TEETH = ["tooth", "solid"]; // literals of scene.gear_contact with teeth
 const MOST = 3;
-const at = (k, part) => `planet[1].left_pair[${k}].${part}`;
+const at = (k, part) => `mesh.pair[${k}].${part}`;
 const PLACE = ["tooth", "force", "height"];
 const PRESSURES = ["toe_pressure", "middle_pressure", "heel_pressure"];
 const each = Array.from({ length: MOST }, (_, k) => k + 1);

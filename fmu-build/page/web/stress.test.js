@@ -48,7 +48,7 @@ test("a scale ends at the largest pressure outside the seam, where the radius ha
     for (const sign of [1, -1]) assert.equal(isInSeam(contact, { force: 5e3 * sign, pressures: [0, pressure(5e3, share), 0] }), is);
   }
   const parts = ["tooth", "force", "height", "toe_pressure", "middle_pressure", "heel_pressure"];
-  const names = [1, 2, 3].flatMap((k) => parts.map((part) => `planet[1].left_pair[${k}].${part}`));
+  const names = [1, 2, 3].flatMap((k) => parts.map((part) => `mesh.pair[${k}].${part}`));
   const pair = (force, share) => [0, force, 0, pressure(force, share), pressure(force, share), pressure(force, share)];
   const none = [-1, 0, 0, 0, 0, 0];
   const rows = [[0, ...pair(1e4, 1), ...pair(3e3, 0.01), ...none], [1, ...pair(8e3, 0.5), ...none, ...none]];

@@ -13,7 +13,7 @@ const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Output that depends on speeds and on the torques of the brakes, and the ending of their names.
 const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
-const COMMANDS: [&str; 2] = ["carrier.speed_command", "planet.spin_command"];
+const COMMANDS: [&str; 2] = ["carrier.speed_command", "spin.command"];
 const FOLLOWERS: [&str; 6] =
     ["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"];
 /// Ends of half-shafts whose speed is commanded: the command's ending and that of the output, both of one side.

@@ -103,7 +103,7 @@ const TERMINALS: [Terminal; 13] = [
         kind: SPEED_DRIVEN,
         description: "Spin of all planets on their pins, relative to the carrier, with scene.planet_spin = imposed: the speed is \
                       the input. A positive spin speeds the left side up; the torque is that of the spin drive on all planets",
-        members: &[("tau", "planet.spin_torque", Inflow), ("w", "planet.spin_command", Signal)],
+        members: &[("tau", "spin.torque", Inflow), ("w", "spin.command", Signal)],
     },
     Terminal {
         name: "left_brake",

@@ -2,7 +2,7 @@
 
 >>> import numpy as np
 >>> from bevel_differential import Differential
->>> turn = Differential({"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s",
+>>> turn = Differential({"scene.planet_spin": "imposed", "spin.command": "200 deg/s",
 ...                      "carrier.speed_command": (954, "deg/s")})
 >>> speeds = turn.run(outputs=["left.speed", "right.speed"], stop=0.5)
 >>> speeds.dtype.names

@@ -20,7 +20,7 @@ choices! {
     /// Whether the planets spin freely on their pins.
     pub enum PlanetSpin: "PlanetSpin" {
         Free = 1, "free": "spin follows from the tooth forces";
-        Imposed = 2, "imposed": "planet.spin_command is imposed";
+        Imposed = 2, "imposed": "spin.command is imposed";
     }
 }
 

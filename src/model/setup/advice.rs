@@ -20,7 +20,7 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
         Problem::new(
             "torque_bias_ratio",
             "it is the ratio of left.load_torque and right.load_torque, whatever rubs: with scene.planet_spin = imposed friction \
-             acts on planet.spin_torque; for the bias impose the speeds of the wheels by scene.left_drive and scene.right_drive",
+             acts on spin.torque; for the bias impose the speeds of the wheels by scene.left_drive and scene.right_drive",
         )
     })
 }

@@ -17,7 +17,7 @@ outputs = ["left.speed"]
 [set]
 carrier.speed_command = "954 deg/s"
 scene.planet_spin = "imposed"
-planet.spin_command = "200 deg/s"
+spin.command = "200 deg/s"
 left.load_torque = "835 N.m"
 right.load_torque = "835 N.m"
 scene.start = "equilibrium"

@@ -132,7 +132,7 @@ fn drives(scene: &Scene) -> Vec<String> {
         drives.push(format!("{side} by {by}, {}", value(&format!("{side}.{command}"))));
     }
     let spin = driven("scene.planet_spin");
-    let command = if spin == "imposed" { format!(", {}", value("planet.spin_command")) } else { String::new() };
+    let command = if spin == "imposed" { format!(", {}", value("spin.command")) } else { String::new() };
     drives.push(format!("planet spin {spin}{command}"));
     drives
 }

@@ -48,7 +48,7 @@ pub fn request(theory: &Theory) -> Value {
     };
     let (straight, mut turning) = (case(0, 0.0), case(1, stated::PLANET_SPIN));
     turning["start_values"]["scene.planet_spin"] = json!([f64::from(PlanetSpin::Imposed as i32), ""]);
-    turning["start_values"]["planet.spin_command"] = json!([stated::PLANET_SPIN, "deg/s"]);
+    turning["start_values"]["spin.command"] = json!([stated::PLANET_SPIN, "deg/s"]);
     json!({
         // length of the records for the spectra, of the study's own record, and its output interval [s]
         "record": RECORD,

@@ -43,7 +43,7 @@ outputs = ["left.speed"]
 [set]
 carrier.speed_command = "954 deg/s"
 scene.planet_spin = "imposed"
-planet.spin_command = "200 deg/s"
+spin.command = "200 deg/s"
 left.load_torque = "400 N.m"
 right.load_torque = "400 N.m"
 "#;
@@ -81,7 +81,7 @@ fn what_is_small_alone_is_kept_where_it_is_too_much_together() {
     // 50 rad/s and 100 N.m on each side: 10 kW; the drag of 1.3 N.m takes 65 W of it, and two clutches of 7 N.m that slip
     // at 10/16 of the spin of 8 rad/s take 70 W
     let text = format!(
-        "{}{}scene.planet_spin = \"imposed\"\nplanet.spin_command = 8.0\n\
+        "{}{}scene.planet_spin = \"imposed\"\nspin.command = 8.0\n\
          effects.limited_slip = true\nlimited_slip.torque_coefficient = 0.0\nlimited_slip.preload = 7.0\n",
         IDEAL.replace("99.0", "100.0"),
         DRAG.replace("= 2.0", "= 1.3")

@@ -17,7 +17,7 @@ from bevel_differential.text import aligned, markdown
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from tools import renew  # noqa: E402
 
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "geometry.face_width": "17 mm"}
 LINE = {"contact.law": "line_weber"}
 FRICTION = LINE | {"effects.tooth_friction": True, "effects.thrust_friction": True}

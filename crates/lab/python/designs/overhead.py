@@ -21,7 +21,7 @@ from bevel_differential.text import aligned
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from calls import TEN, Calls  # noqa: E402
 
-TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
+TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
 STOP = 0.5
 # limits: time with the package over time of the calls in C; for the Monte Carlo wall time [s]

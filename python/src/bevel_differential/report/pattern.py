@@ -44,7 +44,7 @@ class Contacts:
         """Those of a run on drive (+1) or coast flanks (−1)."""
         columns = []
         for k in range(1, PAIRS + 1):
-            name = f"planet[1].left_pair[{k}]"
+            name = f"mesh.pair[{k}]"
             table = [run.time, *(run.series(f"{name}.{what}") for what in ("tooth", "force", "height")),
                      *(run.series(f"{name}.{end}_pressure") for end in ENDS)]
             rows = np.column_stack(table)

@@ -42,7 +42,7 @@ SPIN = "the planets' spin"
 DRIVES = {"the carrier's speed": ("scene.carrier_drive", "speed", "carrier.speed_command"),
           "the left wheel's speed": ("scene.left_drive", "speed", "left.speed_command"),
           "the right wheel's speed": ("scene.right_drive", "speed", "right.speed_command"),
-          SPIN: ("scene.planet_spin", "imposed", "planet.spin_command")}
+          SPIN: ("scene.planet_spin", "imposed", "spin.command")}
 # speeds that a differential has
 INDEPENDENT = 2
 

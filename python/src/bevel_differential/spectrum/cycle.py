@@ -5,7 +5,7 @@ Speed, torque and turn of the vehicle give the inputs of the differential. With 
 ```text
 carrier.speed_command = v/r                      v speed, r radius of the wheels
 ω_left − ω_right      = −(v/r) w/R               w track, R radius of the turn, positive to the left
-planet.spin_command   = (ω_left − ω_right)/2 · z_side/z_planet
+spin.command   = (ω_left − ω_right)/2 · z_side/z_planet
 load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
 ```
 
@@ -70,7 +70,7 @@ def _event(table, line, row, fmu, vehicle, gears, given):
         raise table.problem_at(line, "count", "an event occurs 0 times or more", f"{row['count']:g}")
     history = _history(table, line, row, fmu) if "history" in row else {}
     known = {**vehicle, **{name: value for name, value in row.items() if name in QUANTITIES}, **history}
-    if TURNS & table.columns.keys() and not TURNS & known.keys() and "planet.spin_command" not in row:
+    if TURNS & table.columns.keys() and not TURNS & known.keys() and "spin.command" not in row:
         # empty cells mean straight ahead, even if the scene imposes a spin
         known["speed_difference"] = 0.0
     try:
@@ -196,7 +196,7 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
         raise DifferentialError(f"speed_difference: it needs speed where scene.{by_speed[0]}_drive = speed; give it as a column or "
                                 "a parameter")
     elif difference is not None and not by_speed:
-        found["planet.spin_command"] = difference / 2.0 * teeth[1] / teeth[0]
+        found["spin.command"] = difference / 2.0 * teeth[1] / teeth[0]
         found[SPIN] = "imposed"
     return found
 

@@ -144,7 +144,7 @@ def force_spectrum(folder, request, runs):
     figure, (upper, lower) = style.panels(2, 1, 9.0, height_ratios=[1, 1.5])
     turning = request["turning"]
     mesh, claim = turning["mesh_frequency"], request["claimed_frequency"]
-    spin = turning["start_values"]["planet.spin_command"][0]
+    spin = turning["start_values"]["spin.command"][0]
     forces_in_time(upper, request, runs)
     spectrum, still = runs["turning"]["spectrum"], runs["straight"]["spectrum"]
     mean = spectrum["left.normal_force"][0]
