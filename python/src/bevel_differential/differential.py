@@ -72,7 +72,7 @@ class Runner(Closing):
         batches = Batches.of(variables)
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
-        return _structured(steps.points, variables, batches, record)
+        return _structured(steps.points, variables, outputs, batches, record)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -175,9 +175,14 @@ def _set(instance, pairs):
     Batches.of(tuple(variable for variable, _ in pairs)).set(instance, [value for _, value in pairs])
 
 
-def _structured(points, variables, batches, record):
+def field(variable: Variable, asked: str, kind: Any) -> tuple:
+    """The field of a variable in a structured array; one that was asked for by its former name has both."""
+    return (variable.name if asked == variable.name else (asked, variable.name), kind)
+
+
+def _structured(points, variables, outputs, batches, record):
     kinds = {"Real": np.float64, "Integer": np.int32, "Enumeration": np.int32, "Boolean": np.bool_}
-    fields = [("time", np.float64)] + [(variable.name, kinds[variable.kind]) for variable in variables]
+    fields = [("time", np.float64)] + [field(variable, asked, kinds[variable.kind]) for variable, asked in zip(variables, outputs)]
     result = np.empty(len(points), fields)
     result["time"] = points
     for (_, places, _, _), block in zip(batches.groups, record):

@@ -12,6 +12,7 @@ from zipfile import BadZipFile
 
 from fmpy import extract, read_model_description
 
+from .former_names import present
 from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
 
@@ -19,6 +20,19 @@ _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
+
+
+class _ByName(dict[str, Variable]):
+    """Variables by name; former names find them, too."""
+
+    def __missing__(self, name: str) -> Variable:
+        now = present(name)
+        if now == name:
+            raise KeyError(name)
+        return self[now]
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or isinstance(name, str) and super().__contains__(present(name))
 
 
 class Fmu:
@@ -37,7 +51,7 @@ class Fmu:
             _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
-        self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
+        self.variables = _ByName((each.name, Variable(each, units)) for each in self.description.modelVariables)
 
     @classmethod
     def of(cls, file: "FileName | Fmu | None" = None) -> "Fmu":
@@ -103,6 +117,8 @@ class Fmu:
             if variable.has_unit(value):
                 # the FMU's own message guesses at the unit that was meant
                 variable.check_range(number, value)
+            if any(variable is known for known, _ in pairs):
+                raise DifferentialError(f"{variable.name}: it is given twice, once by its former name; leave one of them out")
             pairs.append((variable, number))
         return pairs
 

@@ -9,6 +9,7 @@ import numpy as np
 from .differential import Runner, as_frame
 from .extras import require
 from .fmu import Fmu
+from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
 from .plot import plot
@@ -42,8 +43,8 @@ class Scene(Runner):
         if self.step > self.stop:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
         self.outputs = [self.fmu.variable(output).name for output in outputs]
-        self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
-        self.tables = [(name, times, values, period) for name, times, values, period in tables]
+        self.changes = [(seconds("time", time), by_present_names(values)) for time, values in changes]
+        self.tables = [(present(name), times, values, period) for name, times, values, period in tables]
         self.input_slopes = input_slopes
         super().set(set)
         self._signals = self._checked_signals()
@@ -61,13 +62,13 @@ class Scene(Runner):
 
     def value(self, name: str) -> Number:
         """A parameter, or an input at the start, in SI: the scene's own value, or else that of the FMU."""
-        start = self.fmu.variable(name).start
-        return self.values.get(name, 0.0 if start is None else start)
+        variable = self.fmu.variable(name)
+        return self.values.get(variable.name, 0.0 if variable.start is None else variable.start)
 
     def check_settable(self, names: Iterable[str]) -> None:
         """Refuses names of inputs that follow a table, as a value for them would change nothing."""
         driven = {table.variable.name for table in self._signals.tables}
-        for name in names:
+        for name in (self.fmu.variable(name).name for name in names):
             if name in driven:
                 raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
 
@@ -184,7 +185,7 @@ class Scene(Runner):
 
     def _initialise(self, instance, values):
         self.check_settable(values or ())
-        start = {**self.values, **(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
+        start = {**self.values, **by_present_names(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
         instance.initialise(start, self.stop)
 
     def _named(self, outputs):

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .answers import about, ask, scenes
+from .former_names import by_present_names
 from .values import DifferentialError, FileName, suggestion
 
 
@@ -48,9 +49,9 @@ def read_toml(file: Path) -> dict[str, Any]:
 
 
 def flat(table: Mapping[str, Any], prefix: str = "", ends: Set[str] = frozenset()) -> dict[str, Any]:
-    """Values by their dotted names. A table with one of the keys `ends` is a value."""
+    """Values by their dotted names, those of variables by the present ones. A table with one of the keys `ends` is a value."""
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
         values.update(flat(value, f"{name}.", ends) if isinstance(value, dict) and not value.keys() & ends else {name: value})
-    return values
+    return values if prefix else by_present_names(values)

@@ -11,8 +11,8 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 use super::answer::Answer;
 use super::words::{percent, setting};
-use crate::scene::load;
 use crate::scene::set::{Setting, SettingValue};
+use crate::scene::{former_names, load};
 use crate::text::shown;
 
 /// The scene with the chosen setting, as a file at `to`: paths in it lead to the same files.
@@ -43,7 +43,8 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         if let [Some(before), Some(after)] = values
             && before.to_string() != after.to_string()
         {
-            put(set, row.name, after)?;
+            let former = former_names::of(row.name).filter(|former| stands(set, former));
+            put(set, former.as_deref().unwrap_or(row.name), after)?;
         }
     }
     let head = format!(
@@ -68,6 +69,13 @@ fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
         SettingValue::Boolean(truth) => truth.into(),
         SettingValue::Literal(_) => setting.text().into(),
     })
+}
+
+/// Whether a variable stands there by this name.
+fn stands(set: &Item, name: &str) -> bool {
+    let has =
+        |item: Option<&Item>, key| item.and_then(Item::as_table_like).is_some_and(|table| table.contains_key(key));
+    has(Some(set), name) || name.split_once('.').is_some_and(|(group, last)| has(set.get(group), last))
 }
 
 /// Sets a variable where it stands, or anew.

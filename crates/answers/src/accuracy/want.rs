@@ -37,13 +37,9 @@ pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), Stri
     }
     let (mut outputs, mut wants): (Vec<&'static Variable>, Vec<Want>) = (Vec::new(), Vec::new());
     for text in texts {
-        let (name, statistic) = match text.split_once(':') {
-            Some((name, word)) => {
-                (name.trim(), Some(Statistic::parse(word).map_err(|why| format!("--want {text}: {why}"))?))
-            }
-            None => (text.trim(), None),
-        };
-        let row = output(name).map_err(|why| format!("--want {text}: {why}"))?;
+        let statistic = text.split_once(':').map(|(_, word)| Statistic::parse(word)).transpose();
+        let statistic = statistic.map_err(|why| format!("--want {text}: {why}"))?;
+        let row = output(name(text)).map_err(|why| format!("--want {text}: {why}"))?;
         let known = outputs.iter().position(|other| other.name == row.name);
         let output = known.unwrap_or(outputs.len());
         if known.is_none() {
@@ -56,6 +52,11 @@ pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), Stri
     wants.dedup();
     scene.outputs = outputs;
     Ok((scene, wants))
+}
+
+/// The name of the output in `OUTPUT:STATISTIC`.
+pub fn name(text: &str) -> &str {
+    text.split_once(':').map_or(text, |(name, _)| name).trim()
 }
 
 /// The output of this name, or what it might have been.

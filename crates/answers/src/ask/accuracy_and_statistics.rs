@@ -14,10 +14,10 @@ use crate::accuracy::record::Record;
 use crate::accuracy::statistic::{Rotation, Statistic};
 use crate::accuracy::switches::Switch;
 use crate::accuracy::words::difference;
-use crate::accuracy::{Question, chosen, report, table};
+use crate::accuracy::{Question, chosen, report, table, want};
 use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
-use crate::scene::{script, ssv};
+use crate::scene::{former_names, script, ssv};
 
 /// Asks for the cheapest model of a scene that gives the wanted quantities within an accuracy.
 #[derive(Deserialize)]
@@ -84,7 +84,8 @@ impl StatisticNameQuestion {
 
 impl AccuracyQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
-        let scene = self.of.scene()?;
+        let scene = self.of.scene(progress)?;
+        progress.warn(former_names::notes(self.want.iter().map(|want| want::name(want))));
         let question = Question {
             wants: self.want.clone(),
             within: fraction(&self.within)?,

@@ -28,6 +28,8 @@ use crate::progress::{Progress, Stopped};
 pub enum Question {
     /// All scenes of a folder, with their descriptions.
     Scenes(scenes::ScenesQuestion),
+    /// The former names of variables.
+    FormerNames,
     /// A scene as values: what it sets, later and over time, and its outputs.
     Scene(scenes::SceneQuestion),
     /// What a scene will simulate, in words.
@@ -56,10 +58,11 @@ pub enum Question {
 pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Result<Value> {
     let answer = match question {
         Question::Scenes(question) => question.answer(),
-        Question::Scene(question) => question.values(),
+        Question::FormerNames => Ok(scenes::former_names()),
+        Question::Scene(question) => question.values(progress),
         Question::Plan(question) => question.plan(progress),
         Question::Run(question) => question.answer(progress),
-        Question::Export(question) => question.answer(),
+        Question::Export(question) => question.answer(progress),
         Question::Loads(question) => question.answer(progress),
         Question::Accuracy(question) => question.answer(progress),
         Question::Pattern(question) => question.answer(progress),

@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
-use crate::scene::{self, Scene, loads, plan, script, ssv};
+use crate::scene::{self, Scene, former_names, loads, plan, script, ssv};
 use crate::text::shown;
 
 /// All scenes of a folder.
@@ -87,8 +87,8 @@ impl ScenesQuestion {
 }
 
 impl SceneQuestion {
-    pub(super) fn values(&self) -> Result<Value> {
-        let scene = self.of.scene()?;
+    pub(super) fn values(&self, progress: &mut Progress) -> Result<Value> {
+        let scene = self.of.scene(progress)?;
         let events = scene.events.iter().map(|event| json!({"time": event.time, "set": values(&event.settings)}));
         let tables = scene.input_tables.iter().map(|table| {
             json!({"input": table.row.name, "times": table.times, "values": table.values, "period": table.period})
@@ -108,7 +108,7 @@ impl SceneQuestion {
     }
 
     pub(super) fn plan(&self, progress: &mut Progress) -> Result<Value> {
-        let scene = self.of.scene()?;
+        let scene = self.of.scene(progress)?;
         let run = SceneRun::start(&scene, scene.step)?;
         progress.warn(run.warnings());
         Ok(json!({"text": plan::text(&scene, &run.simulation)}))
@@ -116,8 +116,8 @@ impl SceneQuestion {
 }
 
 impl ExportQuestion {
-    pub(super) fn answer(&self) -> Result<Value> {
-        let scene = self.of.scene()?;
+    pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
+        let scene = self.of.scene(progress)?;
         let text = match self.format {
             Format::Ssv => ssv::text(&scene)?,
             Format::Python => script::text(&scene)?,
@@ -128,7 +128,7 @@ impl ExportQuestion {
 
 impl LoadsQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
-        let (scene, every) = (self.of.scene()?, seconds("every", self.every.as_deref())?);
+        let (scene, every) = (self.of.scene(progress)?, seconds("every", self.every.as_deref())?);
         let lines = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
         Ok(json!({"lines": lines, "file": self.out}))
     }
@@ -136,7 +136,7 @@ impl LoadsQuestion {
 
 impl RunQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
-        let scene = self.of.scene()?;
+        let scene = self.of.scene(progress)?;
         let outcome = written(&self.out, |file| run(&scene, None, Some(file), progress))?;
         Ok(json!({"text": outcome.text(), "file": self.out}))
     }
@@ -163,7 +163,7 @@ impl PatternQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let cases = match self.of.as_slice() {
             [] => cases::all()?,
-            named => named.iter().map(|of| Ok(PatternCase::of(of.scene()?))).collect::<Result<_>>()?,
+            named => named.iter().map(|of| Ok(PatternCase::of(of.scene(progress)?))).collect::<Result<_>>()?,
         };
         let patterns = Patterns::of(&cases, progress)?;
         let files: Map<String, Value> =
@@ -171,6 +171,15 @@ impl PatternQuestion {
         let table = patterns.table().terminal();
         Ok(json!({"text": table, "document": findings::markdown(&patterns.findings), "files": files}))
     }
+}
+
+/// The former names of variables, each with the present one and with what to tell the user who writes it.
+pub(super) fn former_names() -> Value {
+    let names = former_names::all().map(|(once, now)| {
+        let says = former_names::note(&once);
+        (once, json!({"name": now.name, "says": says}))
+    });
+    json!({"names": names.collect::<Map<String, Value>>()})
 }
 
 /// Values by name.

@@ -6,6 +6,7 @@ use anyhow::Result;
 use serde::Deserialize;
 
 use crate::problem::{Problem, Problems, question_error};
+use crate::progress::Progress;
 use crate::scene::{Scene, assignments, find, load};
 
 /// More communication points than this are a slip, and would not fit into memory.
@@ -29,13 +30,14 @@ pub struct Source {
 }
 
 impl Source {
-    /// The scene.
-    pub fn scene(&self) -> Result<Scene> {
+    /// The scene. Warns of former names of variables.
+    pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
         let mut scene = match &self.given {
             Some(file) => load::given(&self.name, Path::new(&self.name), file)?,
             None => find(&self.name, &self.scenes)?,
         };
         assignments::apply(&mut scene, &self.set)?;
+        progress.warn(&scene.notes);
         let Scene { stop_time, step, .. } = scene;
         if stop_time / step > MOST_POINTS {
             let reason = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");

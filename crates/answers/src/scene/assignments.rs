@@ -1,8 +1,8 @@
 //! Changes of a scene on the command line, each `name=value`: checked as the values in a file are.
 
-use super::Scene;
 use super::set::{Setting, closest, value, variable};
 use super::times::{check_step, span};
+use super::{Scene, former_names};
 use crate::problem::{Problem, Problems};
 
 /// What can be set besides the variables of the FMU.
@@ -19,6 +19,8 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
             continue;
         };
         let (name, text) = (name.trim(), text.trim());
+        scene.notes.extend(former_names::notes([name]));
+        let name = former_names::present(name);
         if named.contains(&name) {
             problems.push(format!("{name} is set twice; leave one out"));
             continue;

@@ -15,7 +15,7 @@ use csv::{ErrorKind, Position, ReaderBuilder, StringRecord, Trim};
 use toml::Value;
 
 use super::set::{real, variable};
-use super::{InputTable, units};
+use super::{InputTable, former_names, units};
 use crate::text;
 
 /// Name of the column of times.
@@ -38,8 +38,9 @@ struct Column {
     wrong_count: usize,
 }
 
-/// The inputs in `file`, all repeated after `period` [s] if there is one; on failure all problems of the file.
-pub fn read(file: &Path, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
+/// The inputs in `file`, all repeated after `period` [s] if there is one, and what the user is told about former names in it; on
+/// failure all problems of the file.
+pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let shown = text::shown(file);
     let text = fs::read_to_string(file).map_err(|error| {
         vec![match error.kind() {
@@ -51,8 +52,8 @@ pub fn read(file: &Path, period: Option<f64>) -> Result<Vec<InputTable>, Vec<Str
         .map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
 }
 
-/// The inputs in `text`; problems begin with their place in it.
-fn parse(text: &str, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
+/// The inputs in `text`, and what to tell; problems begin with their place in it.
+fn parse(text: &str, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let mut reader = ReaderBuilder::new().comment(Some(COMMENT)).trim(Trim::All).from_reader(text.as_bytes());
     let csv_problems = |error: csv::Error| vec![csv_problem(text, &error)];
     let header = reader.headers().map_err(csv_problems)?.clone();
@@ -81,7 +82,8 @@ fn parse(text: &str, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>
         return Err(problems);
     }
     let table = |column: Column| InputTable { row: column.row, times: times.clone(), values: column.values, period };
-    Ok(columns.into_iter().map(table).collect())
+    let notes = former_names::notes(columns.iter().map(|column| split_header_cell(&column.header_cell).0));
+    Ok((columns.into_iter().map(table).collect(), notes))
 }
 
 /// Place and unit of the column of times, and the columns of inputs.

@@ -36,7 +36,7 @@ use toml::{Table, Value};
 use super::set::{Setting, closest, real, variable, written};
 use super::times::{check_step, seconds, span};
 use super::units::six_digits;
-use super::{Event, InputTable, Scene, input_file};
+use super::{Event, InputTable, Scene, former_names, input_file};
 use crate::problem::Problems;
 use crate::text::shown;
 
@@ -99,8 +99,9 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut input_tables: Vec<InputTable> =
         entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
+    let mut notes = notes(entry);
     for input_file in &entry.inputs {
-        add_input_file(input_file, file, &mut input_tables, &mut problems);
+        notes.extend(add_input_file(input_file, file, &mut input_tables, &mut problems));
     }
     let input_slopes = input_slopes(entry, &mut problems);
     let outputs = outputs(&entry.outputs, &mut problems);
@@ -125,7 +126,17 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         input_tables,
         input_slopes,
         outputs,
+        notes,
     })
+}
+
+/// What the user is told about former names of variables.
+fn notes(entry: &File) -> Vec<String> {
+    let mut set = Vec::new();
+    std::iter::once(&entry.set).chain(&entry.at).for_each(|table| flatten("", table, &mut set));
+    let set = set.iter().map(|(name, _)| name.as_str());
+    let others = entry.table.iter().map(|table| &table.input).chain(&entry.outputs);
+    former_names::notes(set.chain(others.map(String::as_str)))
 }
 
 /// Stop time and communication step [s]; NaN for one that is not valid.
@@ -157,6 +168,9 @@ fn settings(place: &str, table: &Table, problems: &mut Problems) -> Vec<Setting>
     flatten("", table, &mut flat);
     for (name, value) in flat {
         match Setting::new(&name, value) {
+            Ok(setting) if found.iter().any(|known: &Setting| known.row.name == setting.row.name) => {
+                problems.push(format!("{place} {} is set twice; leave one out", setting.row.name));
+            }
             Ok(setting) => found.push(setting),
             Err(problem) => problems.push(problem.prefixed(&format!("{place} "))),
         }
@@ -239,16 +253,25 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     (complete && rising).then_some(InputTable { row, times, values, period })
 }
 
-/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`.
-fn add_input_file(entry: &InputFileEntry, scene: &Path, tables: &mut Vec<InputTable>, problems: &mut Problems) {
+/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`. Returns what the user
+/// is told about former names in it.
+fn add_input_file(
+    entry: &InputFileEntry,
+    scene: &Path,
+    tables: &mut Vec<InputTable>,
+    problems: &mut Problems,
+) -> Vec<String> {
     let place = format!("[[inputs]] file = \"{}\":", entry.file.display());
     let period = match entry.period.as_ref().map(|period| span("period", period)).transpose() {
         Ok(period) => period,
-        Err(problem) => return problems.push(format!("{place} {problem}")),
+        Err(problem) => {
+            problems.push(format!("{place} {problem}"));
+            return Vec::new();
+        }
     };
     let file = scene.parent().unwrap_or(Path::new("")).join(&entry.file);
     match input_file::read(&file, period) {
-        Ok(read) => {
+        Ok((read, notes)) => {
             for table in read {
                 let name = table.row.name;
                 if tables.iter().any(|known| known.row.name == name) {
@@ -256,8 +279,12 @@ fn add_input_file(entry: &InputFileEntry, scene: &Path, tables: &mut Vec<InputTa
                 }
                 tables.push(table);
             }
+            notes
         }
-        Err(found) => problems.extend(found.iter().map(|problem| format!("[[inputs]] {problem}"))),
+        Err(found) => {
+            problems.extend(found.iter().map(|problem| format!("[[inputs]] {problem}")));
+            Vec::new()
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
 pub mod assignments;
+pub mod former_names;
 pub mod input_file;
 mod input_table;
 pub mod load;
@@ -52,6 +53,8 @@ pub struct Scene {
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
+    /// What the user is told about former names in it.
+    pub notes: Vec<String>,
 }
 
 /// Values set at a time.

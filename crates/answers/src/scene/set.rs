@@ -4,7 +4,7 @@ use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table, value_of};
 use toml::Value;
 
-use super::{Scene, units};
+use super::{Scene, former_names, units};
 use crate::problem::Problem;
 
 /// A variable with its value.
@@ -92,8 +92,9 @@ impl Setting {
     }
 }
 
-/// Row of the variable `name`, or what it might have been.
+/// Row of the variable `name`, which may be a former name, or what it might have been.
 pub fn variable(name: &str) -> Result<&'static Variable, String> {
+    let name = former_names::present(name);
     let rows = &table().rows;
     rows.iter().find(|row| row.name == name).ok_or_else(|| {
         // its last part alone is a likely slip too

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Iterable
 from typing import Any
 
+from ..former_names import present
 from ..values import DifferentialError
 
 
@@ -18,7 +19,7 @@ def assignment(text: str) -> tuple[str, str]:
 def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     """Values by name. A name that is given twice would lose a value without a word."""
     values: dict[str, str] = {}
-    for name, value in pairs:
+    for name, value in ((present(name), value) for name, value in pairs):
         if name in values:
             raise DifferentialError(f"{option} {name}: it is given twice; leave one of them out")
         values[name] = value

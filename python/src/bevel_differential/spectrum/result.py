@@ -10,6 +10,7 @@ import numpy as np
 
 from ..differential import Differential
 from ..fmu import Fmu
+from ..former_names import by_present_names
 from ..records import write
 from ..scene import Scene
 from ..text import aligned
@@ -184,11 +185,12 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     as `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
+    parameters = by_present_names(parameters or {})
     # events begin in their steady state, not as the scene does
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}
     of_scene.pop("scene.start", None)
-    sources = {**dict.fromkeys(of_scene, f"scene {scene}"), **dict.fromkeys(parameters or (), "the parameters (--set)")}
-    given = {**of_scene, **(parameters or {})}
+    sources = {**dict.fromkeys(of_scene, f"scene {scene}"), **dict.fromkeys(parameters, "the parameters (--set)")}
+    given = {**of_scene, **parameters}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
     variables = Fmu.of(fmu).variables

@@ -51,7 +51,7 @@ class Reader:
             raise DifferentialError(f"{name}: it is calculated and has no tolerance")
         text = given.strip() if isinstance(given, str) else given
         try:
-            return Factor(name, str(text), self._law(variable, text))
+            return Factor(variable.name, str(text), self._law(variable, text))
         except ValueError as error:
             known = str(error).startswith(name)
             raise DifferentialError(f"{'' if known else name + ': '}{error}") from None
