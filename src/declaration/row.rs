@@ -3,7 +3,7 @@
 //! inlined they are tens of kilobytes.
 
 use super::access::keep;
-use super::{DisplayUnit, Parameter, Shown, Unit};
+use super::{DisplayUnit, Parameter, Shown, Unit, units};
 use crate::spec::Choices;
 
 /// FMI causality of a variable.
@@ -152,6 +152,12 @@ impl Row<()> {
         at: fn(&mut P) -> &mut f64,
     ) -> Row<Parameter<P>> {
         self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(keep(at)))
+    }
+
+    /// A parameter that is a time: any that a host may use, also negative.
+    #[inline(never)]
+    pub fn time<P: 'static>(self, at: fn(&mut P) -> &mut f64) -> Row<Parameter<P>> {
+        self.number(units::SECOND.into(), None).map(|()| Parameter::Real(keep(at)))
     }
 
     /// An integer parameter.

@@ -53,6 +53,7 @@ fn a_tooth_that_breaks_is_an_event_whose_time_is_known() {
             assert_eq!(host.set_boolean("effects.tooth_fault", 1), Status::Ok);
             assert_eq!(host.set_integer("tooth_fault.gear", 2), Status::Ok);
             assert_eq!(host.set_integer("tooth_fault.tooth", tooth), Status::Ok);
+            assert_eq!(host.set_boolean("tooth_fault.at_onset", 1), Status::Ok);
             assert_eq!(host.set("tooth_fault.onset", onset), Status::Ok);
         });
         let info = solver.event();

@@ -285,7 +285,7 @@ fn a_copy_within_a_step_goes_on_to_the_same_bits() {
 fn a_tooth_breaks_on_time_between_communication_points() {
     let scene = turn("fault", |p| {
         p.effects.tooth_fault = true;
-        p.specs.tooth_fault.onset = 0.01234;
+        (p.specs.tooth_fault.at_onset, p.specs.tooth_fault.onset) = (true, 0.01234);
     });
     for points in ways(0.03) {
         let mut simulation = scene.start();

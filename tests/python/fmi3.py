@@ -72,14 +72,14 @@ class Unit3:
                                 values.ctypes.data_as(POINTER(c_double)), len(names))
         return values
 
-    def initialise(self, values, stop=None):
+    def initialise(self, values, stop=None, start=0.0):
         count = values.get("geometry.planet_count")
         if count is not None:
             self.raw.fmi3EnterConfigurationMode(self.raw.component)
             self.set({"geometry.planet_count": int(count)})
             self.raw.fmi3ExitConfigurationMode(self.raw.component)
         self.set({name: value for name, value in values.items() if name != "geometry.planet_count"})
-        self.raw.enterInitializationMode(startTime=0.0, stopTime=stop)
+        self.raw.enterInitializationMode(startTime=start, stopTime=stop)
         self.raw.exitInitializationMode()
 
     def step(self, time, size):

@@ -86,14 +86,20 @@ IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_c
             "left.brake_torque": 1.0, "right.brake_torque": 1.0}
 
 
+def limits(variable):
+    """Least and largest value of a number; of a time, which may be any, those that are drawn."""
+    return BANDS[variable.name] if variable.minimum is None else (variable.minimum, variable.maximum)
+
+
 def value(variable, u, scene):
     """Of one variable, given the values of those it follows."""
-    name, low, high = variable.name, variable.minimum, variable.maximum
+    name = variable.name
     start = TYPICAL.get(name, variable.start)
     if variable.kind == "Boolean":
         return u < 0.5
     if variable.kind == "Enumeration":
         return 1 + int(u * FIRST_CHOICES.get(variable.name, len(variable.literals)))
+    low, high = limits(variable)
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
     size = scene.get("geometry.module", MODULE)

@@ -53,7 +53,7 @@ def wild_value(variable, u):
         return u < 0.5
     if variable.kind == "Enumeration":
         return 1 + int(u * plausible_scenes.FIRST_CHOICES.get(variable.name, len(variable.literals)))
-    low, high = variable.minimum, variable.maximum
+    low, high = plausible_scenes.limits(variable)
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
     return spread(u, low, high, plausible_scenes.TYPICAL.get(variable.name, variable.start))

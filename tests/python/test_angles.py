@@ -35,7 +35,8 @@ def scenes(fmu, method):
         random = np.random.default_rng([SEED, index])
         for size in random.choice(ROUND, 2, replace=False) if start["scene.gear_contact"] == TOOTH else []:
             onset = int(random.integers(2, POINTS - 1)) * short * size
-            yield index, start | {"effects.tooth_fault": True, "tooth_fault.onset": onset}, [(short * size, {})] * POINTS
+            fault = {"effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": onset}
+            yield index, start | fault, [(short * size, {})] * POINTS
 
 
 @pytest.mark.parametrize("method", METHODS)

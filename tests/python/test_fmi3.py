@@ -22,7 +22,7 @@ BRAKING = {"effects.wheel_brake": True, "scene.carrier_drive": 2, "carrier.torqu
            "right.brake_torque": 700.0, "carrier.speed_command": 30.0, "scene.start": 2}
 CLUTCH = {**theory.CLUTCHES, "limited_slip.preload": 120.0, "left.load_torque": 600.0, "right.load_torque": 300.0,
           "inertia.left_end": 0.5, "inertia.right_end": 0.8, "carrier.torque_command": 900.0, "scene.carrier_drive": 2}
-FAULT = {"effects.tooth_fault": True, "tooth_fault.onset": 0.0437}
+FAULT = {"effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 0.0437}
 # the study's turn, driven by a torque: teeth roll, and the solver takes about a step each millisecond
 TURN = {"scene.planet_spin": 2, "spin.command": 3.5, "scene.carrier_drive": 2, "carrier.torque_command": 1670.0,
         "inertia.left_end": 0.5, "inertia.right_end": 0.5, "effects.half_shaft": True}

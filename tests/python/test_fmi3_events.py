@@ -482,7 +482,7 @@ def test_switches_in_quick_succession_keep_their_bits_with_communication_points_
 
 
 def test_looking_at_the_steps_of_the_solver_changes_no_bit_after_a_tooth_breaks_at_its_onset(fmu3, plain_outputs):
-    values = ROLLING | {"effects.tooth_fault": True, "tooth_fault.onset": 0.03}
+    values = ROLLING | {"effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 0.03}
     commands = {1: {"left.load_torque": -50.0}, 2: {"left.load_torque": -100.0}}
     rows = []
     for options in ({}, {"intermediateUpdate": lambda *_: None}):

@@ -40,7 +40,7 @@ NAMED = {
     "odd teeth": ODD, "three planets": {"geometry.planet_teeth": 10, "geometry.side_teeth": 18, "geometry.planet_count": 3},
     "four planets": {"geometry.planet_teeth": 9, "geometry.side_teeth": 14, "geometry.planet_count": 4, **STEADY_TURN},
     "line": {"contact.law": "line", **STEADY_TURN}, "line_weber": {"contact.law": "line_weber", **ICE},
-    "broken": {**STEADY_TURN, "effects.tooth_fault": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 1},
+    "broken": {**STEADY_TURN, "effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 1},
     "brakes": BRAKED | brakes(400.0, 100.0) | drive_torque(300.0) | {"carrier.speed_command": 30.0},
     "warm up": BIAS | {"effects.thrust_friction": True, **theory.CLUTCHES, **theory.DRAG, "effects.warm_up": True,
                        "limited_slip.static_ratio": 1.2, "limited_slip.stribeck_speed": 0.1, "limited_slip.hot_factor": 0.5,

@@ -75,7 +75,7 @@ def test_a_chipped_tooth_shows_once_per_revolution_of_its_planet_in_each_mesh(ru
     base = {**STEADY_TURN, "spin.command": 10.0, "contact.law": "line"}
     stop = 2.0 * pi / 10.0
     sound = run(base, stop=stop, output=names)
-    broken = run({**base, "effects.tooth_fault": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 3,
+    broken = run({**base, "effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 1e-9, "tooth_fault.tooth": 3,
                   "tooth_fault.missing_fraction": 0.3}, stop=stop, output=names)
     for name in names[:2]:
         deeper = np.abs(broken[name] - sound[name]) > 3e-6

@@ -24,6 +24,8 @@ def other_value(variable):
     if variable.kind == "Enumeration":
         return len(variable.literals)
     start, low, high = variable.start, variable.minimum, variable.maximum
+    if low is None:
+        return start + 0.37
     value = start * 1.37 + 1e-3 * (high - low) if start * 1.37 + 1e-3 * (high - low) <= high else 0.5 * (low + start)
     return int(min(start + 1, high) if start < high else start - 1) if variable.kind == "Integer" else value
 

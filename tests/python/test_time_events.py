@@ -79,7 +79,7 @@ def test_no_step_is_lost_where_a_tooth_breaks_on_a_communication_point(fmu, name
     with fmu.open() as instance:
         for size in SIZES:
             for count in counts(name, way, size):
-                instance.initialise(method(name) | FAULT | {"tooth_fault.onset": count * size})
+                instance.initialise(method(name) | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": count * size})
                 assert_nothing_is_lost(instance, grid(way, count, size))
 
 
@@ -89,7 +89,7 @@ def test_no_step_is_lost_where_a_tooth_breaks_just_before_or_after_a_communicati
     with fmu.open() as instance:
         for size in SIZES:
             for count in short(name, (3, 10, 20, 59), size):
-                instance.initialise(method(name) | FAULT | {"tooth_fault.onset": (count + off) * size})
+                instance.initialise(method(name) | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": (count + off) * size})
                 assert_nothing_is_lost(instance, grid("multiplied", count, size))
 
 
@@ -97,7 +97,7 @@ def test_no_step_is_lost_where_a_tooth_breaks_just_before_or_after_a_communicati
 def test_a_tooth_breaks_at_its_time_wherever_communication_points_are(fmu, off):
     """The contact loses what the broken tooth stored: the same heat in steps that end at the onset and in one beyond it."""
     onset = 7e-3
-    values = SPEED | FAULT | {"tooth_fault.onset": onset * (1.0 + off),
+    values = SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset * (1.0 + off),
                               "solver.relative_tolerance": 1e-9}
     heats = []
     for times in ([0.0, 9e-3], [1e-3 * k for k in range(10)], [0.0, onset, 9e-3]):
@@ -129,7 +129,7 @@ def test_no_step_is_lost_where_an_input_steps(fmu, name, kind):
 @pytest.mark.parametrize("name", METHODS)
 def test_an_onset_and_inputs_that_step_at_it_lose_nothing(fmu, name):
     """All at once, on the onset, with brakes and a lock that hold."""
-    effects = FAULT | {"effects.wheel_brake": True, "tooth_fault.onset": 5e-3}
+    effects = FAULT | {"effects.wheel_brake": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 5e-3}
     with fmu.open() as instance:
         for size in SIZES[:3]:
             count = round(5e-3 / size)
@@ -169,7 +169,7 @@ def test_scenes_whose_settings_change_on_communication_points_lose_nothing(fmu_f
     scene.write_text(f'description = "changes"\nstop_time = 0.012\nstep = 0.0005\noutputs = ["carrier.angle"]\n'
                      f'[set]\nsolver.method = "{name}"\nsolver.fixed_step = 1e-4\ncarrier.speed_command = {float(CARRIER)!r}\n'
                      f'effects.tooth_fault = true\ntooth_fault.gear = "planet"\ntooth_fault.missing_fraction = 0.6\n'
-                     f'tooth_fault.onset = 0.005\neffects.wheel_brake = true\n'
+                     f'tooth_fault.at_onset = true\ntooth_fault.onset = 0.005\neffects.wheel_brake = true\n'
                      f'[[at]]\ntime = {time!r}\nlock.command = 1.0\nleft.brake_torque = 500.0\n'
                      '[[at]]\ntime = 0.006\nlock.command = 0.0\nright.load_torque = 0.0\n')
     record = Scene.load(scene, fmu=fmu_file).run()
@@ -180,7 +180,7 @@ def test_a_host_that_integrates_itself_breaks_the_tooth_on_rounded_times(fmu):
     """In model exchange the time of the event is known before, and a host that comes to it by a sum does not find it ahead."""
     with fmu.open("ModelExchange") as instance:
         onset = 0.3
-        instance.initialise(SPEED | FAULT | {"tooth_fault.onset": onset})
+        instance.initialise(SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset})
         raw = instance.raw
         assert raw.newDiscreteStates()[4:] == (True, onset)
         raw.enterContinuousTimeMode()

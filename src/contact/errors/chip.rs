@@ -17,7 +17,6 @@ pub struct Chip {
     /// Cone distance beyond which material is missing [m].
     from: f64,
     depth: f64,
-    onset: f64,
 }
 
 impl Chip {
@@ -34,13 +33,7 @@ impl Chip {
             tooth: whole(spec.tooth),
             from: pair.outer_cone - spec.missing_fraction * face_width,
             depth: spec.depth,
-            onset: spec.onset,
         }))
-    }
-
-    /// Time at which the piece breaks off without a trigger [s], if it does.
-    pub fn onset(&self) -> Option<f64> {
-        (self.onset > 0.0).then_some(self.onset)
     }
 
     /// Whether the broken tooth is in the pair.

@@ -63,7 +63,9 @@ spec! {
         pub missing_fraction: f64 = 0.5,
         /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
         pub depth: f64 = 1e-3,
-        /// Time at which the piece breaks off [s]; 0 = only by the trigger.
+        /// Whether the piece breaks off at a time; otherwise only by the trigger.
+        pub at_onset: bool = false,
+        /// That time [s].
         pub onset: f64 = 0.0,
     }
 }
@@ -122,7 +124,12 @@ impl ToothFaultSpec {
         }
         within("tooth_fault.missing_fraction", self.missing_fraction, [0.0, 1.0], "(fraction of the face width)")?;
         within("tooth_fault.depth", self.depth, [0.0, 0.1], "m")?;
-        within("tooth_fault.onset", self.onset, [0.0, f64::MAX], "s")
+        within("tooth_fault.onset", self.onset, [f64::MIN, f64::MAX], "s")
+    }
+
+    /// Time at which the piece breaks off without a trigger [s], if it does.
+    pub fn time(&self) -> Option<f64> {
+        self.at_onset.then_some(self.onset)
     }
 }
 

@@ -14,7 +14,7 @@ impl Declare for ToothFaultSpec {
     const DESCRIPTION: &'static str = "A tooth that loses a piece, at a time or by fault.trigger";
     const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
-        &[("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];
+        &[("tooth_fault.at_onset", 1.0), ("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];
 
     fn start() -> Self {
         Self { gear: FaultyGear::Planet, missing_fraction: 0.6, ..Self::default() }
@@ -37,9 +37,12 @@ impl Declare for ToothFaultSpec {
                 (0.0, 1e-2),
                 |p| &mut p.depth,
             ),
-            row("tooth_fault.onset", "Time at which the piece breaks off; 0 = by fault.trigger alone")
+            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; otherwise by fault.trigger alone")
                 .when("tooth_fault.gear != none")
-                .real(units::SECOND, (0.0, 1e9), |p| &mut p.onset),
+                .switch(|p| &mut p.at_onset),
+            row("tooth_fault.onset", "Time at which the piece breaks off; a run that starts later starts without it")
+                .when("tooth_fault.gear != none and tooth_fault.at_onset = true")
+                .time(|p| &mut p.onset),
         ]
     }
 

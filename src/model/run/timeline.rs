@@ -34,15 +34,15 @@ fn resolution(time: f64) -> f64 {
 /// Time of the next change of the equations by themselves [s]: the onset of the tooth fault, if still to come.
 pub fn next_change(model: &Model, state: &State) -> Option<f64> {
     let p = &model.parameters;
-    let onset = p.specs.tooth_fault.onset;
-    (p.effects.tooth_fault && !state.is_tooth_broken && onset > 0.0 && !has_come(onset, state)).then_some(onset)
+    let onset = p.specs.tooth_fault.time().filter(|_| p.effects.tooth_fault && !state.is_tooth_broken);
+    onset.filter(|&onset| !has_come(onset, state))
 }
 
 /// Whether a tooth breaks now, by its time or by the trigger.
 pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let p = &model.parameters;
-    let onset = p.specs.tooth_fault.onset;
-    p.effects.tooth_fault && !state.is_tooth_broken && (inputs.fault > 0.5 || onset > 0.0 && has_come(onset, state))
+    let has_come = || p.specs.tooth_fault.time().is_some_and(|onset| has_come(onset, state));
+    p.effects.tooth_fault && !state.is_tooth_broken && (inputs.fault > 0.5 || has_come())
 }
 
 /// Whether `time` [s] has come, up to the rounding of times.

@@ -27,11 +27,10 @@ fn only_the_broken_tooth_misses_material_and_only_from_the_heel() {
 }
 
 #[test]
-fn an_onset_of_zero_leaves_breaking_to_the_trigger() {
-    let pair = Pair::new(&GearSpec::default());
-    let onset = |onset| {
-        let spec = ToothFaultSpec { gear: FaultyGear::Planet, onset, ..ToothFaultSpec::default() };
-        Chip::new(&spec, &pair, 2).unwrap().unwrap().onset()
-    };
-    assert_eq!((onset(0.2), onset(0.0)), (Some(0.2), None));
+fn any_time_may_be_an_onset_and_without_one_the_trigger_alone_breaks() {
+    for onset in [0.0, -3.0, 0.2, 1.7e9, f64::MIN] {
+        let spec = ToothFaultSpec { gear: FaultyGear::Planet, at_onset: true, onset, ..ToothFaultSpec::default() };
+        assert!(spec.check([10, 16], 2).is_ok());
+        assert_eq!([spec.time(), ToothFaultSpec { at_onset: false, ..spec }.time()], [Some(onset), None]);
+    }
 }

@@ -307,7 +307,7 @@ impl Cases {
         let mut draw = Draw::new(attempt ^ 0xfee1);
         if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
-            (fault.onset, fault.tooth) = (if breaks { 1e-6 } else { 0.0 }, 0);
+            (fault.at_onset, fault.onset, fault.tooth) = (breaks, 1e-6, 0);
         } else {
             run.steps.truncate(6);
         }

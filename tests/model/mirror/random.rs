@@ -166,7 +166,8 @@ fn effects(d: &mut Draw, p: &mut Parameters) {
     f.index = d.whole(0, 1);
     let teeth = if f.gear == FaultyGear::Planet { p.geometry.planet_teeth } else { p.geometry.side_teeth };
     f.tooth = d.whole(-2, 2).rem_euclid(teeth);
-    f.onset = if d.chance(0.5) { d.between(0.0, 6e-3) } else { 0.0 };
+    f.at_onset = d.chance(0.5);
+    f.onset = if f.at_onset { d.between(0.0, 6e-3) } else { 0.0 };
     e.tooth_friction = tooth && d.chance(0.3);
     s.tooth_friction.law = d.of(&[
         FrictionLaw::CoulombStribeck,

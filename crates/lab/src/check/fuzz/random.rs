@@ -18,7 +18,7 @@ impl Random {
     pub fn value_for(&mut self, row: &Variable) -> f64 {
         let start = real_start(row).unwrap_or(0.0);
         match (self.below(8), row.range) {
-            (0, _) => self.real(),
+            (0, _) | (1..=2, None) => self.real(),
             (1, Some(range)) => range.min + self.fraction() * (range.max - range.min),
             (2, Some(range)) => self.pick(&[range.min, range.max]),
             _ => start * (0.8 + 0.4 * self.fraction()),
