@@ -24,6 +24,7 @@ CASES = [
     ({"spin.command": 3.0}, "scene.planet_spin = imposed"),
     ({"fault.trigger": 1.0}, "effects.tooth_fault = true"),
     ({"tooth_fault.depth": 2e-4}, "effects.tooth_fault = true"),
+    ({"tooth_fault.onset": 0.01, "effects.tooth_fault": True}, "tooth_fault.at_onset = true"),
     ({"contact.reference_line_load": 3e5}, "contact.law = line"),
     ({"contact.stiffness": 1e10, "contact.stiffness_from_hertz": True}, "contact.stiffness_from_hertz = false"),
     ({"contact.restitution": 0.7}, "contact.damping_model = restitution"),
