@@ -6,6 +6,7 @@ use anyhow::Result;
 use serde::Deserialize;
 
 use crate::problem::{Problem, Problems, question_error};
+use crate::scene::display_units::DisplayUnits;
 use crate::scene::{Scene, assignments, find, load};
 
 /// More communication points than this are a slip, and would not fit into memory.
@@ -23,6 +24,9 @@ pub struct Source {
     /// Changes, each `name=value`.
     #[serde(default)]
     set: Vec<String>,
+    /// Units to show values in, before those of the scene.
+    #[serde(default)]
+    display_units: Vec<String>,
     /// Folder of the scenes that have names.
     #[serde(default)]
     scenes: PathBuf,
@@ -36,6 +40,8 @@ impl Source {
             None => find(&self.name, &self.scenes)?,
         };
         assignments::apply(&mut scene, &self.set)?;
+        let preferred = DisplayUnits::of(&self.display_units);
+        scene.display_units.prefer(preferred.map_err(|found| Problems(found.into_iter().map(Into::into).collect()))?);
         let Scene { stop_time, step, .. } = scene;
         if stop_time / step > MOST_POINTS {
             let reason = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");

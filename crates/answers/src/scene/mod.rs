@@ -1,6 +1,7 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
 pub mod assignments;
+pub mod display_units;
 pub mod input_file;
 mod input_table;
 pub mod load;
@@ -22,6 +23,7 @@ use bevel_differential::variables::Variable;
 
 use crate::problem::{Problem, Problems};
 use crate::text::shown;
+use display_units::DisplayUnits;
 pub use input_table::{InputTable, Jumps};
 use set::Setting;
 
@@ -52,6 +54,8 @@ pub struct Scene {
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
+    /// Units to show values in, in place of the usual ones.
+    pub display_units: DisplayUnits,
 }
 
 /// Values set at a time.
