@@ -80,6 +80,16 @@ pub struct Unset {
 
 /// Start values that act in a scene of `parameters` and `inputs` and that are not `set`, by group.
 pub fn unset(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Vec<Unset> {
+    unset_as_shown(parameters, inputs, set, |row| *row)
+}
+
+/// The same values, each with the display unit that `shown` gives to its variable.
+pub fn unset_as_shown(
+    parameters: &Parameters,
+    inputs: &Inputs,
+    set: &SetValues,
+    shown: impl Fn(&Variable) -> Variable,
+) -> Vec<Unset> {
     let (mut parameters, mut inputs) = (*parameters, *inputs);
     let is_commanded = inputs.lock > 0.0 || set.contains_named("lock.command");
     let mut found: Vec<Unset> = Vec::new();
@@ -98,7 +108,7 @@ pub fn unset(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Vec<U
             continue;
         }
         let name = if group == DRIVES { row.name } else { row.name.split_once('.').map_or(row.name, |(_, rest)| rest) };
-        let text = format!("{name} = {}", written_as_shown(row, value));
+        let text = format!("{name} = {}", written_as_shown(&shown(row), value));
         match found.iter_mut().find(|known| known.group == group) {
             Some(known) => known.values.push(text),
             None => found.push(Unset { group, values: vec![text] }),

@@ -97,6 +97,12 @@ def test_the_command_writes_figure_numbers_and_scene(fmu_file, tmp_path, capsys)
         assert len(picture.getcolors(maxcolors=1 << 20)) > 10
 
 
+def test_speeds_and_temperatures_are_in_the_units_that_are_wanted(fmu_file, tmp_path):
+    plain, turned = (numbers(bench("judder", tmp_path, fmu=fmu_file, display_units=units)) for units in ([], ["rpm"]))
+    assert turned[:2] == pytest.approx([60.0 / (2.0 * np.pi) * number for number in plain[:2]], rel=6e-3)
+    assert "left.speed [rpm]" in (tmp_path / "judder.csv").read_text(encoding="utf-8")
+
+
 def test_wrong_tests_are_one_line(capsys, tmp_path):
     for words, said in ((["hotlap"], "did you mean hot_lap"), (["--scene", "clunk"], "name the one test")):
         assert main(["bench", *words, "--out", str(tmp_path)]) == 2

@@ -2,14 +2,16 @@
 
 import re
 from html.parser import HTMLParser
+from math import pi
 from types import SimpleNamespace
 
 import pytest
 from bevel_differential import DifferentialError, Scene, extras
 from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Quantity, Text
-from bevel_differential.losses import VARIABLES, losses
+from bevel_differential.losses import VARIABLES, LossMap, losses
 from bevel_differential.losses.grid import Bound
+from bevel_differential.losses.picture import draw
 from bevel_differential.losses.report import write
 from bevel_differential.losses.tables import HEAD, save
 from matplotlib.figure import Figure
@@ -221,3 +223,21 @@ def test_a_full_disk_leaves_no_half_report(single, tmp_path, monkeypatch):
     with pytest.raises(DifferentialError, match="map.html: No space left on device; nothing is written"):
         write(single, tmp_path / "map.html")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, fmu_file, tmp_path):
+    with Scene("rich", set=RICH, fmu=fmu_file, display_units=["rpm", "kN.m", "K"]) as scene:
+        shown = LossMap(**{**mapped.__dict__, "scene": scene})
+        text = write(shown, tmp_path / "map.html").read_text(encoding="utf-8")
+        draw(shown, tmp_path / "map.svg")
+    assert not re.search(r"rad/s|(?<!k)N·m|°C", text.partition("Measured error")[0].partition("Axes of the map")[2].replace("N·m on top", ""))
+    axes, = Tables(text).of("axis")
+    # 60 s in a minute and 2π rad in a turn, 1000 N·m in a kN·m
+    sizes = (1e-3, 30.0 / pi, 30.0 / pi, 1.0)
+    assert [name.rsplit(" ", 1)[-1] for _, name, *_ in axes] == ["kN·m", "rpm", "rpm", "K"]
+    for (_, first, last, *_), size, values in zip(axes, sizes, LEVELS.values()):
+        assert [number(first), number(last)] == pytest.approx([size * values[0], size * values[-1]], rel=1e-4)
+    picture = (tmp_path / "map.svg").read_text(encoding="utf-8")
+    assert "carrier torque, kN·m" in picture and "difference of speeds (left − right), rpm" in picture and "rad/s" not in picture
+    # programs read the map: it stays SI
+    assert save(shown, tmp_path / "own.csv").read_text().splitlines()[3:] == save(mapped, tmp_path / "si.csv").read_text().splitlines()[3:]

@@ -12,10 +12,12 @@
 """
 
 from .accuracy import Accuracy, accuracy
+from .comparison import Comparison, compare
 from .differential import Differential
 from .fmu import Fmu
 from .scene import Scene
 from .scene_file import shipped_scenes
 from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Accuracy", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "accuracy", "shipped_scenes"]
+__all__ = ["Accuracy", "Comparison", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "accuracy", "compare",
+           "shipped_scenes"]

@@ -5,7 +5,7 @@ Each question is a dict with the key "ask"; crates/answers/src/ask of the reposi
 import ctypes
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -53,11 +53,13 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     return found["answer"]
 
 
-def about(scene: Any, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """How a question names a scene: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, on top."""
+def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: Sequence[str] = ()) -> dict[str, Any]:
+    """How a question names a scene: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, and
+    `display_units` on top."""
     given = {"given": scene.contents()} if hasattr(scene, "contents") else {}
     name = scene.name if given else os.fspath(scene)
-    return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes)}
+    return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes),
+            "display_units": list(display_units)}
 
 
 def assignments(values: Mapping[str, Any] | None) -> list[str]:

@@ -86,10 +86,12 @@ class Differential(Runner):
 
     Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
     `Differential({"geometry.module": "4.5 mm"}, contact__law="line_weber")`. Values are SI numbers, pairs (number, unit), text with
-    a unit, literals by name. What is not given has its start value."""
+    a unit, literals by name. What is not given has its start value. `display_units`, such as ["rpm", "kN"]: units of pictures, in place
+    of the usual ones; records stay SI."""
 
-    def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None, **keywords: Value):
-        super().__init__(fmu)
+    def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None,
+                 display_units: Sequence[str] = (), **keywords: Value):
+        super().__init__(Fmu.of(fmu).displaying(display_units))
         self.set(parameters, **keywords)
 
     @overload
@@ -123,9 +125,9 @@ class Differential(Runner):
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
-    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
+    def plot(self, record: np.ndarray, file: FileName | None = None, display_units: Sequence[str] = ()) -> "Figure":
         """Draws a record; see `plot.plot`."""
-        return plot(self.fmu, record, file=file)
+        return plot(self.fmu.displaying(display_units), record, file=file)
 
     def _record(self, inputs, outputs, stop, step, values=None, input_slopes=True):
         """`run` without Python warnings."""

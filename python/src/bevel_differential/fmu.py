@@ -5,7 +5,7 @@ import hashlib
 import os
 import shutil
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from zipfile import BadZipFile
@@ -14,7 +14,7 @@ from fmpy import extract, read_model_description
 
 from .former_names import present
 from .instance import Instance
-from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
+from .values import DifferentialError, FileName, Number, Value, Variable, spelled, suggestion
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
@@ -42,7 +42,8 @@ class Fmu:
     variable BEVEL_DIFFERENTIAL_FMU, else the FMU of the package. `Fmu(path)` extracts the file anew; the path may also be that of
     a folder with an extracted FMU.
 
-    Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as fmpy reads it."""
+    Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as fmpy reads it; `display_units`,
+    preferred units by SI unit, see `displaying`."""
 
     def __init__(self, file: FileName):
         self.file = Path(file)
@@ -52,6 +53,11 @@ class Fmu:
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
         self.variables = _ByName((each.name, Variable(each, units)) for each in self.description.modelVariables)
+        # SI unit by each of its units, itself included
+        self._dimensions = {name: unit.name for unit in units.values() if unit.name != "1"
+                            for name in (unit.name, *(shown.name for shown in unit.displayUnits))}
+        self.display_units: dict[str, str] = {}
+        self._displaying: dict[tuple[str, ...], "Fmu"] = {}
 
     @classmethod
     def of(cls, file: "FileName | Fmu | None" = None) -> "Fmu":
@@ -73,17 +79,50 @@ class Fmu:
             return _shared[key]
 
     @classmethod
-    def by_hash(cls, file: str, sha256: str) -> "Fmu":
-        """The FMU with this SHA-256: `file`, or else the default FMU of this machine."""
+    def by_hash(cls, file: str, sha256: str, display_units: Sequence[str] = ()) -> "Fmu":
+        """The FMU with this SHA-256: `file`, or else the default FMU of this machine. It shows values in `display_units`."""
         for place in (Path(file), Path(usual())):
             if place.is_file() and cls.of(place).sha256 == sha256:
-                return cls.of(place)
+                return cls.of(place).displaying(display_units)
         raise DifferentialError(f"{file}: neither this file nor the default FMU of this machine, {usual()}, is the one that was asked for "
                                 f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines, or set BEVEL_DIFFERENTIAL_FMU")
 
     def __reduce__(self) -> tuple:
         # another process or machine finds the FMU by its hash, as its files may be elsewhere
-        return Fmu.by_hash, (str(self.file), self.sha256)
+        return Fmu.by_hash, (str(self.file), self.sha256, tuple(self.display_units.values()))
+
+    def displaying(self, units: Sequence[str]) -> "Fmu":
+        """The same FMU, which shows values in `units`, such as ["rpm", "kN"]. Each replaces the usual unit of all variables of its
+        dimension; other variables are shown as before. Numbers that go in and come out of it stay SI."""
+        preferred = {**self.display_units, **self._preferred(units)}
+        if preferred == self.display_units:
+            return self
+        # shared, so that all runs in these units have the same variables
+        key = tuple(preferred.values())
+        if key not in self._displaying:
+            # `copy.copy` would go the way of `__reduce__`
+            other = object.__new__(type(self))
+            other.__dict__.update(self.__dict__, display_units=preferred, variables={
+                name: each.shown_in(preferred.get(each.unit or "")) for name, each in self.variables.items()})
+            self._displaying[key] = other
+        return self._displaying[key]
+
+    def _preferred(self, units):
+        """The preferred units by the SI units of their dimensions."""
+        if isinstance(units, str):
+            raise DifferentialError(f"{units!r}: display units are a list, such as [{units!r}]")
+        found: dict[str, str] = {}
+        for written in units:
+            unit = spelled(written.strip())
+            if unit not in self._dimensions:
+                # "RPM" for "rpm"
+                meant = next((name for name in self._dimensions if name.lower() == unit.lower()), unit)
+                hint = suggestion(meant, self._dimensions) or f"; known: {', '.join(self._dimensions)}"
+                raise DifferentialError(f"there is no unit {written!r}{hint}", kind="use")
+            other = found.setdefault(self._dimensions[unit], unit)
+            if other != unit:
+                raise DifferentialError(f"{other} and {unit} are units of the same quantity; name one of them", kind="use")
+        return found
 
     @cached_property
     def sha256(self) -> str:

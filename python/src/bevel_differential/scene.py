@@ -30,14 +30,15 @@ class Scene(Runner):
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
     `tables`: [(input, times, values, period or None)], straight from point to point. Without `input_slopes` values are held within
-    steps. All times in s or with a unit. Values are written as for `Differential`."""
+    steps. All times in s or with a unit. Values are written as for `Differential`. `display_units`, such as ["rpm", "kN"]: units of
+    tables, pictures and files, in place of the usual ones."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
                  tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), input_slopes: bool = True,
-                 fmu: FileName | Fmu | None = None):
-        super().__init__(fmu)
+                 display_units: Sequence[str] = (), fmu: FileName | Fmu | None = None):
+        super().__init__(Fmu.of(fmu).displaying(display_units))
         self.name, self.description = name, description
         self.stop, self.step = span("stop_time", stop), span("step", step)
         if self.step > self.stop:
@@ -50,10 +51,13 @@ class Scene(Runner):
         self._signals = self._checked_signals()
 
     @classmethod
-    def load(cls, what: FileName, fmu: FileName | Fmu | None = None) -> Self:
-        """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once."""
-        file = find(what)
-        return cls(fmu=fmu, **read_scene(file))
+    def load(cls, what: FileName, fmu: FileName | Fmu | None = None, display_units: Sequence[str] = ()) -> Self:
+        """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once.
+        `display_units`, and those of `fmu`, win over those of the file."""
+        given, fmu = read_scene(find(what)), Fmu.of(fmu)
+        for preferred in (given.pop("display_units"), list(fmu.display_units.values()), display_units):
+            fmu = fmu.displaying(preferred)
+        return cls(fmu=fmu, **given)
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""
@@ -116,35 +120,51 @@ class Scene(Runner):
             self._initialise(instance, values)
             return instance.unfelt
 
-    def summary(self, record: np.ndarray) -> str:
-        """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown."""
+    def summary(self, record: np.ndarray, display_units: Sequence[str] = ()) -> str:
+        """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown, or in
+        `display_units`."""
+        fmu = self.fmu.displaying(display_units)
         lines: list[tuple[str, ...]] = [("output", "unit", "min", "mean", "max", "end")]
         span_of_time = record["time"][-1] - record["time"][0]
         for name in _outputs(record):
-            unit, values = self.fmu.variable(name).shown(record[name])
+            unit, values = fmu.variable(name).shown(record[name])
             mean = np.trapezoid(values, record["time"]) / span_of_time
             lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
         return "\n".join(aligned(lines))
 
-    def to_csv(self, record: np.ndarray, file: FileName) -> Path:
-        """Writes a record in SI, with the units in a comment; numbers read back to the same bits."""
-        units = [self.fmu.variable(name).unit or "1" for name in _outputs(record)]
-        return write(file, record.dtype.names or (), record.tolist(), f"scene {self.name}: {self.description}",
-                     f"units: s,{','.join(units)}")
+    def to_csv(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
+        """Writes a record in SI, with the units in a comment; numbers read back to the same bits. With `display_units`, of this call
+        or of the scene, quantities of their dimensions have these units, and names of columns name units: "left.speed [rpm]"."""
+        head, units, columns = self.columns(record, display_units)
+        return write(file, head, zip(*(column.tolist() for column in columns)), f"scene {self.name}: {self.description}",
+                     f"units: {','.join(units)}")
 
-    def to_parquet(self, record: np.ndarray, file: FileName) -> Path:
-        """Writes a record in SI as Parquet; fields name their units."""
+    def columns(self, record: np.ndarray, display_units: Sequence[str] = ()) -> tuple[list[str], list[str], list[np.ndarray]]:
+        """Names, units and values of the columns of a record in a file; see `to_csv`."""
+        fmu = self.fmu.displaying(display_units)
+        units, columns = ["s"], [record["time"]]
+        for name in _outputs(record):
+            unit, values = fmu.variable(name).in_files(record[name], fmu.display_units)
+            units.append(unit or "1")
+            columns.append(values)
+        names = record.dtype.names or ()
+        # columns of SI keep their plain names
+        head = list(names) if not fmu.display_units else [name if unit == "1" else f"{name} [{unit}]" for name, unit in zip(names, units)]
+        return head, units, columns
+
+    def to_parquet(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
+        """Writes a record as Parquet, in the units of `to_csv`; fields name their units."""
         pa = require("pyarrow", "sweep")
-        units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in _outputs(record)}}
-        fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})
-                  for name, unit in units.items()]
-        table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
+        head, units, columns = self.columns(record, display_units)
+        fields = [pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": unit})
+                  for name, unit, column in zip(head, units, columns)]
+        table = pa.table([np.ascontiguousarray(column) for column in columns], pa.schema(fields))
         require("pyarrow.parquet", "sweep").write_table(table, file)
         return Path(file)
 
-    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
+    def plot(self, record: np.ndarray, file: FileName | None = None, display_units: Sequence[str] = ()) -> "Figure":
         """Draws a record; see `plot.plot`."""
-        return plot(self.fmu, record, self.name, self.description, file)
+        return plot(self.fmu.displaying(display_units), record, self.name, self.description, file)
 
     def contents(self, values: Mapping[str, Value] | None = None) -> dict[str, Any]:
         """The contents of a scene file with the same meaning; `values` at the start instead of the scene's own."""
@@ -157,6 +177,7 @@ class Scene(Runner):
         return {"description": self.description, "stop_time": self.stop, "step": self.step, "outputs": self.outputs,
                 "set": plain(self.values if values is None else values),
                 "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables,
+                **({"display_units": list(units)} if (units := self.fmu.display_units.values()) else {}),
                 **({"input_slopes": self.input_slopes} if tables else {})}
 
     def __getstate__(self) -> dict[str, Any]:

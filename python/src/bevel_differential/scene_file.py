@@ -37,7 +37,7 @@ def read_scene(file: Path) -> dict[str, Any]:
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
             "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]],
-            "input_slopes": found["input_slopes"]}
+            "input_slopes": found["input_slopes"], "display_units": found["display_units"]}
 
 
 def read_toml(file: Path) -> dict[str, Any]:

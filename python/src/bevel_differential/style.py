@@ -58,9 +58,9 @@ def panels(rows, columns, height, **options):
     return picture, picture.subplots(rows, columns, **options)
 
 
-def caption(picture, text, above=0.0):
-    """What to see, in lines under the panels; `above` the panels so many inches stay free."""
-    lines = textwrap.wrap(text, int(CAPTION_DENSITY * picture.get_figwidth()))
+def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
+    """What to see, in lines under the panels; `above` the panels so many inches stay free. `density`: characters per inch of width."""
+    lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
     share = 0.99 - height - above / picture.get_figheight()
     picture.get_layout_engine().set(rect=(0.0, height, 0.995, share), hspace=0.04, wspace=0.03)

@@ -5,8 +5,8 @@ import difflib
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol, Self, TypeAlias, TypeVar
+from collections.abc import Iterable, Mapping, Sequence, Set
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -27,6 +27,13 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 BAND = re.compile(r"\+-|\+/-|±")
 # other ways to write units
 _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m", "1/min": "rpm"}
+
+
+def spelled(unit: str) -> str:
+    """Name of a unit as the FMU spells it: "N.m" for "N·m"."""
+    for spelling, name in _SPELLINGS.items():
+        unit = unit.replace(spelling, name)
+    return unit
 
 
 def split(text: str) -> tuple[str, str]:
@@ -73,6 +80,7 @@ class Variable:
     units: dict[str, tuple[float, float]]
     is_relative: bool = False
     _usual: str | None = None
+    _with_offset: Set[str] = frozenset()
 
     def __init__(self, described: "ScalarVariable", units: "Mapping[str, Unit]"):
         self.name = described.name
@@ -90,6 +98,7 @@ class Variable:
         shown = units.get(self.unit) if self.unit else None
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
+        self._with_offset = {unit.name for unit in (shown.displayUnits if shown is not None else []) if float(unit.offset or 0.0)}
         for unit in shown.displayUnits if shown is not None else []:
             self.units[unit.name] = (float(unit.factor), 0.0 if self.is_relative else float(unit.offset or 0.0))
         self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
@@ -150,11 +159,32 @@ class Variable:
         unit, ends = self.shown(np.array([-math.inf if low is None else low, math.inf if high is None else high]))
         raise DifferentialError(f"{self.name}: {text} is outside [{ends[0]:.6g}, {ends[1]:.6g}] {unit}".rstrip())
 
+    def shown_in(self, unit: str | None) -> Self:
+        """The same variable, which is usually shown in `unit`, one of `units`. Differences are never shown in a unit with an offset:
+        5 K, not 5 degC."""
+        found = copy.copy(self)
+        if unit is not None and not (self.is_relative and unit in self._with_offset):
+            found._usual = unit
+        return found
+
     def shown(self, values: _Shown) -> tuple[str, _Shown]:
         """Unit in which the variable is usually shown, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
         return ("" if name == "1" else name), values * factor + offset
+
+    def in_files(self, values: _Shown, preferred: Mapping[str, str]) -> tuple[str, _Shown]:
+        """Unit in files, and SI `values` in it: SI, unless another unit of its dimension is `preferred`, by SI unit."""
+        return self.shown(values) if (self.unit or "") in preferred else (self.unit or "", values)
+
+    def column(self, name: str, values: Iterable[Any], preferred: Mapping[str, str]) -> tuple[str, list[Any]]:
+        """Head and cells of a column of SI `values`. With `preferred` units the head names the unit, as in "left.speed:mean [rpm]"; empty
+        cells stay empty."""
+        if not preferred or self.kind != "Real":
+            return name, list(values)
+        unit, _ = self.in_files(0.0, preferred)
+        cells = [value if value in (None, "") else self.in_files(value, preferred)[1] for value in values]
+        return (name if unit in ("", "1") else f"{name} [{unit}]"), cells
 
     def _boolean(self, value):
         words = {"true": True, "false": False}
@@ -181,8 +211,7 @@ class Variable:
 
     def _si(self, number, unit, written):
         number = self._float(number, written)
-        for spelling, name in _SPELLINGS.items():
-            unit = unit and unit.replace(spelling, name)
+        unit = unit and spelled(unit)
         if unit is None or unit == self.unit:
             return number
         if unit not in self.units:

@@ -82,7 +82,7 @@ fn wanted(answer: &Answer) -> String {
         format!("mean, rms, min and max of {} outputs", answer.scene.outputs.len())
     } else {
         let values = answer.wants.iter().zip(&answer.reference.values).map(|(want, &value)| {
-            let row = answer.scene.outputs[want.output];
+            let row = &answer.scene.display_units.row(answer.scene.outputs[want.output]);
             match want.statistic {
                 super::statistic::Statistic::TimeOfPeak => format!("{} s", three_digits(value)),
                 statistic if statistic.is_difference() => units::difference_text(row, value),
@@ -206,8 +206,12 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     push("Left out", prefixed("acts below the accuracy: ", names(&acts(false, false))));
     for (switch, role) in &answer.effects {
         if let Role::Neutral { typical, by, now } = role {
-            let values: Vec<String> =
-                typical.iter().map(|(row, value)| format!("{} = {}", row.name, units::text(row, *value))).collect();
+            let values: Vec<String> = typical
+                .iter()
+                .map(|(row, value)| {
+                    format!("{} = {}", row.name, units::text(&answer.scene.display_units.row(row), *value))
+                })
+                .collect();
             let effect = match by {
                 Some(by) if *by > answer.within => {
                     format!("would change a wanted quantity by {}: set what your gears have", percent(*by))

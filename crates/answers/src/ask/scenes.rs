@@ -104,6 +104,7 @@ impl SceneQuestion {
             "tables": tables.collect::<Vec<_>>(),
             "input_slopes": scene.input_slopes,
             "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
+            "display_units": scene.display_units.names().collect::<Vec<_>>(),
         }))
     }
 
@@ -138,7 +139,7 @@ impl RunQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
         let outcome = written(&self.out, |file| run(&scene, None, Some(file), progress))?;
-        Ok(json!({"text": outcome.text(), "file": self.out}))
+        Ok(json!({"text": outcome.text(&scene.display_units), "file": self.out}))
     }
 }
 

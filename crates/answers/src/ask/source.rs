@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
+use crate::scene::display_units::DisplayUnits;
 use crate::scene::{Scene, assignments, find, load};
 
 /// More communication points than this are a slip, and would not fit into memory.
@@ -24,6 +25,9 @@ pub struct Source {
     /// Changes, each `name=value`.
     #[serde(default)]
     set: Vec<String>,
+    /// Units to show values in, before those of the scene.
+    #[serde(default)]
+    display_units: Vec<String>,
     /// Folder of the scenes that have names.
     #[serde(default)]
     scenes: PathBuf,
@@ -38,6 +42,8 @@ impl Source {
         };
         assignments::apply(&mut scene, &self.set)?;
         progress.warn(&scene.notes);
+        let preferred = DisplayUnits::of(&self.display_units);
+        scene.display_units.prefer(preferred.map_err(|found| Problems(found.into_iter().map(Into::into).collect()))?);
         let Scene { stop_time, step, .. } = scene;
         if stop_time / step > MOST_POINTS {
             let reason = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");

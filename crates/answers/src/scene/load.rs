@@ -6,6 +6,7 @@
 //! step = 1e-3                            # communication step
 //! outputs = ["left.speed"]
 //! input_slopes = false                   # hold the values of tables within a step; otherwise tables continue straight
+//! display_units = ["rpm", "kN"]          # units to show values in, in place of the usual ones
 //!
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
@@ -33,6 +34,7 @@ use bevel_differential::variables::{Access, Variable};
 use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::display_units::DisplayUnits;
 use super::set::{Setting, closest, real, variable, written};
 use super::times::{check_step, seconds, span};
 use super::units::six_digits;
@@ -48,6 +50,8 @@ pub struct File {
     stop_time: Value,
     step: Value,
     input_slopes: Option<Value>,
+    #[serde(default)]
+    display_units: Vec<String>,
     #[serde(default)]
     set: Table,
     #[serde(default)]
@@ -105,6 +109,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     }
     let input_slopes = input_slopes(entry, &mut problems);
     let outputs = outputs(&entry.outputs, &mut problems);
+    let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
     problems.extend(input_tables.iter().filter_map(|table| table.check(stop_time).err()));
     problems.or(())?;
@@ -127,6 +132,14 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         input_slopes,
         outputs,
         notes,
+        display_units,
+    })
+}
+
+fn display_units(names: &[String], problems: &mut Problems) -> DisplayUnits {
+    DisplayUnits::of(names).unwrap_or_else(|found| {
+        problems.extend(found.iter().map(|problem| format!("display_units: {problem}")));
+        DisplayUnits::default()
     })
 }
 

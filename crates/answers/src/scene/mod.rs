@@ -1,6 +1,7 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
 pub mod assignments;
+pub mod display_units;
 pub mod former_names;
 pub mod input_file;
 mod input_table;
@@ -23,6 +24,7 @@ use bevel_differential::variables::Variable;
 
 use crate::problem::{Problem, Problems};
 use crate::text::shown;
+use display_units::DisplayUnits;
 pub use input_table::{InputTable, Jumps};
 use set::Setting;
 
@@ -55,6 +57,8 @@ pub struct Scene {
     pub outputs: Vec<&'static Variable>,
     /// What the user is told about former names in it.
     pub notes: Vec<String>,
+    /// Units to show values in, in place of the usual ones.
+    pub display_units: DisplayUnits,
 }
 
 /// Values set at a time.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
-use bevel_differential::variables::{Causality, named, unset, value_of};
+use bevel_differential::variables::{Causality, Variable, named, unset, value_of};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -96,7 +96,8 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         ),
     );
     for event in &scene.events {
-        let settings: Vec<String> = event.settings.iter().map(|s| format!("{} = {}", s.row.name, s.text())).collect();
+        let settings: Vec<String> =
+            event.settings.iter().map(|s| format!("{} = {}", s.row.name, s.text_in(&scene.display_units))).collect();
         line("later", &format!("at {} s {}", event.time, settings.join(", ")));
     }
     for input_table in &scene.input_tables {
@@ -104,7 +105,8 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         let slopes = if scene.input_slopes { "" } else { ", held within steps" };
         line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
     }
-    for group in unset::unset(&scene.parameters, &scene.inputs, &set_values(scene)) {
+    let shown = |row: &Variable| scene.display_units.row(row);
+    for group in unset::unset_as_shown(&scene.parameters, &scene.inputs, &set_values(scene), shown) {
         line("not set", &format!("{}: {}", group.group, group.values.join(", ")));
     }
     out
@@ -120,7 +122,9 @@ fn choice(scene: &Scene, name: &str) -> String {
 fn drives(scene: &Scene) -> Vec<String> {
     let value = |name: &str| {
         let value = named(name).and_then(|row| Some((row, value_of(row, &scene.parameters, &scene.inputs)?)));
-        value.map_or(String::new(), |(row, value)| format!("{name} = {}", units::text(row, value)))
+        value.map_or(String::new(), |(row, value)| {
+            format!("{name} = {}", units::text(&scene.display_units.row(row), value))
+        })
     };
     let driven = |name: &str| choice(scene, name).split(':').next().unwrap_or_default().to_owned();
     let mut drives = vec![format!("carrier by {}", driven("scene.carrier_drive"))];

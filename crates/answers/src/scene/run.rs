@@ -8,6 +8,7 @@ use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Reported, 
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 
+use super::display_units::DisplayUnits;
 use super::units;
 use super::warnings::at_start;
 use super::{InputTable, Jumps, Scene};
@@ -188,7 +189,8 @@ pub fn run(
     let begun = Instant::now();
     progress.begin_task(0.0, "simulating");
     let mut run = SceneRun::start(scene, scene.step)?;
-    let mut csv = csv.map(|out| record(scene, out).context("the record cannot be written")).transpose()?;
+    let recorded: Vec<Variable> = scene.outputs.iter().map(|row| scene.display_units.row_in_files(row)).collect();
+    let mut csv = csv.map(|out| record(scene, &recorded, out).context("the record cannot be written")).transpose()?;
     let mut values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
     let mut outputs: Vec<Summary> = scene
         .outputs
@@ -196,7 +198,7 @@ pub fn run(
         .zip(&values)
         .map(|(&row, &value)| Summary { row, min: value, max: value, mean: 0.0, end: value })
         .collect();
-    line(&mut csv, 0.0, &values)?;
+    line(&mut csv, 0.0, &recorded, &values)?;
     let (mut exchanged, mut seen) = (0.0, 0.0);
     let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
     while !run.is_over() && steps.is_none_or(|most| run.done < most) {
@@ -214,7 +216,7 @@ pub fn run(
         exchanged += 0.5 * span * (power + now);
         seen += (run.simulation.state().work - work).abs();
         (power, work) = (now, run.simulation.state().work);
-        line(&mut csv, run.time(), &values)?;
+        line(&mut csv, run.time(), &recorded, &values)?;
         progress.advance(run.time() / scene.stop_time)?;
     }
     if let Some(rows) = &mut csv {
@@ -239,18 +241,23 @@ fn exchange(run: &mut SceneRun) -> f64 {
 }
 
 /// The record of a scene: comments, then a row for each communication point.
-fn record<'a>(scene: &Scene, out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
+fn record<'a>(scene: &Scene, outputs: &[Variable], out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
     writeln!(out, "# scene {}: {}", scene.name, scene.description)?;
-    let units: Vec<&str> = scene.outputs.iter().map(|row| row.unit.map_or("1", |unit| unit.name)).collect();
+    let units: Vec<&str> =
+        outputs.iter().map(|row| Some(units::name(row)).filter(|name| !name.is_empty()).unwrap_or("1")).collect();
     writeln!(out, "# units: s,{}", units.join(","))?;
     let mut rows = csv::Writer::from_writer(out);
-    rows.write_record(["time"].into_iter().chain(scene.outputs.iter().map(|row| row.name)))?;
+    // columns of SI keep their plain names
+    let headers = |row: &Variable| if scene.display_units.is_empty() { row.name.into() } else { units::header(row) };
+    let time = if scene.display_units.is_empty() { "time" } else { "time [s]" };
+    rows.write_record(std::iter::once(time.to_owned()).chain(outputs.iter().map(headers)))?;
     Ok(rows)
 }
 
-fn line(rows: &mut Option<csv::Writer<&mut dyn Write>>, time: f64, values: &[f64]) -> Result<()> {
+fn line(rows: &mut Option<csv::Writer<&mut dyn Write>>, time: f64, outputs: &[Variable], values: &[f64]) -> Result<()> {
     let Some(rows) = rows else { return Ok(()) };
-    let cells = std::iter::once(&time).chain(values).map(f64::to_string);
+    let shown = outputs.iter().zip(values).map(|(row, &value)| units::shown(row, value));
+    let cells = std::iter::once(time).chain(shown).map(|value| value.to_string());
     rows.write_record(cells).context("the record cannot be written")
 }
 
@@ -260,12 +267,13 @@ impl SceneResult {
         if self.throughput > 0.0 { self.residual.abs() / self.throughput } else { self.residual.abs() }
     }
 
-    /// For the terminal.
-    pub fn text(&self) -> String {
+    /// For the terminal, in `display_units`.
+    pub fn text(&self, display_units: &DisplayUnits) -> String {
         let mut table = Table::new(["output", "unit", "min", "mean", "max", "end"]).left([0, 1]);
         for o in &self.outputs {
-            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::six_digits(units::shown(o.row, value)));
-            table.push([o.row.name, units::name(o.row)].map(str::to_owned).into_iter().chain(numbers));
+            let row = display_units.row(o.row);
+            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::six_digits(units::shown(&row, value)));
+            table.push([row.name, units::name(&row)].map(str::to_owned).into_iter().chain(numbers));
         }
         let mut out = table.terminal();
         out.push_str(&format!(

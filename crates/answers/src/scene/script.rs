@@ -68,6 +68,10 @@ fn arguments(scene: &Scene) -> Result<String> {
             writeln!(out, "    input_slopes=False,  # values of tables are held within a step")?;
         }
     }
+    if !scene.display_units.is_empty() {
+        let names: Result<Vec<String>> = scene.display_units.names().map(quoted).collect();
+        writeln!(out, "    display_units=[{}],", names?.join(", "))?;
+    }
     let outputs: Result<Vec<String>> = scene.outputs.iter().map(|row| quoted(row.name)).collect();
     writeln!(out, "    outputs=[\n{}    ],", lines("        ", outputs?.into_iter()))?;
     Ok(out)

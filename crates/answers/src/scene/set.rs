@@ -4,6 +4,7 @@ use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table, value_of};
 use toml::Value;
 
+use super::display_units::DisplayUnits;
 use super::{Scene, former_names, units};
 use crate::problem::Problem;
 
@@ -83,8 +84,13 @@ impl Setting {
 
     /// The value as a reader wants it.
     pub fn text(&self) -> String {
+        self.text_in(&DisplayUnits::default())
+    }
+
+    /// The value as a reader of `display_units` wants it.
+    pub fn text_in(&self, display_units: &DisplayUnits) -> String {
         match self.value {
-            SettingValue::Real(value) => units::text(self.row, value),
+            SettingValue::Real(value) => units::text(&display_units.row(self.row), value),
             SettingValue::Integer(value) => value.to_string(),
             SettingValue::Boolean(value) => value.to_string(),
             SettingValue::Literal(value) => literal(self.row, value).map_or(String::new(), |(name, _)| name.to_owned()),

@@ -64,10 +64,14 @@ fn split(text: &str) -> Result<(f64, String), String> {
     let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
     let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
+    Ok((number, spelled(text[end..].trim())))
+}
+
+/// Name of a unit in the spelling of the FMU.
+pub fn spelled(name: &str) -> String {
     let replaced =
         [("·", "."), ("*", "."), ("°", "deg"), ("µ", "u"), ("μ", "u"), ("²", "2"), ("Nm", "N.m"), ("1/min", "rpm")];
-    let name = replaced.iter().fold(text[end..].trim().to_owned(), |name, (from, to)| name.replace(from, to));
-    Ok((number, name))
+    replaced.iter().fold(name.to_owned(), |name, (from, to)| name.replace(from, to))
 }
 
 /// Name of the display unit of `row`; empty for numbers without a unit.
@@ -76,6 +80,14 @@ pub fn name(row: &Variable) -> &'static str {
         (Some(shown), _) => shown.name,
         (None, Some(unit)) if unit.name != "1" => unit.name,
         _ => "",
+    }
+}
+
+/// Name and unit of a column of `row`: `left.speed [rpm]`, as tables of inputs have them.
+pub fn header(row: &Variable) -> String {
+    match name(row) {
+        "" => row.name.to_owned(),
+        unit => format!("{} [{unit}]", row.name),
     }
 }
 

@@ -4,12 +4,13 @@ import argparse
 import time
 from pathlib import Path
 
-from ..command.arguments import add_progress, add_scene, once
+from ..command.arguments import add_progress, add_scene, add_units, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     add_scene(parser)
+    add_units(parser)
     parser.add_argument("--want", metavar="OUTPUT[:STATISTIC]", action="append", default=[],
                         help="a quantity, such as left.speed:mean; may be repeated (default: all outputs of the scene)")
     parser.add_argument("--within", metavar="PERCENT", required=True, help="the accuracy that it needs, such as 1%%")
@@ -40,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=once("--set", arguments.set),
-                         file=arguments.write, progress=progress)
+                         display_units=arguments.unit, file=arguments.write, progress=progress)
     print(found.text)
     print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
           f"{time.monotonic() - begin:.2g} s in all")

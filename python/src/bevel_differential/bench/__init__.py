@@ -1,7 +1,7 @@
 """A virtual bench: tests of a differential in the terms of SAE J2817. While it differentiates under load, the torque bias ratio is
 TBR = T_high/T_low, the locking effect LE = 100 (TBR − 1)/(TBR + 1) %."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,11 @@ def scene_file(name: str) -> Path:
 
 
 def bench(name: str, folder: FileName, scene: FileName | None = None, values: Mapping[str, Value] | None = None,
-          fmu: FileName | Fmu | None = None, **farm: Any) -> str:
+          fmu: FileName | Fmu | None = None, display_units: Sequence[str] = (), **farm: Any) -> str:
     """Runs a test; writes its figure NAME.png and its numbers NAME.csv into a folder. Returns what to read from them.
 
-    `scene`: instead of the test's own; `values`: changes of it; `farm`: what `designs.Farm` takes."""
+    `scene`: instead of the test's own; `values`: changes of it; `display_units`: of the figure and the text; `farm`: what
+    `designs.Farm` takes."""
     test, _ = TESTS[name]
-    with Scene.load(scene or scene_file(name), fmu=fmu) as loaded:
+    with Scene.load(scene or scene_file(name), fmu=fmu, display_units=display_units) as loaded:
         return test(loaded.set(values), Path(folder) / name, farm)

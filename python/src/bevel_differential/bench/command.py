@@ -4,7 +4,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from ..command.arguments import add_farm, add_fmu, add_set, farm, once
+from ..command.arguments import add_farm, add_fmu, add_set, add_units, farm, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -13,6 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("test", nargs="*", metavar="TEST", help=f"{', '.join(TESTS)} (default: all)")
     parser.add_argument("--scene", metavar="FILE", help="another scene for one test")
     add_set(parser)
+    add_units(parser)
     parser.add_argument("--out", metavar="FOLDER", default="bench", help="folder of figures, numbers and scenes (default: bench)")
     add_farm(parser)
     add_fmu(parser)
@@ -33,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.out)
     folder.mkdir(parents=True, exist_ok=True)
     for name in arguments.test or TESTS:
-        says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, **farm(arguments))
+        says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
         shutil.copy(arguments.scene or scene_file(name), folder)
         print(f"{name}: {says} ({folder / name}.png, .csv)")
     return 0

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
 from ..scene import Scene
 
-ZERO_CELSIUS = 273.15
 # friction that rises with speed, as of a fresh oil with a friction modifier
 RISING = {"limited_slip.static_ratio": 1.0, "limited_slip.stribeck_speed": 0.0, "limited_slip.slip_slope": 0.02}
 # judder ends where the vibration of the speed is less than this, rad/s; time over which it is judged, s
@@ -20,7 +20,7 @@ LAP, HAIRPIN = 60.0, 20.0
 
 def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Vibration of a side gear about its wheel's speed, for the scene's friction and one that rises with speed."""
-    names = ["left.speed", "right.speed"]
+    names, (_, _, slips, _) = ["left.speed", "right.speed"], axes(scene)
     falling, rising = (scene.run(names, values) for values in ({}, RISING))
     time = falling["time"]
     wheels = [next(table for table in scene.tables if table[0] == f"{side}.speed_command") for side in ("left", "right")]
@@ -31,41 +31,41 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     loud = np.flatnonzero(swings[0] > QUIET)
     slip = (left - right)[loud[-1] + count - 1] if len(loud) else 0.0
     last = "the end of the run-up, " if len(loud) and loud[-1] + count >= len(time) else ""
-    says = (f"friction that falls with speed lets the side gear swing by up to {swings[0].max():.1f} rad/s, and it judders up to "
-            f"{last}a slip of {slip:.1f} rad/s between the wheels; friction that rises keeps it below {swings[1][count:].max():.2g} rad/s "
-            "after the start")
+    says = (f"friction that falls with speed lets the side gear swing by up to {slips.text(swings[0].max(), 3)}, and it judders up to "
+            f"{last}a slip of {slips.text(slip, 3)} between the wheels; friction that rises keeps it below "
+            f"{slips.text(swings[1][count:].max(), 2)} after the start")
     _written(scene, falling, out, says, [
-        ("side gear − wheel, rad/s", {"falling friction": (time, falling["left.speed"] - left),
-                                      "rising friction": (time, rising["left.speed"] - left)}),
-        ("difference of wheels, rad/s", {"run-up": (time, left - right)})])
+        (f"side gear − wheel, {slips.unit}", {"falling friction": (time, slips.values(falling["left.speed"] - left)),
+                                              "rising friction": (time, slips.values(rising["left.speed"] - left))}),
+        (f"difference of wheels, {slips.unit}", {"run-up": (time, slips.values(left - right))})])
     return says
 
 
 def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Temperatures and locking effect over laps."""
-    record = scene.run()
+    record, (*_, warmth) = scene.run(), axes(scene)
     time, left, right = record["time"], record["left.shaft_torque"], record["right.shaft_torque"]
     # only while it differentiates
     effect = np.array([np.nan if held or ratio_of(*torques)[1] is None else ratio_of(*torques)[1]
                        for held, *torques in zip(record["held.sides"] > 0, left.tolist(), right.tolist())])
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
     says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
-            f"up to {record['temperature.clutch'].max() - ZERO_CELSIUS:.0f} °C: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
-    _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("clutch", "oil", "case"))),
+            f"up to {warmth.text(record['temperature.clutch'].max(), 3)}: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
+    _written(scene, record, out, says, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("clutch", "oil", "case"))),
                                 ("locking effect, %", {"LE": (time, effect)})])
     return says
 
 
 def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Temperatures and loss after a cold start."""
-    record = scene.run()
+    record, (*_, warmth) = scene.run(), axes(scene)
     time, loss = record["time"], record["power.loss"]
     # without the first steps, in which all starts to move
     half = time[np.argmax(loss[1:] < 0.5 * (loss[1] + loss[-1])) + 1]
     says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
-            f"{half:.0f} s, in which the oil warms up from {record['temperature.oil'][0] - ZERO_CELSIUS:.0f} to "
-            f"{float(np.interp(half, time, record['temperature.oil'])) - ZERO_CELSIUS:.0f} °C")
-    _written(scene, record, out, says, [("temperature, °C", _temperatures(record, ("oil", "gears", "case"))),
+            f"{half:.0f} s, in which the oil warms up from {warmth.text(record['temperature.oil'][0], 3)} to "
+            f"{warmth.text(float(np.interp(half, time, record['temperature.oil'])), 3)}")
+    _written(scene, record, out, says, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("oil", "gears", "case"))),
                                 ("power loss, W", {"loss": (time[1:], loss[1:])})])
     return says
 
@@ -74,8 +74,8 @@ def _ratio(effect):
     return (100.0 + effect) / (100.0 - effect)
 
 
-def _temperatures(record, nodes):
-    return {node: (record["time"], record[f"temperature.{node}"] - ZERO_CELSIUS) for node in nodes}
+def _temperatures(warmth, record, nodes):
+    return {node: (record["time"], warmth.values(record[f"temperature.{node}"])) for node in nodes}
 
 
 def _written(scene: Scene, record: np.ndarray, out: Path, says: str,

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..designs import Farm
 from ..losses import inputs
+from ..losses.axes import axes
 from ..losses.point import FIGURES, PointTask, benched
 from ..losses.tables import bias as ratio_of
 from ..records import write
@@ -25,10 +26,11 @@ HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]
 
 def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     """TBR over torque while it differentiates."""
-    torques = _torques(scene)
+    torques, (of_torque, *_) = _torques(scene), axes(scene)
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
-    says = (f"TBR falls from {_range(rows, torques[0])} at {torques[0]:.0f} N·m to {_range(rows, torques[-1])} at {torques[-1]:.0f} N·m: "
+    says = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
+            f"{of_torque.text(torques[-1])}: "
             "at small torque preload makes it, at large torque the friction that grows with it. Left and right agree where solid and "
             "dashed lines meet")
     return _written(scene, out, rows, says, "differentiating", 5)
@@ -36,7 +38,7 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
 
 def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     """LE at which it breaks loose, over torque."""
-    torques = _torques(scene)
+    torques, (of_torque, _, of_slip, _) = _torques(scene), axes(scene)
     found = _measured(scene, torques, (0.0, DIFFERENCE), farm)
     rows, over = [], []
     for (torque, speed, difference, temperature), figures in found.items():
@@ -50,8 +52,9 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
         over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
     held = [row[6] for row in rows if row[0] == torques[-1] and row[6] is not None]
     says = (f"it holds up to {f'an LE of {min(held):.0f} to {max(held):.0f} %' if held else 'torques that oppose each other'} at "
-            f"{torques[-1]:.0f} N·m; breakaway takes {min(over):.2f} to "
-            f"{max(over):.2f} times the difference of torques that it has at {DIFFERENCE:g} rad/s, and is no TBR, as nothing differentiates")
+            f"{of_torque.text(torques[-1])}; breakaway takes {min(over):.2f} to "
+            f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}, and is no TBR, as nothing "
+            "differentiates")
     return _written(scene, out, rows, says, "breaking loose", 6)
 
 
@@ -83,17 +86,19 @@ def _range(rows, torque):
 def _written(scene, out, rows, says, doing, column):
     from .. import style
 
+    of_torque, _, _, warmth = axes(scene)
     write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], says)
     with style.styled():
-        figure, axes = style.panels(1, 1, 5.6)
+        figure, panel = style.panels(1, 1, 5.6)
         for temperature, colour in zip(TEMPERATURES, style.CYCLE):
             for sign, dashes in ((1.0, "-"), (-1.0, "--")):
                 curve = [row for row in rows if row[2] == temperature and row[1] * sign > 0.0]
-                axes.plot([row[0] for row in curve], [np.nan if row[column] is None else row[column] for row in curve], dashes, marker="o",
-                          color=colour, label=f"{temperature - 273.15:.0f} °C, {'left' if sign > 0.0 else 'right'} wheel faster")
-        axes.set(xlabel="carrier torque, N·m", ylabel=("torque bias ratio T_high/T_low", "locking effect, %")[column - 5],
+                panel.plot([of_torque.values(row[0]) for row in curve],
+                           [np.nan if row[column] is None else row[column] for row in curve], dashes, marker="o", color=colour,
+                           label=f"{warmth.text(temperature)}, {'left' if sign > 0.0 else 'right'} wheel faster")
+        panel.set(xlabel=of_torque.label, ylabel=("torque bias ratio T_high/T_low", "locking effect, %")[column - 5],
                  title=f"{scene.name}, {doing}")
-        axes.legend()
+        panel.legend()
         style.caption(figure, f"{says[0].upper()}{says[1:]}.")
         style.save(figure, out.with_suffix(".png"))
     return says

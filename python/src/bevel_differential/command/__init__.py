@@ -17,7 +17,7 @@ from ..warned import printed
 NAME = "bevel-differential"
 # module, the extra of this package that it needs, what it does
 COMMANDS = {
-    "run": (".command.run", None, "simulate a scene"),
+    "run": (".command.run", None, "simulate a scene, or compare several"),
     "plan": (".command.plan", None, "say what a scene simulates, or list the scenes; write a scene for other hosts"),
     "accuracy": (".accuracy.command", "plot", "find the cheapest model that gives wanted quantities to an accuracy, and say why"),
     "report": (".report.command", "report", "write a report of a scene: one HTML file with figures, tables and what they say"),

@@ -39,6 +39,13 @@ def add_fmu(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
 
 
+def add_units(parser: argparse.ArgumentParser) -> None:
+    """Units to show values in."""
+    parser.add_argument("--unit", metavar="UNIT", action="append", default=[],
+                        help="show all values of its dimension in this unit, such as rpm or kN; may be repeated (default: those of "
+                             "display_units in the scene, else the usual units)")
+
+
 def add_set(parser: argparse.ArgumentParser) -> None:
     """Values that differ from the scene's."""
     parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],

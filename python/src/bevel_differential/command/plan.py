@@ -3,13 +3,14 @@
 import argparse
 from pathlib import Path
 
-from .arguments import add_set, once
+from .arguments import add_set, add_units, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
+    add_units(parser)
     parser.add_argument("--ssv", metavar="FILE", help="write the start values as a parameter set of SSP 1.0, which hosts read")
     parser.add_argument("--python", metavar="FILE", help="write a Python script that simulates the scene, with the bits of `run`")
 
@@ -22,7 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.scene is None:
         print(listed("plan", arguments))
         return 0
-    of = about(arguments.scene, once("--set", arguments.set))
+    of = about(arguments.scene, once("--set", arguments.set), arguments.unit)
     files = {kind: checked(file) for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)) if file}
     print(ask({"ask": "plan", "of": of})["text"], end="")
     for kind, file in files.items():

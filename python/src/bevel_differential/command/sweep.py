@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from .arguments import add_farm, add_fmu, add_set, assignment, farm, once
+from .arguments import add_farm, add_fmu, add_set, add_units, assignment, farm, once
 
 # keys of a plan file, and the name of each option here
 KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--csv", metavar="FILE", help="write all runs: CSV, or Parquet where the file ends in .parquet")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="overwrite existing results")
+    add_units(parser)
     add_farm(parser)
     add_fmu(parser)
 
@@ -47,13 +48,14 @@ def run(arguments: argparse.Namespace) -> int:
     checked(arguments.csv)
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
-    with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
+    with Scene.load(given["scene"], fmu=arguments.fmu, display_units=arguments.unit) as scene:
         scene.set(given["set"])
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
-        print(text(result, asked=given.get("runs")))
+        print(text(result, given.get("runs"), scene.fmu))
         if arguments.csv:
-            print(f"written: {write(arguments.csv, result.table.column_names, zip(*result.table.to_pydict().values()))}")
+            columns = result.displayed(scene.fmu)
+            print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")
     return 0
 
 

@@ -15,6 +15,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from ..extras import version
+from ..fmu import Fmu
 from ..points import TimeValue, seconds
 from ..scene import Scene
 from ..text import aligned
@@ -74,6 +75,14 @@ class SweepResult:
     def failures(self) -> Counter[str]:
         """How many designs failed, by message."""
         return Counter(message for message in self.table["message"].to_pylist() if message)
+
+    def displayed(self, fmu: Fmu) -> dict[str, list[Any]]:
+        """The columns by name, SI. With display units of `fmu`, quantities of their dimensions have these units, and names of columns
+        name units: "left.speed:mean [rpm]"."""
+        quantities = {name: fmu.variable(name) for name in self.metadata["vary"]}
+        quantities |= {name: Want.parse(fmu, name).quantity(fmu) for name in self.metadata["figures"]}
+        return dict(quantities[name].column(name, values, fmu.display_units) if name in quantities else (name, values)
+                    for name, values in self.table.to_pydict().items())
 
     def unit(self, column: str) -> str:
         """SI unit of a column."""
@@ -149,8 +158,9 @@ def hashed(scene: Scene, what: Mapping[str, Any]) -> dict[str, Any]:
     return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
 
 
-def text(result: SweepResult, asked: int | None = None) -> str:
-    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: runs that were asked for."""
+def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) -> str:
+    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: runs that were asked for. Figures are SI, or
+    in the display units of `fmu`."""
     table, metadata = result.table, result.metadata
     lines = [f"runs      {table.num_rows}"]
     if asked is not None and asked != table.num_rows:
@@ -164,7 +174,7 @@ def text(result: SweepResult, asked: int | None = None) -> str:
     lines.append(f"feasible  {pc.sum(table['feasible']).as_py() or 0}")
     if metadata["conditions"]:
         lines[-1] += f" ({'; '.join(metadata['conditions'])})"
-    lines += ["", *_ranges(result), ""]
+    lines += ["", *_ranges(result, fmu), ""]
     if result.new:
         lines.append(f"{result.new} runs in {result.seconds:.1f} s: {result.new / result.seconds:.1f} designs/s")
     if result.new < table.num_rows:
@@ -173,11 +183,15 @@ def text(result: SweepResult, asked: int | None = None) -> str:
     return "\n".join(lines)
 
 
-def _ranges(result):
-    """Least, mean and greatest value of each figure, SI, aligned."""
+def _ranges(result, fmu):
+    """Least, mean and greatest value of each figure, aligned."""
     rows = [("figure", "unit", "min", "mean", "max")]
     for name in result.metadata["figures"]:
         column, unit = result.table[name], result.unit(name)
+        if fmu is not None:
+            quantity = Want.parse(fmu, name).quantity(fmu)
+            unit, _ = quantity.in_files(0.0, fmu.display_units)
+            column = pa.array(quantity.column(name, column.to_pylist(), fmu.display_units)[1], pa.float64())
         found = [pc.min(column).as_py(), pc.mean(column).as_py(), pc.max(column).as_py()]
         rows.append((name, "" if unit == "1" else unit, *("-" if one is None else f"{one:.6g}" for one in found)))
     return aligned(rows)

@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..command.arguments import add_farm, add_files, add_fmu, add_scene, farm, once
+from ..command.arguments import add_farm, add_files, add_fmu, add_scene, add_units, farm, once
 
 # default values of the axes; those of torque and speed are parts of the scene's own values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
@@ -25,7 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", help="all runs as Parquet; --resume goes on from this file")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the runs")
     parser.add_argument("--force", action="store_true", help="overwrite existing runs")
-    add_files(parser, "the map", "bias, loss and measured error")
+    add_units(parser)
+    add_files(parser, "the map, in SI with any --unit", "bias, loss and measured error")
     parser.add_argument("--simulink", metavar="FILE", help="write the map for blocks of Simulink (a MATLAB script)")
     parser.add_argument("--report", metavar="FILE", help="write a page with figures, tables and the measured error (HTML)")
     add_farm(parser)
@@ -48,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     checked_picture(arguments.plot)
     if arguments.report:
         need()
-    with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
+    with Scene.load(arguments.scene, fmu=arguments.fmu, display_units=arguments.unit) as scene:
         scene.set(once("--set", arguments.set))
         levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
         made = losses(scene, levels, within=arguments.within, bound=_bound(arguments.bound), unseen=arguments.unseen, seed=arguments.seed,

@@ -7,7 +7,6 @@ from .grid import figures_of, interpolated, places, torques_of
 
 # points of a curve
 POINTS = 60
-ZERO_CELSIUS = 273.15
 
 
 def some(line: np.ndarray, most: int) -> np.ndarray:

@@ -7,7 +7,8 @@ import numpy as np
 from ..report import svg_style, words
 from ..report.blocks import Picture
 from . import MAPPED, SIGNS, LossMap
-from .cuts import POINTS, ZERO_CELSIUS, along, some, stuck_at
+from .axes import SLIP_AXIS, SPEED_AXIS, TEMPERATURE_AXIS, TORQUE_AXIS, axes as axes_of
+from .cuts import POINTS, along, some, stuck_at
 from .tables import bias
 
 # most temperatures, and most panels of other axes
@@ -19,21 +20,20 @@ SAME = 1e-6
 # a ratio with a greater range than this has a logarithmic axis
 DECADE = 4.0
 SIDES = ("left wheel faster", "right wheel faster")
-TORQUE, SPEED, SLIP = "carrier torque, N·m", "carrier speed, rad/s", "difference of speeds (left − right), rad/s"
-TORQUE_AXIS, SPEED_AXIS, SLIP_AXIS, TEMPERATURE_AXIS = range(4)
 
 
-def celsius(temperature: float) -> str:
+def warmth_text(made: LossMap, temperature: float) -> str:
     """A temperature, K, as it is read."""
-    return words.quantity(temperature - ZERO_CELSIUS, "°C", 3)
+    return axes_of(made.scene)[TEMPERATURE_AXIS].text(temperature, 3)
 
 
 def label(made: LossMap, place: int) -> str:
     """The temperature of a line; both ends where all lines are alike."""
     line = made.lines[TEMPERATURE_AXIS]
     if len(line) == 1 or not alike(made):
-        return celsius(line[place])
-    return f"{words.number(line[0] - ZERO_CELSIUS, 3)} to {celsius(line[-1])}"
+        return warmth_text(made, line[place])
+    first = axes_of(made.scene)[TEMPERATURE_AXIS].values(float(line[0]))
+    return f"{words.number(first, 3)} to {warmth_text(made, line[-1])}"
 
 
 def alike(made: LossMap) -> bool:
@@ -57,7 +57,7 @@ def loss_map(made: LossMap) -> Picture | None:
     if min(len(made.lines[TORQUE_AXIS]), len(made.lines[SPEED_AXIS])) < 2:
         return None
     sheets = list(_sheets(made))
-    top = f"{words.quantity(made.lines[SLIP_AXIS][-1], 'rad/s')}, left wheel faster"
+    top = f"{axes_of(made.scene)[SLIP_AXIS].text(made.lines[SLIP_AXIS][-1])}, left wheel faster"
     rest = ("Lower row: without a difference, where only drag is lost." if len(sheets) > 1 else
             "Without a difference nothing is lost: the scene has no drag.")
     most = [f"{words.quantity(float(loss.max()), 'W')} at {label(made, place)}"
@@ -78,7 +78,7 @@ def _sheets(made) -> Iterator[tuple[str, list[np.ndarray]]]:
         points = np.stack(np.broadcast_arrays(torque, speed[:, None], slip, temperature), axis=-1).reshape(-1, 4)
         slipping.append(made.at(points)[:, 2].reshape(POINTS, POINTS))
         stuck.append(stuck_at(made, points * [1.0, 1.0, 0.0, 1.0])[:, 2].reshape(POINTS, POINTS))
-    yield f"difference {words.quantity(slip, 'rad/s')}", slipping
+    yield f"difference {axes_of(made.scene)[SLIP_AXIS].text(slip)}", slipping
     if np.max(stuck) > NOTHING * np.max(slipping):
         yield "no difference", stuck
 
@@ -93,7 +93,8 @@ def _loss_map(picture, made, sheets):
 
     colours = LinearSegmentedColormap.from_list("loss", [to_rgba(svg_style.RED, 0.03), to_rgba(svg_style.RED, 0.75)])
     picture.set_figheight(3.1 * len(sheets) + 0.4)
-    shown, (torque, speed) = temperatures(made), _grid(made)
+    of_torque, of_speed, *_ = axes_of(made.scene)
+    shown, torque, speed = temperatures(made), *(axis.values(grid) for axis, grid in zip((of_torque, of_speed), _grid(made)))
     rows = picture.subplots(len(sheets), len(shown), sharex=True, sharey=True, squeeze=False)
     for row, (title, losses) in zip(rows, sheets):
         factor, kilo = svg_style.unit_prefix(losses)
@@ -106,10 +107,10 @@ def _loss_map(picture, made, sheets):
             panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_places(curves, speed, torque))
             panel.set_title(label(made, place))
             panel.grid(False)
-        row[0].set_ylabel(f"{title}\n{TORQUE}")
+        row[0].set_ylabel(f"{title}\n{of_torque.label}")
         picture.colorbar(drawn, ax=row, pad=0.01, aspect=25).set_label(f"power loss, {kilo}W")
     for panel in rows[-1]:
-        panel.set_xlabel(SPEED)
+        panel.set_xlabel(of_speed.label)
 
 
 def _round_levels(low, top):
@@ -136,13 +137,14 @@ def over_difference(made: LossMap) -> Picture:
     slip = made.lines[SLIP_AXIS]
     at = [_level(made, place) for place in range(4)]
     first, last = (made.slipping[0][at[0], at[1], place, -1, :2] for place in (0, -1))
+    of_torque, _, of_slip, _ = axes_of(made.scene)
     falls = [abs(float(left - right)) for left, right in (first, last)]
     return Picture("over_difference", _over_difference(made),
                    "Above: power loss; circles are the loss without a difference. Below: T_left − T_right, which locks the wheels; the "
                    "bar at 0 is the interval in which the differential stays stuck. A torque that falls with the difference may judder: "
-                   f"with the left wheel faster it is {words.number(falls[0])} N·m at {words.quantity(slip[0], 'rad/s')} and "
-                   f"{words.quantity(falls[1], 'N·m')} at {words.quantity(slip[-1], 'rad/s')} ({_point(made)}, "
-                   f"{celsius(made.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.")
+                   f"with the left wheel faster it is {of_torque.text(falls[0])} at {of_slip.text(slip[0])} and "
+                   f"{of_torque.text(falls[1])} at {of_slip.text(slip[-1])} ({_point(made)}, "
+                   f"{warmth_text(made, made.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.")
 
 
 def _level(made, axis):
@@ -153,7 +155,8 @@ def _level(made, axis):
 
 def _point(made):
     torque, speed = (made.lines[axis][_level(made, axis)] for axis in (TORQUE_AXIS, SPEED_AXIS))
-    return f"{words.quantity(torque, 'N·m')} and {words.quantity(speed, 'rad/s')}"
+    of_torque, of_speed, *_ = axes_of(made.scene)
+    return f"{of_torque.text(torque)} and {of_speed.text(speed)}"
 
 
 @svg_style.drawn("over_difference", 5.4)
@@ -161,6 +164,7 @@ def _over_difference(picture, made):
     varied = SPEED_AXIS if len(made.lines[TORQUE_AXIS]) == 1 else TORQUE_AXIS
     shown = some(made.lines[varied], PANELS)
     rows = picture.subplots(2, len(shown), sharex=True, squeeze=False)
+    of_torque, of_speed, of_slip, _ = axes_of(made.scene)
     for place, (loss, locking) in zip(shown, rows.T):
         at = [_level(made, axis) for axis in range(4)]
         at[varied] = place
@@ -171,24 +175,25 @@ def _over_difference(picture, made):
                 slip, figures = along(made, SLIP_AXIS, [line[k] for line, k in zip(made.lines, at)], sign)
                 dots = values[at[0], at[1], :, at[3]]
                 for panel, curve, marks in ((loss, figures[:, 2], dots[:, 2]),
-                                            (locking, figures[:, 0] - figures[:, 1], dots[:, 0] - dots[:, 1])):
-                    panel.plot(sign * slip, curve, color=colour, label=name if sign > 0.0 else None)
-                    panel.plot(sign * made.lines[SLIP_AXIS], marks, ".", color=colour, ms=4)
+                                            (locking, *(of_torque.values(each[:, 0] - each[:, 1]) for each in (figures, dots)))):
+                    panel.plot(sign * of_slip.values(slip), curve, color=colour, label=name if sign > 0.0 else None)
+                    panel.plot(sign * of_slip.values(made.lines[SLIP_AXIS]), marks, ".", color=colour, ms=4)
             stuck = made.stuck[at[0], at[1], 0, at[3]]
             loss.plot(0.0, stuck[2], "o", mfc="none", color=colour)
             total = stuck[0] + stuck[1]
-            locking.plot([0.0, 0.0], 2.0 * stuck[3:5] - total, "_-", color=colour, lw=4.0 - 0.8 * number, solid_capstyle="butt")
+            locking.plot([0.0, 0.0], of_torque.values(2.0 * stuck[3:5] - total), "_-", color=colour, lw=4.0 - 0.8 * number, solid_capstyle="butt")
         torque, speed = (made.lines[axis][at[axis]] for axis in (TORQUE_AXIS, SPEED_AXIS))
-        loss.set_title(f"{words.quantity(torque, 'N·m')}, {words.quantity(speed, 'rad/s')}")
-        locking.set_xlabel(SLIP.replace(" (", "\n("))
+        loss.set_title(f"{of_torque.text(torque)}, {of_speed.text(speed)}")
+        locking.set_xlabel(of_slip.label.replace(" (", "\n("))
     rows[0][0].set_ylabel("power loss, W")
-    rows[1][0].set_ylabel("T_left − T_right, N·m")
+    rows[1][0].set_ylabel(f"T_left − T_right, {of_torque.unit}")
     rows[0][-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def ratio(made: LossMap) -> Picture:
     """Torque bias ratio over torque for both signs of the difference, sliding and where it breaks loose."""
     slip, speed = made.lines[SLIP_AXIS], made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)]
+    _, of_speed, of_slip, _ = axes_of(made.scene)
     ends = []
     for sign, side in zip(SIGNS, SIDES):
         found = [one for one in (_ratio(made.slipping[SIGNS.index(sign)][k, _level(made, SPEED_AXIS), -1, warmth, :2])
@@ -196,9 +201,9 @@ def ratio(made: LossMap) -> Picture:
         ends.append(f"{side} {words.number(min(found))} to {words.number(max(found))}" if found else
                     f"{side} none, as the torques oppose each other")
     return Picture("ratio", _drawn_ratio(made),
-                   f"Torque bias ratio T_high/T_low at {words.quantity(speed, 'rad/s')}. Solid: at the "
-                   f"largest difference, {words.quantity(slip[-1], 'rad/s')} ({'; '.join(ends)}); dashed: at the smallest, "
-                   f"{words.quantity(slip[0], 'rad/s')}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
+                   f"Torque bias ratio T_high/T_low at {of_speed.text(speed)}. Solid: at the "
+                   f"largest difference, {of_slip.text(slip[-1])} ({'; '.join(ends)}); dashed: at the smallest, "
+                   f"{of_slip.text(slip[0])}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
                    "ends, the torques of the wheels oppose each other or one vanishes, and there is no ratio.")
 
 
@@ -209,7 +214,7 @@ def _ratio(torques):
 @svg_style.drawn("ratio", 3.8)
 def _drawn_ratio(picture, made):
     panels = picture.subplots(1, 2, sharey=True)
-    speed, torque = _level(made, SPEED_AXIS), made.lines[TORQUE_AXIS]
+    speed, torque, of_torque = _level(made, SPEED_AXIS), made.lines[TORQUE_AXIS], axes_of(made.scene)[TORQUE_AXIS]
     seen = []
     for panel, sign, values, side, loose in zip(panels, SIGNS, made.slipping, SIDES, (3, 4)):
         for number, warmth in enumerate(temperatures(made)):
@@ -217,15 +222,15 @@ def _drawn_ratio(picture, made):
             for slip, style in ((-1, "-"), (0, "--")):
                 fixed = [torque[0], made.lines[SPEED_AXIS][speed], made.lines[SLIP_AXIS][slip], made.lines[TEMPERATURE_AXIS][warmth]]
                 at, figures = along(made, TORQUE_AXIS, fixed, sign)
-                panel.plot(at, [_ratio(each[:2]) for each in figures], style, color=colour, label=name if slip else None)
+                panel.plot(of_torque.values(at), [_ratio(each[:2]) for each in figures], style, color=colour, label=name if slip else None)
                 dots = [_ratio(each) for each in values[:, speed, slip, warmth, :2]]
-                panel.plot(torque, dots, ".", color=colour, ms=4)
+                panel.plot(of_torque.values(torque), dots, ".", color=colour, ms=4)
                 seen += dots
             stuck = made.stuck[:, speed, 0, warmth]
             dots = [_ratio((each[loose], each[0] + each[1] - each[loose])) for each in stuck]
-            panel.plot(torque, dots, "x:", color=colour, ms=4, lw=1.0)
+            panel.plot(of_torque.values(torque), dots, "x:", color=colour, ms=4, lw=1.0)
             seen += dots
-        panel.set(title=side, xlabel=TORQUE)
+        panel.set(title=side, xlabel=of_torque.label)
     if np.any(np.isfinite(seen)) and np.nanmax(seen) > DECADE * np.nanmin(seen):
         from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -240,30 +245,33 @@ def _drawn_ratio(picture, made):
 def stuck(made: LossMap) -> Picture:
     """The interval in which the differential stays stuck, over torque or speed."""
     at = [_level(made, axis) for axis in range(4)]
-    ends = [f"{words.number(low)} to {words.quantity(high, 'N·m')} at {label(made, warmth)}"
+    of_torque, _, of_slip, _ = axes_of(made.scene)
+    ends = [f"{words.number(of_torque.values(low))} to {of_torque.text(high)} at {label(made, warmth)}"
             for warmth in temperatures(made) for low, high in [made.stuck[at[0], at[1], 0, warmth, 3:5]]]
     return Picture("stuck", _drawn_stuck(made),
                    f"Shaded: differences of the wheels' torques at which both wheels keep the same speed. At {_point(made)} the left "
                    f"torque is then {words.listed(ends)}. Below the band the left wheel breaks loose ahead, above it the right wheel. "
-                   f"Lines: T_left − T_right at a slip of {words.quantity(made.lines[SLIP_AXIS][0], 'rad/s')}; a line within the band: "
+                   f"Lines: T_left − T_right at a slip of {of_slip.text(made.lines[SLIP_AXIS][0])}; a line within the band: "
                    "less torque holds this slip than starts it.")
 
 
 @svg_style.drawn("stuck", 3.6)
 def _drawn_stuck(picture, made):
     axis = SPEED_AXIS if len(made.lines[TORQUE_AXIS]) == 1 < len(made.lines[SPEED_AXIS]) else TORQUE_AXIS
-    over, shown = made.lines[axis], temperatures(made)
+    of_torque, of_axis = axes_of(made.scene)[TORQUE_AXIS], axes_of(made.scene)[axis]
+    over, shown = of_axis.values(made.lines[axis]), temperatures(made)
     panels = picture.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for panel, warmth in zip(panels, shown):
         at = [slice(None) if place == axis else _level(made, place) for place in (TORQUE_AXIS, SPEED_AXIS)]
         left, right, _, *ends = made.stuck[(*at, 0, warmth)].T
-        low, high = (2.0 * end - left - right for end in ends)
+        low, high = (of_torque.values(2.0 * end - left - right) for end in ends)
         panel.fill_between(over, low, high, color=svg_style.GREY, alpha=0.3, lw=0, label="stuck")
         panel.vlines(over, low, high, color=svg_style.GREY, lw=0.8)
         for values, colour, side in zip(made.slipping, (svg_style.BLUE, svg_style.RED), SIDES):
-            panel.plot(over, values[(*at, 0, warmth)][:, 0] - values[(*at, 0, warmth)][:, 1], ".-", color=colour, ms=5, label=side)
-        panel.set(title=label(made, warmth), xlabel=SPEED if axis == SPEED_AXIS else TORQUE)
-    panels[0].set_ylabel("T_left − T_right, N·m")
+            slipping = values[(*at, 0, warmth)]
+            panel.plot(over, of_torque.values(slipping[:, 0] - slipping[:, 1]), ".-", color=colour, ms=5, label=side)
+        panel.set(title=label(made, warmth), xlabel=of_axis.label)
+    panels[0].set_ylabel(f"T_left − T_right, {of_torque.unit}")
     handles, labels = panels[0].get_legend_handles_labels()
     picture.legend(handles, labels, loc="outside upper center", ncols=len(labels))
 
@@ -276,7 +284,7 @@ def error(made: LossMap) -> Picture:
                    f"Errors at {len(made.unseen)} random points that the map has not seen, over the bound; beyond the red line they are "
                    f"larger than it. Left: share of the points whose error is at most so large; half have "
                    f"{words.number(half, 2)} or less. Right: the largest error of each point over its difference of speeds; the worst, "
-                   f"{words.number(float(worst[place]), 2)}, is at {words.quantity(made.unseen[place, SLIP_AXIS], 'rad/s', 3)}.")
+                   f"{words.number(float(worst[place]), 2)}, is at {axes_of(made.scene)[SLIP_AXIS].text(made.unseen[place, SLIP_AXIS], 3)}.")
 
 
 @svg_style.drawn("error", 3.4)
@@ -287,6 +295,7 @@ def _error(picture, made):
     share.axvline(1.0, color=svg_style.RED, ls="--")
     share.set(xscale="log", xlabel=f"error over {str(made.bound).replace('.m', '·m')}", ylabel="share of the points")
     share.legend(loc="upper left")
-    where.plot(made.unseen[:, SLIP_AXIS], made.errors.max(axis=1), ".", color=svg_style.BLUE)
+    of_slip = axes_of(made.scene)[SLIP_AXIS]
+    where.plot(of_slip.values(made.unseen[:, SLIP_AXIS]), made.errors.max(axis=1), ".", color=svg_style.BLUE)
     where.axhline(1.0, color=svg_style.RED, ls="--")
-    where.set(ylim=(0.0, None), xlabel=SLIP, ylabel="largest error over the bound")
+    where.set(ylim=(0.0, None), xlabel=of_slip.label, ylabel="largest error over the bound")

@@ -7,7 +7,8 @@ import numpy as np
 from ..extras import require
 from ..values import FileName
 from . import SIGNS, LossMap
-from .cuts import ZERO_CELSIUS, along, some
+from .axes import axes as axes_of
+from .cuts import along, some
 from .tables import bias
 
 # curves for at most so many temperatures
@@ -22,20 +23,21 @@ def draw(made: LossMap, file: FileName) -> Path:
 
     with style.styled():
         figure, (ratio, loss, error) = style.panels(1, 3, 5.6)
+        of_torque, of_speed, of_slip, of_warmth = axes_of(made.scene)
         middle = [0.5 * (line[0] + line[-1]) for line in made.lines]
         for temperature in made.lines[3][some(made.lines[3], MOST_CURVES)]:
             fixed = [*middle[:3], temperature]
-            label = f"{temperature - ZERO_CELSIUS:.3g} °C"
+            label = of_warmth.text(temperature, 3)
             curve = [along(made, 0, fixed, sign) for sign in SIGNS]
-            line, = ratio.plot(curve[0][0], [bias(*values[:2])[0] or np.nan for values in curve[0][1]], label=label)
-            ratio.plot(curve[1][0], [bias(*values[:2])[0] or np.nan for values in curve[1][1]], "--", color=line.get_color())
+            line, = ratio.plot(of_torque.values(curve[0][0]), [bias(*values[:2])[0] or np.nan for values in curve[0][1]], label=label)
+            ratio.plot(of_torque.values(curve[1][0]), [bias(*values[:2])[0] or np.nan for values in curve[1][1]], "--", color=line.get_color())
             for sign in SIGNS:
                 at, values = along(made, 2, fixed, sign)
-                loss.plot(sign * at, values[:, 2] / 1e3, color=line.get_color(), label=label if sign > 0.0 else None)
-        ratio.set(yscale="log", xlabel="carrier torque, N·m", ylabel="torque bias ratio T_high/T_low",
-                  title=f"Bias at {middle[1]:.3g} rad/s, difference {middle[2]:.3g} rad/s")
-        loss.set(xlabel="difference of wheel speeds (left − right), rad/s", ylabel="power loss, kW",
-                 title=f"Loss at {middle[0]:.4g} N·m, {middle[1]:.3g} rad/s")
+                loss.plot(sign * of_slip.values(at), values[:, 2] / 1e3, color=line.get_color(), label=label if sign > 0.0 else None)
+        ratio.set(yscale="log", xlabel=of_torque.label, ylabel="torque bias ratio T_high/T_low",
+                  title=f"Bias at {of_speed.text(middle[1], 3)}, difference {of_slip.text(middle[2], 3)}")
+        loss.set(xlabel=of_slip.label, ylabel="power loss, kW",
+                 title=f"Loss at {of_torque.text(middle[0])}, {of_speed.text(middle[1], 3)}")
         for column, name in zip(made.errors.T, NAMES):
             error.plot(np.sort(column), np.arange(1, len(column) + 1) / max(len(column), 1), label=name)
         error.axvline(1.0, color=style.RED, ls="--")

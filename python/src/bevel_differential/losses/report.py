@@ -11,7 +11,8 @@ from ..report.blocks import Section, Table, Text
 from ..report.write import need, page
 from ..values import FileName
 from . import MAPPED, SIGNS, LossMap, figures, inputs
-from .figures import celsius, largest
+from .axes import axes as axes_of
+from .figures import largest, warmth_text
 from .grid import GOAL, share_beyond
 from .point import AXES as DRIVEN, PointTask
 from .tables import BETWEEN, MEANINGS, bias
@@ -19,7 +20,6 @@ from .tables import BETWEEN, MEANINGS, bias
 # unseen points that are listed
 WORST = 10
 AXES = ("carrier torque", "carrier speed", "difference of the wheels' speeds", "temperature of oil and surfaces")
-UNITS = ("N.m", "rad/s", "rad/s", "°C")
 ERRED = ("left torque", "right torque", "loss")
 
 
@@ -60,8 +60,8 @@ def _head(made):
         ("points", f"{words.number(size)} in each direction of the difference, {made.stuck[..., 0].size} without one, "
                    f"{len(made.unseen)} unseen"),
         ("took", runs)], "Program, model and work. Times were measured on the machine that made the map."))
-    rows = [(name, *(_shown(axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
-             ", ".join(words.number(_value(axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
+    rows = [(name, *(_shown(made, axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
+             ", ".join(words.number(_value(made, axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
     found.add(Table(("axis", "from", "to", "lines", "at"), rows,
                     "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines lie closer where the map "
                     "bends.",
@@ -69,12 +69,12 @@ def _head(made):
     return found
 
 
-def _value(axis, at):
-    return at - figures.ZERO_CELSIUS if axis == 3 else at
+def _value(made, axis, at):
+    return float(axes_of(made.scene)[axis].values(at))
 
 
-def _shown(axis, at, digits=4):
-    return words.quantity(_value(axis, at), UNITS[axis], digits)
+def _shown(made, axis, at, digits=4):
+    return axes_of(made.scene)[axis].text(at, digits)
 
 
 def _warnings(made):
@@ -113,19 +113,20 @@ def _loss_table(made):
     for temperature, left, right, stuck in at:
         # what rounding leaves of nothing
         rest = stuck[2] if abs(stuck[2]) > figures.NOTHING * abs(left[2]) else 0.0
-        rows.append((celsius(temperature), *(words.number(loss) for loss in (left[2], right[2], rest))))
+        rows.append((warmth_text(made, temperature), *(words.number(loss) for loss in (left[2], right[2], rest))))
     return Table(("oil", "left wheel faster, W", "right wheel faster, W", "no difference, W"), rows, f"Power loss at {where}.")
 
 
 def _bias_table(made):
+    unit = axes_of(made.scene)[0].unit
     at, where = _far_end(made)
     rows = []
     for temperature, left, right, stuck in at:
         total = stuck[0] + stuck[1]
-        rows.append((celsius(temperature), *(_ratio(*each[:2]) for each in (left, right)),
-                     *(_ratio(end, total - end) for end in stuck[3:5]), *(words.number(end) for end in stuck[3:5])))
-    return Table(("oil", "TBR, left faster", "right faster", "left breaks loose", "right breaks loose", "stuck from T_left, N·m",
-                  "to, N·m"), rows,
+        rows.append((warmth_text(made, temperature), *(_ratio(*each[:2]) for each in (left, right)),
+                     *(_ratio(end, total - end) for end in stuck[3:5]), *(words.number(_value(made, 0, end)) for end in stuck[3:5])))
+    return Table(("oil", "TBR, left faster", "right faster", "left breaks loose", "right breaks loose", f"stuck from T_left, {unit}",
+                  f"to, {unit}"), rows,
                  f"Torque bias ratios at {where}; ratios at which the stuck differential breaks loose at the same torque and speed, and "
                  "the left torques between which it stays stuck.")
 
@@ -133,7 +134,7 @@ def _bias_table(made):
 def _far_end(made):
     """By temperature the rows of the map at the far end of torque, speed and difference, and where that is."""
     torque, speed = (largest(made.lines[axis]) for axis in (0, 1))
-    where = ", ".join(_shown(axis, made.lines[axis][place]) for axis, place in ((0, torque), (1, speed), (2, -1)))
+    where = ", ".join(_shown(made, axis, made.lines[axis][place]) for axis, place in ((0, torque), (1, speed), (2, -1)))
     return [(temperature, *(values[torque, speed, -1, warmth] for values in made.slipping), made.stuck[torque, speed, 0, warmth])
             for warmth, temperature in enumerate(made.lines[3])], f"{where} of difference (rows of the map's table)"
 
@@ -158,11 +159,14 @@ def _error(made):
     at, rows = made.at(made.unseen), []
     for place in np.argsort(-made.errors.max(axis=1), kind="stable")[:WORST]:
         point, errors = made.unseen[place], made.errors[place]
-        pairs = [f"{words.number(made.found[place, k])} / {words.number(at[place, k])}" for k in range(MAPPED)]
+        # two torques and a loss, which is always in W
+        pairs = [" / ".join(words.number(_value(made, 0, found[place, k]) if k < 2 else found[place, k]) for found in (made.found, at))
+                 for k in range(MAPPED)]
         rows.append((ERRED[int(np.argmax(errors))], words.number(errors.max(), 3),
-                     *(words.number(_value(axis, value)) for axis, value in enumerate(point)), *pairs))
-    found.add(Table(("worst in", "error", "torque, N·m", "speed, rad/s", "difference, rad/s", "oil, °C", "T_left, N·m", "T_right, N·m",
-                     "loss, W"), rows,
+                     *(words.number(_value(made, axis, value)) for axis, value in enumerate(point)), *pairs))
+    torque, speed, slip, warmth = (axis.unit for axis in axes_of(made.scene))
+    found.add(Table(("worst in", "error", f"torque, {torque}", f"speed, {speed}", f"difference, {slip}", f"oil, {warmth}",
+                     f"T_left, {torque}", f"T_right, {torque}", "loss, W"), rows,
                     f"The {len(rows)} worst of {len(made.unseen)} unseen points: the largest error over the bound, the point, and what "
                     "its run gave / what the map says. "
                     "A positive difference: the left wheel is faster.", left=1))

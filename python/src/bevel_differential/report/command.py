@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..command.arguments import add_fmu, add_progress, add_set, once
+from ..command.arguments import add_fmu, add_progress, add_set, add_units, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -11,6 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     # as it was called before
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
     add_set(parser)
+    add_units(parser)
     parser.add_argument("--out", metavar="FILE", help="the page to write (default: report-NAME.html)")
     parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are "
                                                              "off")
@@ -29,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     name = arguments.scene or arguments.named
     if name is None:
         raise DifferentialError("name a scene: a file, or one of those that bevel-differential plan lists", kind="use")
-    with Scene.load(name, fmu=arguments.fmu) as scene:
+    with Scene.load(name, fmu=arguments.fmu, display_units=arguments.unit) as scene:
         scene.set(once("--set", arguments.set))
         file = arguments.out or f"report-{scene.name}.html"
         checked(file)

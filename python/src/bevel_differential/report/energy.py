@@ -20,6 +20,7 @@ def section(run: Simulated) -> Section:
     if max(np.max(np.abs(left)), np.max(np.abs(right))) < NONE:
         found.say("The half-shafts carry no torque at any time, so that there is no bias.")
     else:
+        left, right = (run.shown(f"{side}.shaft_torque") for side in ("left", "right"))
         found.add(Picture("bias", _draw_bias(run, left, right), _bias_caption(run, left, right)))
     if max(np.max(np.abs(run.series(name))) for name in ("power.in", "power.out")) < NONE and not _heats(run):
         found.say("No power flows and no heat arises.")
@@ -31,9 +32,10 @@ def section(run: Simulated) -> Section:
 @svg_style.drawn("bias", 4.0)
 def _draw_bias(picture, run, left, right):
     traces, plane = picture.subplots(1, 2, width_ratios=[1.4, 1])
+    unit = words.unit_text(run.unit("left.shaft_torque"))
     traces.plot(run.time, left, color=svg_style.BLUE, label="left half-shaft", lw=2.2)
     traces.plot(run.time, right, color=svg_style.RED, label="right half-shaft")
-    traces.set(xlabel="time, s", ylabel="torque, N·m", title="over time")
+    traces.set(xlabel="time, s", ylabel=f"torque, {unit}", title="over time")
     traces.legend(loc="best")
     reach = 1.08 * max(float(np.max(np.abs(left))), float(np.max(np.abs(right))))
     low = -reach if min(left.min(), right.min()) < -0.02 * reach else -0.04 * reach
@@ -45,7 +47,7 @@ def _draw_bias(picture, run, left, right):
             plane.text(place, slope * place, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
     plane.plot(left, right, color=svg_style.VIOLET, marker=".", ms=3, lw=0.8)
     plane.plot(left[-1], right[-1], "o", color=svg_style.VIOLET, ms=6)
-    plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="right against left torque", xlim=(low, reach),
+    plane.set(xlabel=f"left torque, {unit}", ylabel=f"right torque, {unit}", title="right against left torque", xlim=(low, reach),
               ylim=(low, reach))
     plane.set_aspect("equal")
 
@@ -57,7 +59,7 @@ def _bias_caption(run, left, right):
     even = np.max(np.abs(left - right)) < 1e-3 * np.max(np.abs(left) + np.abs(right))
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
              f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right "
-             f"{words.quantity(right[k], 'N·m')}")
+             f"{words.quantity(right[k], run.unit('right.shaft_torque'))}")
     return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large "
             f"dot is the end. The FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
             f"{words.number(bias.max(), 3)} in the run, its locking value {words.number(locked, 3)} at the end.")

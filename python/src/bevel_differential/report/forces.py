@@ -40,14 +40,14 @@ def _name(planet, side):
 @svg_style.drawn("forces")
 def _draw(picture, run, planets):
     picture.set_figheight(PANEL * 2 * len(planets) + 0.6)
-    scale, unit = svg_style.unit_prefix([run.series(_name(planet, side)) for planet in planets for side in SIDES])
+    scale, prefix = svg_style.unit_prefix([run.shown(_name(planet, side)) for planet in planets for side in SIDES])
     axes = picture.subplots(2 * len(planets), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for panel, (planet, side) in zip(axes, [(planet, side) for planet in planets for side in SIDES]):
-        force = run.series(_name(planet, side))
+        force = run.shown(_name(planet, side))
         for begin, end in bands(run.time, force):
             panel.axvspan(begin, end, color=svg_style.OCHRE, alpha=0.25, lw=0)
         panel.plot(run.time, force / scale, color=svg_style.BLUE if side == "left" else svg_style.RED)
-        panel.set(title=f"planet {planet} with the {side} side gear", ylabel=f"normal force, {unit}N")
+        panel.set(title=f"planet {planet} with the {side} side gear", ylabel=f"normal force, {prefix}{run.unit(_name(planet, side))}")
     axes[0].set_xlim(run.time[0], run.time[-1])
     axes[-1].set_xlabel("time, s")
 
@@ -56,12 +56,12 @@ def _caption(run, drawn, alike):
     parts = []
     for planet in drawn:
         for side in SIDES:
-            force = run.series(_name(planet, side))
+            force = run.shown(_name(planet, side))
             k = int(np.argmax(force))
             free = bands(run.time, force)
             lash = "never in the lash" if not free else (f"in the lash {words.percent(share(run.time, free), 2)} of the time, "
                                                          f"{len(free)} stretch{'es' if len(free) > 1 else ''}")
-            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], 'N')} at {words.quantity(run.time[k], 's')}, "
+            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at {words.quantity(run.time[k], 's')}, "
                          f"{lash}")
     same = f" Planet{'s' if len(alike) > 1 else ''} {words.listed(map(str, alike))}: the same to the last bit." if alike else ""
     return (f"Normal force, its tooth pairs summed; shaded where neither drive nor coast flanks carry, as the points of every "

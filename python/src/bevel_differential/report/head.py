@@ -55,7 +55,8 @@ def _split(run):
     left, right = (float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right"))
     if max(abs(left), abs(right)) < 1e-9:
         return "The half-shafts carry no torque on the mean, so that there is no bias."
-    shares = f"left {words.quantity(left, 'N.m')}, right {words.quantity(right, 'N.m')} on the mean"
+    torque = run.scene.fmu.variable("left.shaft_torque")
+    shares = f"left {words.shown(torque, left)}, right {words.shown(torque, right)} on the mean"
     low, high = (words.number(float(bound(run.series("torque_bias_ratio"))), 3) for bound in (np.min, np.max))
     course = f"{low} all the time" if low == high else f"from {low} to {high}"
     return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {course}."

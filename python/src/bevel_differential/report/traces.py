@@ -70,12 +70,13 @@ def _speeds(run):
 
 
 def _torques(run):
-    left, right, carrier = (run.series(name) for name in ("left.shaft_torque", "right.shaft_torque", "carrier.torque"))
+    left, right, carrier = (run.shown(name) for name in ("left.shaft_torque", "right.shaft_torque", "carrier.torque"))
+    unit = words.unit_text(run.unit("carrier.torque"))
     means = [words.number(float(np.mean(values))) for values in (carrier, left, right)]
     return (f"Torque of the drive on the carrier and of the half-shafts on the wheels; on the mean carrier {means[0]}, left "
-            f"{means[1]} and right {means[2]} N·m; what is missing between them speeds bodies up or is lost. Largest: carrier "
+            f"{means[1]} and right {means[2]} {unit}; what is missing between them speeds bodies up or is lost. Largest: carrier "
             f"{words.number(np.max(np.abs(carrier)))}, left "
-            f"{words.number(np.max(np.abs(left)))}, right {words.quantity(np.max(np.abs(right)), 'N.m')}.")
+            f"{words.number(np.max(np.abs(left)))}, right {words.quantity(np.max(np.abs(right)), unit)}.")
 
 
 def key_figures(run: Simulated) -> Section:

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_farm, add_files, add_fmu, farm
+from ..command.arguments import add_farm, add_files, add_fmu, add_units, farm
 
 QUICK = 64
 
@@ -16,6 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
     add_farm(parser)
+    add_units(parser)
     add_files(parser, "all runs", "spread, yield and indices", plot="--picture")
     add_fmu(parser)
 
@@ -23,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Runs the command."""
     from ..designs import Farm
+    from ..fmu import Fmu
     from ..output_file import checked, checked_picture
     from . import report
     from .plan import Plan
@@ -30,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     checked(arguments.csv)
     checked_picture(arguments.plot)
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
-    plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
+    plan = Plan.load(arguments.file, fmu=Fmu.of(arguments.fmu).displaying(arguments.unit), runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
     with Farm(**farm(arguments), progress=True) as workers:
         result = plan.run(workers)
     print(report.text(plan, result))

@@ -38,11 +38,14 @@ def text(plan: Plan, result: Result) -> str:
 
 
 def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
-    """Writes all runs in SI: number, factors, figures, message."""
-    names, wants = list(plan.study.factors), [str(want) for want in plan.study.wants]
-    rows = ([row.run, *(row.values[name] for name in names), *(row.figures.get(want, "") for want in wants), row.message]
-            for row in result.rows)
-    return write(file, ["run", *names, *wants, "message"], rows)
+    """Writes all runs: number, factors, figures, message; SI, or in the display units of the scene."""
+    fmu, rows = plan.scene.fmu, result.rows
+    columns = [("run", [row.run for row in rows])]
+    columns += [fmu.variable(name).column(name, [row.values[name] for row in rows], fmu.display_units) for name in plan.study.factors]
+    columns += [want.quantity(fmu).column(str(want), [row.figures.get(str(want), "") for row in rows], fmu.display_units)
+                for want in plan.study.wants]
+    columns += [("message", [row.message for row in rows])]
+    return write(file, [head for head, _ in columns], zip(*(cells for _, cells in columns)))
 
 
 def shown(plan: Plan, want: Want, estimate: Estimate) -> tuple[str, Estimate]:

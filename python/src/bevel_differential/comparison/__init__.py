@@ -1,0 +1,211 @@
+"""Several scenes side by side: their outputs over the same time, how far they differ, and in which values the scenes differ."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..extras import require
+from ..fmu import Fmu
+from ..points import TimeValue, span
+from ..records import write
+from ..scene import Scene
+from ..scene_file import find
+from ..text import aligned
+from ..values import DifferentialError, FileName, Value
+from ..warned import warn
+from .differing import differing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# figures of a series: its mean over time, its value farthest from 0, its value at the end
+FIGURES = ("mean", "peak", "end")
+# a value below this part of the largest one is 0 but for rounding: nothing is a percentage of it
+NOTHING = 1e-9
+# smaller percentages are not written out
+LEAST = 1e-3
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Records of several scenes over the same time; the first one is what others are compared with.
+
+    `scenes`: by their names, which differ; `records`: by these names, structured arrays in SI with a field "time" and one of each
+    output; `end`: time that all of them have, s; `notes`: sentences about durations and outputs; `differing`: head and rows of the
+    values in which the scenes differ. `fmu` shows values in the preferred units."""
+
+    scenes: Mapping[str, Scene]
+    records: Mapping[str, np.ndarray]
+    end: float
+    notes: tuple[str, ...]
+    differing: list[tuple[str, ...]]
+    fmu: Fmu
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the scenes."""
+        return list(self.scenes)
+
+    @property
+    def outputs(self) -> list[str]:
+        """Names of the outputs."""
+        return list(next(iter(self.records.values())).dtype.names or ())[1:]
+
+    def shown(self, output: str) -> tuple[str, dict[str, np.ndarray]]:
+        """Unit of an output, and its values by scene in this unit."""
+        variable = self.fmu.variable(output)
+        unit, _ = variable.shown(0.0)
+        return unit, {name: variable.shown(record[output].astype(float))[1] for name, record in self.records.items()}
+
+    def table(self) -> np.ndarray:
+        """A row for each output and figure (mean, peak, end), in the units that are shown: a structured array, which pandas takes as
+        it is.
+
+        Fields: output, unit, figure, one for each scene, then for each other scene "NAME - FIRST" and "NAME - FIRST, %", NaN if a
+        percentage makes no sense. The peak is the value farthest from 0."""
+        first, *others = self.names
+        rows = []
+        for output in self.outputs:
+            unit, _ = self.shown(output)
+            figures = {name: self._figures(output, name) for name in self.names}
+            largest = max(float(np.max(np.abs(record[output].astype(float)))) for record in self.records.values())
+            for place, figure in enumerate(FIGURES):
+                values = {name: figures[name][place] for name in self.names}
+                differences = [part for name in others for part in self._difference(output, values[first], values[name], largest)]
+                shown = [float(self.fmu.variable(output).shown(value)[1]) for value in values.values()]
+                rows.append((output, unit, figure, *shown, *differences))
+        widths = (max(1, *(len(str(row[place])) for row in rows)) for place in range(3))
+        fields = [(name, f"U{width}") for name, width in zip(("output", "unit", "figure"), widths)]
+        fields += [(name, "f8") for name in self.names]
+        fields += [(f"{name} - {first}{end}", "f8") for name in others for end in ("", ", %")]
+        return np.array(rows, fields)
+
+    def _figures(self, output, name):
+        """Mean, peak and end of an output of a scene, SI."""
+        record = self.records[name]
+        values, time = record[output].astype(float), record["time"]
+        return float(np.trapezoid(values, time) / (time[-1] - time[0])), float(values[np.argmax(np.abs(values))]), float(values[-1])
+
+    def _difference(self, output, first, other, largest):
+        """Difference of two values in SI as it is shown, and in per cent of the first."""
+        variable = self.fmu.variable(output)
+        shown = float(variable.differences().shown(other - first)[1])
+        # a percentage of a temperature in degC would depend on where the scale begins
+        sensible = abs(first) > NOTHING * largest and float(variable.shown(0.0)[1]) == 0.0
+        return shown, 100.0 * (other - first) / abs(first) if sensible else np.nan
+
+    def __str__(self) -> str:
+        """The notes, the table of differences, and the values in which the scenes differ."""
+        return "\n".join([*self.notes, "", *self._lines(), "", *self._differing_lines()])
+
+    def _lines(self):
+        first, *others = self.names
+        # two scenes need no names: there is one difference
+        heads = ["difference", "in %"] if len(others) == 1 else [part for name in others for part in (f"{name} − {first}", "in %")]
+        lines: list[tuple[str, ...]] = [("output", "unit", "figure", *self.names, *heads)]
+        for row in self.table().tolist():
+            output, unit, figure, *numbers = row
+            count = len(self.names)
+            size = max(map(abs, numbers[:count]))
+            # what is left of large numbers is rounding
+            values, differences = ([0.0 if abs(value) < NOTHING * size else value for value in part]
+                                   for part in (numbers[:count], numbers[count::2]))
+            pairs = [text for difference, part in zip(differences, numbers[count + 1::2])
+                     for text in (f"{difference:+.4g}" if difference else "0", _percent(difference, part))]
+            heading = (output, unit) if figure == FIGURES[0] else ("", "")
+            lines.append((*heading, figure, *(f"{value:.6g}" for value in values), *pairs))
+        return [*aligned(lines, 3), f"mean over time; peak: the value farthest from 0; end: at {self.end:g} s"]
+
+    def _differing_lines(self):
+        if len(self.differing) == 1:
+            return ["The scenes set the same values: they differ by rounding alone."]
+        return ["The scenes differ in:", *aligned(self.differing, 1 + len(self.names))]
+
+    def plot(self, file: FileName | None = None) -> "Figure":
+        """Draws all scenes over each other, a panel for each output. Writes `file` (PNG, SVG or PDF) if there is one."""
+        require("matplotlib", "plot")
+        from .picture import draw
+
+        return draw(self, file)
+
+    def to_csv(self, file: FileName) -> Path:
+        """Writes all records below each other, as CSV or, by the file's ending, as Parquet: the column "scene", then those of
+        `Scene.to_csv` in the units of this comparison."""
+        rows: list[tuple[Any, ...]] = []
+        for name, scene in self.scenes.items():
+            head, units, columns = scene.columns(self.records[name], list(self.fmu.display_units.values()))
+            rows += zip([name] * len(columns[0]), *(column.tolist() for column in columns))
+        return write(file, ("scene", *head), rows, f"scenes {', '.join(self.names)}", f"units: 1,{','.join(units)}")
+
+
+def _percent(difference: float, part: float) -> str:
+    """A percentage, short."""
+    if np.isnan(part):
+        return "–"
+    if difference == 0.0:
+        return "0"
+    return f"{part:+.3g}" if abs(part) >= LEAST else f"< {LEAST:g}"
+
+
+def compare(*scenes: FileName | Scene, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None,
+            stop: TimeValue | None = None, display_units: Sequence[str] = (), fmu: FileName | Fmu | None = None) -> Comparison:
+    """Runs two or more scenes over the same time and compares their outputs.
+
+    `scenes`: files, names of shipped scenes, or `Scene`s. `outputs`: those that all scenes record, if none are named. `values`:
+    changes of all scenes. `stop`: end of all; otherwise that of the shortest. `display_units` win over those of the scenes, and those of
+    the first scene over others. Warnings name their scene. Raises `DifferentialError`."""
+    if len(scenes) < 2:
+        raise DifferentialError("a comparison needs two scenes or more", kind="use")
+    files = [None if isinstance(scene, Scene) else find(scene) for scene in scenes]
+    opened = [scene if isinstance(scene, Scene) else Scene.load(scene, fmu) for scene in scenes]
+    named = dict(zip(_names(opened, files), opened))
+    outputs, notes = _common(named, outputs)
+    end = min(scene.stop for scene in opened) if stop is None else span("stop", stop)
+    records = {}
+    for (name, scene), file in zip(named.items(), files):
+        try:
+            records[name] = scene._record(outputs, values, end)
+            warn(f"{name}: {text}" for text in scene.warnings)
+        except DifferentialError as error:
+            raise DifferentialError(f"{name}: {error}", error.status, error.kind, error.problems) from None
+        finally:
+            if file is not None:
+                scene.close()
+    shown = opened[0].fmu
+    for preferred in [*(list(scene.fmu.display_units.values()) for scene in reversed(opened)), display_units]:
+        shown = shown.displaying(preferred)
+    lengths = ""
+    if stop is None and len({scene.stop for scene in opened}) > 1:
+        lengths = f", the time that all scenes have: {', '.join(f'{name} ends at {scene.stop:g} s' for name, scene in named.items())}"
+    notes = (f"compared from 0 to {end:g} s{lengths}", *notes)
+    return Comparison(named, records, end, notes, differing(named, values or {}, shown), shown)
+
+
+def _names(scenes: Sequence[Scene], files: Sequence[Path | None]) -> list[str]:
+    """A name for each scene: its own, with as many folders as tell files of one name apart, or with a number."""
+    paths = [None if file is None else file.resolve().with_suffix("").parts for file in files]
+    names = [scene.name for scene in scenes]
+    for place, path in enumerate(paths):
+        alike = [other for k, other in enumerate(paths) if k != place and other is not None and scenes[k].name == scenes[place].name]
+        if path is None or not alike:
+            continue
+        if path in alike:
+            raise DifferentialError(f"{names[place]}: it is named twice; name different scenes", kind="use")
+        depth = next(depth for depth in range(1, len(path) + 1) if all(path[-depth:] != other[-depth:] for other in alike))
+        names[place] = "/".join(path[-depth:])
+    return [f"{name} ({names[:k].count(name) + 1})" if names.count(name) > 1 else name for k, name in enumerate(names)]
+
+
+def _common(scenes: Mapping[str, Scene], outputs: Sequence[str] | None) -> tuple[list[str], tuple[str, ...]]:
+    """Outputs to compare, and a note about those that are left out."""
+    if outputs is not None:
+        return list(outputs), ()
+    recorded = [scene.outputs for scene in scenes.values()]
+    common = [name for name in recorded[0] if all(name in others for others in recorded[1:])]
+    if not common:
+        raise DifferentialError(f"no output is recorded by all of {', '.join(scenes)}: name outputs, such as left.speed (--output)", kind="use")
+    rest = [name for name in dict.fromkeys(name for names in recorded for name in names) if name not in common]
+    return common, ((f"not recorded by all scenes, and left out (--output names others): {', '.join(rest)}",) if rest else ())

@@ -1,0 +1,103 @@
+"""The picture of a comparison: a panel for each output, with a curve for each scene."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import style
+from ..report import words
+from ..values import FileName
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from . import Comparison
+
+# inches
+PANEL, REST = 2.2, 1.5
+# more panels than this stand in two columns
+ONE_COLUMN = 4
+# characters of the caption per inch: names are wider than words
+DENSITY = 11.0
+DASHES = ("-", "--", "-.", ":")
+# differences below this part of an output's size are none that is seen
+UNSEEN = 1e-3
+# values in which scenes differ that the caption names
+NAMED = 3
+
+
+def draw(found: "Comparison", file: FileName | None) -> "Figure":
+    """Draws the comparison, and writes `file` if there is one."""
+    outputs = found.outputs
+    columns = 1 if len(outputs) <= ONE_COLUMN else 2
+    rows = -(-len(outputs) // columns)
+    with style.styled():
+        figure, axes = style.panels(rows, columns, PANEL * rows + REST, sharex=True, squeeze=False)
+        panels = axes.ravel()
+        for panel, output in zip(panels, outputs):
+            _draw(panel, found, output)
+        # below the last panel of each column
+        for panel in panels[len(outputs):]:
+            panel.remove()
+        for place in range(max(0, len(outputs) - columns), len(outputs)):
+            panels[place].tick_params(labelbottom=True)
+            if place >= columns * (rows - 1):
+                panels[place].set_xlabel("time, s")
+        figure.align_ylabels(panels[:len(outputs)])
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(found.names))
+        style.caption(figure, _caption(found), density=DENSITY)
+        if file is not None:
+            style.save(figure, file)
+    return figure
+
+
+def _draw(panel, found, output):
+    unit, curves = found.shown(output)
+    kind = found.fmu.variable(output).kind
+    for place, (name, values) in enumerate(curves.items()):
+        # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
+        panel.plot(found.records[name]["time"], values, DASHES[place % len(DASHES)], label=name,
+                   linewidth=1.3 + 2.0 * (len(curves) - 1 - place) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
+    panel.set_title(output, loc="left", fontsize=style.SMALL)
+    panel.set_ylabel(words.unit_text(unit))
+    panel.ticklabel_format(axis="y", useOffset=False)
+    panel.margins(x=0.0)
+
+
+def _caption(found):
+    parts = [f"Outputs of {words.listed(found.names)} from 0 to {found.end:g} s; where curves cover each other, scenes agree."]
+    apart = {output: _apart(found, output) for output in found.outputs}
+    same = [output for output, (share, _) in apart.items() if share <= UNSEEN]
+    if same:
+        parts.append(f"The same within 0.1 % of the largest value: {words.listed(same)}.")
+    if len(same) < len(apart):
+        output = max(apart, key=lambda output: apart[output][0])
+        parts.append(f"Relative to its size, {output} differs most: {apart[output][1]}.")
+    rows = found.differing[1:]
+    if rows:
+        values = "; ".join(f"{name} ({' | '.join(cells)})" for name, *cells in rows[:NAMED])
+        rest = len(rows) - NAMED
+        more = f"; and {rest} more value{'s' * (rest > 1)}" if rest > 0 else ""
+        parts.append(f"The scenes differ in {values}{more}.")
+    else:
+        parts.append("The scenes set the same values.")
+    return " ".join(parts)
+
+
+def _apart(found, output):
+    """The largest difference from the first scene over the largest value, and where it is, in words."""
+    first, *others = found.names
+    unit, curves = found.shown(output)
+    records = found.records
+    time = records[first]["time"]
+    size = max(float(np.max(np.abs(record[output].astype(float)))) for record in records.values()) or 1.0
+    best = (0.0, "")
+    for name in others:
+        at = np.interp(time, records[name]["time"], records[name][output].astype(float))
+        away = np.abs(at - records[first][output].astype(float))
+        place = int(np.argmax(away))
+        if away[place] / size > best[0]:
+            shown = [float(np.interp(time[place], records[each]["time"], curves[each])) for each in (first, name)]
+            best = (float(away[place]) / size, f"at {words.quantity(time[place], 's')} it is {words.quantity(shown[0], unit)} in {first} and "
+                    f"{words.quantity(shown[1], unit)} in {name}")
+    return best
