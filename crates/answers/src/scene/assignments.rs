@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::set::{Setting, closest, value, variable};
-use super::times::{check_step, span};
+use super::times::{check_step, duration, span};
 use crate::problem::{Problem, Problems};
 
 /// What can be set besides the variables of the FMU.
@@ -39,7 +39,7 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
 fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problem> {
     let value = value(text);
     match name {
-        "stop_time" => scene.stop_time = span(name, &value)?,
+        "stop_time" => scene.stop_time = duration(name, &value)?,
         "step" => scene.step = span(name, &value)?,
         _ => {
             if let (Err(_), Some(time)) = (variable(name), closest(name, TIMES.into_iter())) {
