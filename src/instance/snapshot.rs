@@ -86,7 +86,8 @@ impl Snapshot {
     /// Takes over the stop time and the tolerance of `experiment`, if it has them. A tolerance that was set as a parameter stays.
     pub fn follow(&mut self, experiment: &Experiment, cache: &GearCache) -> CallResult {
         self.stop_time = experiment.stop.or(self.stop_time);
-        let (Some(requested), false, Some((row, slot))) = (experiment.tolerance, self.tolerance_chosen, tolerance_row())
+        let (Some(requested), false, Some((row, slot))) =
+            (experiment.tolerance, self.tolerance_chosen, tolerance_row())
         else {
             return Ok(());
         };

@@ -246,7 +246,9 @@ impl Instance {
             (Access::Output(_), Variability::Fixed) => {
                 Err(CallError::error(format!("{} is calculated from other parameters and cannot be set", row.name)))
             }
-            (Access::Output(_), _) => Err(CallError::error(format!("{} is an output and cannot be set{}", row.name, when_state(row)))),
+            (Access::Output(_), _) => {
+                Err(CallError::error(format!("{} is an output and cannot be set{}", row.name, when_state(row))))
+            }
             (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
                 "{} is a parameter: it cannot be set between events, enter event mode first",
                 row.name

@@ -120,17 +120,22 @@ fn the_own_tolerance_wins_over_that_of_a_restored_state_unless_that_is_a_paramet
     restore(&loose, &other);
     assert_eq!(tolerance(&other), 1e-9);
     let [of_loose, of_other, of_tight] = [&loose, &other, &tight].map(evaluations);
-    assert!(of_other > 2.0 * of_loose && (0.8..1.25).contains(&(of_other / of_tight)), "{of_loose} {of_other} {of_tight}");
+    assert!(
+        of_other > 2.0 * of_loose && (0.8..1.25).contains(&(of_other / of_tight)),
+        "{of_loose} {of_other} {of_tight}"
+    );
     // none was announced, or the same: the state stays as it is
     for own in [None, Some(1e-9)] {
         let other = started(own, 0.0, None);
         restore(&tight, &other);
         assert_eq!(tolerance(&other), 1e-9);
-        assert!(other.record_steps(12, 3) == {
-            let again = Host::new();
-            restore(&tight, &again);
-            again.record_steps(12, 3)
-        });
+        assert!(
+            other.record_steps(12, 3) == {
+                let again = Host::new();
+                restore(&tight, &again);
+                again.record_steps(12, 3)
+            }
+        );
     }
     let chosen = Host::on_level(3);
     assert_eq!(chosen.set("solver.relative_tolerance", 1e-5), Status::Ok);

@@ -8,8 +8,8 @@ use bevel_differential::variables::{Access, Causality, MODEL_NAME, Table, Variab
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use super::describe::{
-    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative,
-    log_categories, number, root, unit, units_in_use, variability,
+    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories,
+    number, root, unit, units_in_use, variability,
 };
 use answers::text::xml::Element;
 

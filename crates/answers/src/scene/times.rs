@@ -66,7 +66,10 @@ mod tests {
     fn a_duration_may_be_zero_and_then_has_no_steps() {
         assert_eq!(duration("stop_time", &Value::Integer(0)), Ok(0.0));
         for value in [Value::Float(-1e-300), Value::Float(f64::INFINITY), Value::String("-1 ms".into())] {
-            assert!(duration("stop_time", &value).is_err_and(|problem| problem.starts_with("stop_time = ")), "{value:?}");
+            assert!(
+                duration("stop_time", &value).is_err_and(|problem| problem.starts_with("stop_time = ")),
+                "{value:?}"
+            );
         }
         assert!(check_step(1.0, 0.0).is_ok());
     }

@@ -98,7 +98,8 @@ fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
         let speed = outcome.outputs[0];
         assert_eq!([speed.min, speed.mean, speed.max, speed.end], [30.0; 4]);
         assert_eq!(String::from_utf8(csv)?.lines().last(), Some("0,30"));
-        let lines = loads::write(&scene, None, &mut Vec::new(), &mut Progress::silent())?;
+        // meshes are preloaded unless the start says otherwise
+        let lines = loads::write(&parsed(&frame)?, None, &mut Vec::new(), &mut Progress::silent())?;
         assert!(lines > 0, "the loads at the start");
     }
     Ok(())
