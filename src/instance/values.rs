@@ -56,13 +56,18 @@ fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
     CallError::discard(format!("{problem}; the range is [{}, {}] {unit}", range.min, range.max))
 }
 
-/// Hint for a continuous state that cannot be set now.
-fn when_state(row: &Variable) -> &'static str {
-    if table().states.iter().any(|&index| table().rows[index].name == row.name) {
-        " now: a continuous state can be set in model exchange, in continuous-time mode"
+/// The error of setting an output now.
+fn output_error(reference: u32, row: &Variable) -> CallError {
+    let name = row.name;
+    CallError::error(if row.variability == Variability::Fixed {
+        format!("{name} is calculated from other parameters and cannot be set")
+    } else if table().state(reference).is_some() {
+        format!(
+            "{name} is an output and cannot be set now: a continuous state can be set in model exchange, in continuous-time mode"
+        )
     } else {
-        ""
-    }
+        format!("{name} is an output and cannot be set")
+    })
 }
 
 fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
@@ -232,7 +237,7 @@ impl Instance {
                 self.now.phase.is_running() || !value.is_finite()
             }
             Access::Output(_) if self.may_set_state(reference) => return check_state(row, value),
-            Access::Output(_) => return self.check_settable(row),
+            Access::Output(_) => return Err(output_error(reference, row)),
             _ => return Err(wrong_type(row)),
         };
         match check_value(row, value) {
@@ -241,19 +246,14 @@ impl Instance {
         }
     }
 
+    /// Refuses a parameter that cannot be set now.
     fn check_settable(&self, row: &Variable) -> CallResult {
-        match (row.access, row.variability) {
-            (Access::Output(_), Variability::Fixed) => {
-                Err(CallError::error(format!("{} is calculated from other parameters and cannot be set", row.name)))
-            }
-            (Access::Output(_), _) => {
-                Err(CallError::error(format!("{} is an output and cannot be set{}", row.name, when_state(row))))
-            }
-            (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
+        match row.variability {
+            Variability::Tunable if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
                 "{} is a parameter: it cannot be set between events, enter event mode first",
                 row.name
             ))),
-            (_, Variability::Fixed) if self.now.phase.is_running() => Err(CallError::error(format!(
+            Variability::Fixed if self.now.phase.is_running() => Err(CallError::error(format!(
                 "{} is a fixed parameter: it can be set only before {}",
                 row.name, self.interface.exit_initialization
             ))),
