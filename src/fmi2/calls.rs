@@ -5,6 +5,7 @@ use crate::instance::{Interface, Phase, calls};
 /// FMI 2.0.
 pub static INTERFACE: Interface = Interface {
     version: 2,
+    setup: "fmi2SetupExperiment",
     set_state: "fmi2SetFMUstate",
     reset: "fmi2Reset",
     exit_initialization: "fmi2ExitInitializationMode",

@@ -5,6 +5,7 @@ use crate::instance::{Interface, Phase, calls};
 /// FMI 3.0.
 pub static INTERFACE: Interface = Interface {
     version: 3,
+    setup: "fmi3EnterInitializationMode",
     set_state: "fmi3SetFMUState",
     reset: "fmi3Reset",
     exit_initialization: "fmi3ExitInitializationMode",

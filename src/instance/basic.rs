@@ -49,6 +49,8 @@ pub const ONE_KIND: &str = "this build, for real time, is for co-simulation alon
 pub struct Interface {
     /// 2 for FMI 2.0, 3 for FMI 3.0.
     pub version: u32,
+    /// The function that announces tolerance and time interval.
+    pub setup: &'static str,
     /// The function that restores a state.
     pub set_state: &'static str,
     /// The function that resets an instance.

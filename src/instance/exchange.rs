@@ -4,7 +4,7 @@ use crate::FULL;
 
 use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase};
 use crate::model::{INDICATORS, STATES, Simulation, StepFailure, Update};
-use crate::variables::table;
+use crate::variables::{Variable, table};
 
 impl Instance {
     /// Refuses calls of model exchange on an instance for co-simulation.
@@ -72,11 +72,33 @@ impl Instance {
     /// Sets all states.
     pub fn set_continuous_states(&mut self, values: InputArray<f64>) -> CallResult {
         let states: [f64; STATES] = values.copied().ok_or_else(|| wrong_count("states", STATES, values.len()))?;
-        if let Some(k) = states.iter().position(|x| !x.is_finite()) {
-            let name = table().rows[table().states[k]].name;
-            return Err(CallError::discard(format!("{name} = {} is not a finite number", states[k])));
+        for (index, state) in table().states.iter().zip(states) {
+            check_state(&table().rows[*index], state)?;
         }
-        self.exchange_simulation()?.set_states(&states);
+        self.move_to_states(&states)
+    }
+
+    /// True if the host may set this variable, because it is a continuous state that the host integrates: between events, and
+    /// with FMI 3.0 also at events, if events do not set it themselves.
+    pub(super) fn may_set_state(&self, reference: u32) -> bool {
+        FULL && self.now.kind == Kind::ModelExchange
+            && table().state(reference).is_some()
+            && match self.now.phase {
+                Phase::ContinuousTime => true,
+                Phase::Event => self.interface.version > 2 && !table().is_velocity(reference),
+                _ => false,
+            }
+    }
+
+    /// Moves to valid `states`.
+    pub(super) fn move_to_states(&mut self, states: &[f64; STATES]) -> CallResult {
+        let is_event = self.now.phase == Phase::Event;
+        let simulation = self.exchange_simulation()?;
+        if is_event {
+            let outcome = simulation.jump_to_states(states);
+            return self.valid_after(outcome);
+        }
+        simulation.set_states(states);
         Ok(())
     }
 
@@ -111,6 +133,14 @@ impl Instance {
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
         fill("nominals", &nominals, values, |_| String::new())
     }
+}
+
+/// Refuses a value of a state that is not finite.
+pub(super) fn check_state(row: &Variable, value: f64) -> CallResult {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(CallError::discard(format!("{} = {value} is not a finite number", row.name)))
 }
 
 /// Writes `numbers` into `values` unless the host has room for another count of `what`, or one of them is not finite, of which

@@ -32,6 +32,8 @@ pub struct Instance {
     pub log: Log,
     /// What all instances keep for their next starts.
     pub cache: Share,
+    /// Tolerance and time interval that the host announced to this instance, which outlast restored states.
+    announced: Option<Experiment>,
     /// Warnings that are logged once in a run, so far.
     reported: Reported,
     /// Variables of which the log says that their values change nothing.
@@ -58,6 +60,7 @@ impl Instance {
             now: Snapshot::new(interface, kind),
             log,
             cache: Share::new(),
+            announced: None,
             reported: Reported::default(),
             unfelt: Vec::new(),
         }
@@ -70,21 +73,20 @@ impl Instance {
             return Err(CallError::error(format!("start time {start} s is not a finite number")));
         }
         if let Some(stop) = stop
-            && (stop.is_nan() || stop <= start)
+            && (stop.is_nan() || stop < start)
         {
-            return Err(CallError::error(format!("stop time {stop} s is not after the start time {start} s")));
+            return Err(CallError::error(format!("stop time {stop} s is before the start time {start} s")));
         }
         if let Some(requested) = tolerance
             && (requested.is_nan() || requested <= 0.0)
         {
             return Err(CallError::error(format!("tolerance {requested} is not a positive number")));
         }
-        (self.now.start_time, self.now.stop_time) = (start, stop);
-        if let (Some(requested), false, Some((row, slot))) = (tolerance, self.now.tolerance_chosen, tolerance_row()) {
-            let range = row.range.unwrap_or(variables::Range { min: requested, max: requested });
-            *slot(&mut self.now.parameters) = requested.clamp(range.min, range.max);
-        }
-        Ok(())
+        self.announced = Some(*experiment);
+        self.now.start_time = start;
+        // a stop time announced before does not outlast an announcement without one
+        self.now.stop_time = None;
+        self.now.follow(experiment, &self.cache)
     }
 
     /// Enters initialization mode.
@@ -194,6 +196,7 @@ impl Instance {
     /// As a new instance, except for the settings of the log.
     pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.interface, self.now.kind);
+        self.announced = None;
         self.reported = Reported::default();
         self.unfelt.clear();
         Ok(())
@@ -230,9 +233,8 @@ impl Instance {
     /// A step from the current time to `point` + `h` [s].
     #[inline]
     pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
-        let stop = self.now.stop_time;
         let time = self.simulation()?.time();
-        check_step(time, stop, point, h)?;
+        self.check_step(time, point, h)?;
         self.check_inputs_within_step(h)?;
         let until = point + h;
         // a step below the resolution of time changes nothing
@@ -253,7 +255,7 @@ impl Instance {
             return Err(self.step_failed(&failure));
         }
         self.warn_while_running();
-        if stop.is_some_and(|stop| until + time_tolerance(stop, h) >= stop) {
+        if self.now.stop_time.is_some_and(|stop| until + time_tolerance(stop, h) >= stop) {
             self.warn_at_end();
         }
         Ok(())
@@ -284,7 +286,8 @@ impl Instance {
         }
     }
 
-    /// Replaces everything by a snapshot of an instance of the same kind, made by the same version of FMI.
+    /// Replaces everything by a snapshot of an instance of the same kind, made by the same version of FMI. The stop time and the
+    /// tolerance that the host announced to this instance take precedence over those of the snapshot.
     pub fn restore(&mut self, snapshot: &Snapshot) -> CallResult {
         let now = &self.now;
         if snapshot.version != now.version {
@@ -299,30 +302,46 @@ impl Instance {
                 snapshot.kind, now.kind
             )));
         }
-        self.now = snapshot.clone();
+        let mut restored = snapshot.clone();
+        if let Some(announced) = &self.announced {
+            restored.follow(announced, &self.cache)?;
+        }
+        self.now = restored;
         // the host that saved the state may not have handled events, or this host does not
         let lacks_values = self.now.discrete.is_none() && self.now.phase.is_running();
         if lacks_values || !self.allowed.events { self.publish() } else { Ok(()) }
     }
-}
 
-/// Refuses a step that does not begin at the present `time` [s], or ends after the stop time.
-pub fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> CallResult {
-    if !(h.is_finite() && h > 0.0) {
-        return Err(CallError::error(format!("communication step size {h} s is not finite and positive")));
-    }
-    if !point.is_finite() || (point - time).abs() > time_tolerance(time, h) {
-        return Err(CallError::error(format!("communication point {point} s is not the current time {time} s")));
-    }
-    let until = point + h;
-    if !until.is_finite() {
-        return Err(CallError::error(format!("the end of the step, {until} s, is not a finite number")));
-    }
-    match stop {
-        Some(stop) if until > stop + time_tolerance(stop, h) => {
-            Err(CallError::error(format!("the step ends at {until} s, after the stop time {stop} s")))
+    /// Refuses a step that does not begin at the present `time` [s], or ends after the stop time.
+    pub fn check_step(&self, time: f64, point: f64, h: f64) -> CallResult {
+        if !(h.is_finite() && h > 0.0) {
+            return Err(CallError::error(format!("communication step size {h} s is not finite and positive")));
         }
-        _ => Ok(()),
+        if !point.is_finite() || (point - time).abs() > time_tolerance(time, h) {
+            return Err(CallError::error(format!("communication point {point} s is not the current time {time} s")));
+        }
+        let until = point + h;
+        if !until.is_finite() {
+            return Err(CallError::error(format!("the end of the step, {until} s, is not a finite number")));
+        }
+        match self.now.stop_time {
+            Some(stop) if until > stop + time_tolerance(stop, h) => Err(self.after_stop(until, stop)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The error of a step that ends at `until`, after the stop time `stop` [s].
+    #[cold]
+    fn after_stop(&self, until: f64, stop: f64) -> CallError {
+        let mut message = format!("the step ends at {until} s, after the stop time {stop} s");
+        if self.announced.is_none_or(|announced| announced.stop.is_none()) {
+            let setup = self.interface.setup;
+            message += &format!(
+                " of the restored state; announce a later stop time with {setup} before restoring a state, or save states \
+                 of an instance without a stop time"
+            );
+        }
+        CallError::error(message)
     }
 }
 
@@ -331,7 +350,7 @@ fn initial_problems(problems: &[problem::Problem]) -> CallError {
 }
 
 /// Row of the solver's tolerance, and access to its value.
-fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
+pub fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     variables::table().rows.iter().find(|row| is_tolerance(row)).and_then(|row| match row.access {
         Access::Real(slot) => Some((row, slot)),
         _ => None,

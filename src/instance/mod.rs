@@ -6,6 +6,9 @@
 //!   simulation. Only a failed initialisation and an internal error lead to the state `error`.
 //! - The state `fatal` is never entered: instances share no mutable data, so a reset always restores an instance.
 //! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
+//! - Stop time and tolerance that a host announced to an instance take precedence over those of a restored state. The start time
+//!   belongs to the state, like its time.
+//! - A stop time may equal the start time: the start can be read and saved, and no step is possible.
 
 mod basic;
 pub mod c_types;

@@ -105,7 +105,7 @@ impl Columns<'_> {
         let mut changes = false;
         for (reference, change) in known {
             let row = row(reference)?;
-            let state = table().states.iter().position(|&i| i as u32 == reference);
+            let state = table().state(reference);
             match (row.access, state) {
                 (Access::Input(slot), _) => *slot(&mut inputs) += change,
                 (_, Some(k)) => states[k] += change,

@@ -5,11 +5,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Discrete, Interface, Kind, Phase};
+use super::instance::tolerance_row;
+use super::{CallError, CallResult, Discrete, Experiment, Interface, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::unset::SetValues;
-use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
+use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
@@ -82,6 +83,44 @@ impl Snapshot {
         Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(cache))
     }
 
+    /// Takes over the stop time and the tolerance of `experiment`, if it has them. A tolerance that was set as a parameter stays.
+    pub fn follow(&mut self, experiment: &Experiment, cache: &GearCache) -> CallResult {
+        self.stop_time = experiment.stop.or(self.stop_time);
+        let (Some(requested), false, Some((row, slot))) =
+            (experiment.tolerance, self.tolerance_chosen, tolerance_row())
+        else {
+            return Ok(());
+        };
+        let Range { min, max } = row.range.unwrap_or(Range { min: requested, max: requested });
+        let (tolerance, requested) = (slot(&mut self.parameters), requested.clamp(min, max));
+        if *tolerance != requested {
+            *tolerance = requested;
+            self.rebuild(cache).map_err(CallError::error)?;
+        }
+        Ok(())
+    }
+
+    /// Rebuilds the simulation under the present parameters: a running one continues, another one will start again on demand.
+    fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
+        match self.simulation.take() {
+            Some(simulation) if self.phase != Phase::Initialization => {
+                let state = Box::new((*simulation.state(), *simulation.watched()));
+                self.resume((Some(state), simulation.accepted().map(|accepted| Box::new(*accepted))), cache)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Continues what was `running`, if anything, under the present parameters.
+    fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
+        if let (Some(state), accepted) = running {
+            let resumed = Simulation::resume_with(&self.effective(), &self.inputs, *state, &given(cache));
+            let resumed = resumed.map_err(|p| problem::list(&p))?;
+            self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
+        }
+        Ok(())
+    }
+
     /// Parameters for the simulation: in model exchange every planet has its own states, and the motion between completed steps
     /// is the host's, so that there is no history of it.
     fn effective(&self) -> Parameters {
@@ -113,11 +152,7 @@ impl Snapshot {
     pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
         let (mut snapshot, running) = Self::read(open(bytes)?)?;
         snapshot.check(&running)?;
-        if let (Some(state), accepted) = running {
-            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, *state, &given(cache));
-            let resumed = resumed.map_err(|p| problem::list(&p))?;
-            snapshot.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
-        }
+        snapshot.resume(running, cache)?;
         Ok(*snapshot)
     }
 

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::instance::check_step;
 use super::{CallError, CallResult, Instance, Kind, Phase};
 use crate::model::{Event, StepFailure, Update, Way, six_digits};
 
@@ -68,9 +67,10 @@ impl Instance {
     /// may cause an event at `point`. With `in_parts`, only up to the end of the solver's next step.
     pub fn step_to_event(&mut self, [point, h, until]: [f64; 3], in_parts: bool) -> CallResult<Ended> {
         self.check_co_simulation()?;
-        let (stop, may_end_early) = (self.now.stop_time, self.allowed.early_return);
+        let time = self.simulation()?.time();
+        self.check_step(time, point, h)?;
+        let may_end_early = self.allowed.early_return;
         let simulation = self.simulation()?;
-        check_step(simulation.time(), stop, point, h)?;
         // a command that changes what friction holds is an event at the start of the step
         if may_end_early && simulation.begin() && simulation.time() < until {
             return self.ended(until, in_parts);

@@ -1,8 +1,9 @@
 //! Getting and setting variables by value reference. A set call is checked as a whole before anything is set.
 
+use super::exchange::check_state;
 use super::instance::is_tolerance;
 use super::{CallError, CallResult, InputArray, Instance, Output, Phase};
-use crate::model::{LedgerReadings, Motion};
+use crate::model::{LedgerReadings, Motion, STATES};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 
 /// FMI type of a variable, as FMI's functions name it.
@@ -53,6 +54,20 @@ fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
     let Some(range) = row.range.filter(|_| !value.is_finite()) else { return CallError::discard(problem) };
     let unit = row.unit.map_or("", |u| u.name);
     CallError::discard(format!("{problem}; the range is [{}, {}] {unit}", range.min, range.max))
+}
+
+/// The error of setting an output now.
+fn output_error(reference: u32, row: &Variable) -> CallError {
+    let name = row.name;
+    CallError::error(if row.variability == Variability::Fixed {
+        format!("{name} is calculated from other parameters and cannot be set")
+    } else if table().state(reference).is_some() {
+        format!(
+            "{name} is an output and cannot be set now: a continuous state can be set in model exchange, in continuous-time mode"
+        )
+    } else {
+        format!("{name} is an output and cannot be set")
+    })
 }
 
 fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
@@ -119,16 +134,16 @@ impl Instance {
         Ok(*slot(&mut self.now.parameters))
     }
 
-    /// Sets real variables.
+    /// Sets real variables, and continuous states where the host integrates them.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
-            self.check_real(row(reference)?, value)?;
+            self.check_real(reference, value)?;
         }
+        let states = self.with_states_set(references, values)?;
         let now = &mut self.now;
         let mut tuned = false;
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
-            now.set.insert(reference as usize);
             match row.access {
                 Access::Real(slot) => {
                     *slot(&mut now.parameters) = value;
@@ -136,15 +151,38 @@ impl Instance {
                     tuned = true;
                 }
                 Access::Input(slot) => *slot(&mut now.inputs) = value,
-                _ => {}
+                _ => continue,
             }
+            now.set.insert(reference as usize);
         }
         self.end_derivatives_of(references);
         self.changed(tuned);
+        if let Some(states) = states {
+            self.move_to_states(&states)?;
+        }
         for (reference, value) in references.iter().zip(values.iter()) {
             self.warn_of_set_value(reference, value);
         }
         Ok(())
+    }
+
+    /// All states with new values of those among the references; none if there is none among them.
+    fn with_states_set(
+        &mut self,
+        references: InputArray<u32>,
+        values: InputArray<f64>,
+    ) -> CallResult<Option<[f64; STATES]>> {
+        let mut states = None;
+        for (reference, value) in references.iter().zip(values.iter()) {
+            // other outputs are refused before
+            if let (Access::Output(_), Some(k)) = (row(reference)?.access, table().state(reference)) {
+                if states.is_none() {
+                    states = Some(self.simulation()?.states());
+                }
+                states.iter_mut().for_each(|states| states[k] = value);
+            }
+        }
+        Ok(states)
     }
 
     /// Sets integers; enumerations too.
@@ -190,13 +228,16 @@ impl Instance {
 
     /// Inputs are checked against their range at once. Parameters are so only in a running simulation: before, they must
     /// be finite, and initialisation checks all their ranges together.
-    fn check_real(&self, row: &Variable, value: f64) -> CallResult {
+    fn check_real(&self, reference: u32, value: f64) -> CallResult {
+        let row = row(reference)?;
         let at_once = match row.access {
             Access::Input(_) => true,
-            Access::Real(_) | Access::Output(_) => {
+            Access::Real(_) => {
                 self.check_settable(row)?;
                 self.now.phase.is_running() || !value.is_finite()
             }
+            Access::Output(_) if self.may_set_state(reference) => return check_state(row, value),
+            Access::Output(_) => return Err(output_error(reference, row)),
             _ => return Err(wrong_type(row)),
         };
         match check_value(row, value) {
@@ -205,17 +246,14 @@ impl Instance {
         }
     }
 
+    /// Refuses a parameter that cannot be set now.
     fn check_settable(&self, row: &Variable) -> CallResult {
-        match (row.access, row.variability) {
-            (Access::Output(_), Variability::Fixed) => {
-                Err(CallError::error(format!("{} is calculated from other parameters and cannot be set", row.name)))
-            }
-            (Access::Output(_), _) => Err(CallError::error(format!("{} is an output and cannot be set", row.name))),
-            (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
+        match row.variability {
+            Variability::Tunable if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
                 "{} is a parameter: it cannot be set between events, enter event mode first",
                 row.name
             ))),
-            (_, Variability::Fixed) if self.now.phase.is_running() => Err(CallError::error(format!(
+            Variability::Fixed if self.now.phase.is_running() => Err(CallError::error(format!(
                 "{} is a fixed parameter: it can be set only before {}",
                 row.name, self.interface.exit_initialization
             ))),

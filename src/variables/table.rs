@@ -22,6 +22,18 @@ pub struct Table {
     pub derivatives: [usize; STATES],
 }
 
+impl Table {
+    /// Number of a continuous state among the states; none for another variable.
+    pub fn state(&self, reference: u32) -> Option<usize> {
+        self.states.iter().position(|&index| index as u32 == reference)
+    }
+
+    /// True for a velocity among the states. Imposed speeds may set these states at events.
+    pub fn is_velocity(&self, reference: u32) -> bool {
+        self.state(reference).is_some_and(|k| k >= STATES / 2)
+    }
+}
+
 /// The table.
 pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();

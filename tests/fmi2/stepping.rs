@@ -111,7 +111,7 @@ fn an_invalid_experiment_is_refused() {
         assert_eq!(status, Status::Error);
         assert_contains(&host.last_message(), &["start time"]);
     }
-    for stop in [1.0, 0.0, f64::NAN] {
+    for stop in [0.0, f64::NAN] {
         let (host, status) = with_experiment(None, 1.0, Some(stop));
         assert_eq!(status, Status::Error);
         assert_contains(&host.last_message(), &["stop time"]);

@@ -114,7 +114,7 @@ fn call(random: &mut Random, round: &mut Round) -> Status {
     let room = random.below(9);
     // SAFETY: every pointer points to as many values as are announced
     unsafe {
-        match random.below(34) {
+        match random.below(36) {
             0 => fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0),
             1 => fmi3ExitInitializationMode(c),
             2 => fmi3EnterEventMode(c),
@@ -179,6 +179,14 @@ fn call(random: &mut Random, round: &mut Round) -> Status {
             29 => fmi3GetContinuousStateDerivatives(c, states.as_mut_ptr(), STATES),
             30 => fmi3GetOutputDerivatives(c, vr.as_ptr(), n, [1, 1].as_ptr(), floats.as_mut_ptr(), n),
             31 => fmi3GetFloat32(c, vr.as_ptr(), n, ptr::null_mut(), 0),
+            32 | 33 => {
+                // some states close to where they are, and anything else
+                fmi3GetContinuousStates(c, states.as_mut_ptr(), STATES);
+                let k = random.below(STATES);
+                let near = states[k] + [0.0, 1e-7, -1e-6][random.below(3)];
+                let (vr, values) = ([table().states[k] as u32, vr[0]], [near, value[0]]);
+                fmi3SetFloat64(c, vr.as_ptr(), n, values.as_ptr(), n)
+            }
             _ => {
                 let h = [1e-3, 1e-5, 0.0, -1.0, f64::NAN, 5e-3][random.below(6)];
                 let mut last = f64::NAN;

@@ -40,14 +40,19 @@ def two(scene, known, options):
     from fmpy.fmi2 import FMU2Slave
 
     slave = FMU2Slave(**options)
-    slave.instantiate()
+    begun(slave, scene, known)
+    return slave, slave.setReal, slave.getReal
+
+
+def begun(instance, scene, known):
+    """Initialises an instance of FMI 2.0."""
+    instance.instantiate()
     for variable, value in scene.start(known):
         kind = "Integer" if variable.kind == "Enumeration" else variable.kind
-        getattr(slave, "set" + kind)([variable.reference], [value])
-    slave.setupExperiment(startTime=0.0, stopTime=scene.stop)
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
-    return slave, slave.setReal, slave.getReal
+        getattr(instance, "set" + kind)([variable.reference], [value])
+    instance.setupExperiment(startTime=0.0, stopTime=scene.stop)
+    instance.enterInitializationMode()
+    instance.exitInitializationMode()
 
 
 def three(scene, known, options):

@@ -60,6 +60,17 @@ def test_a_saved_state_goes_on_with_the_same_bits_in_another_instance(fmu):
         assert other.initialise(TURN).get("solver.steps") == 0.0
 
 
+def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu):
+    with fmu.open() as first, fmu.open() as second, fmu.open() as endless:
+        first.initialise(TURN, stop=5e-3).step(5e-3)
+        second.initialise(TURN, stop=8e-3).restore(first.save()).step(3e-3)
+        assert second.time == pytest.approx(8e-3, rel=1e-12)
+        with pytest.raises(DifferentialError, match="stop time 0.008 s$"):
+            second.step(1e-3)
+        with pytest.raises(DifferentialError, match="stop time 0.005 s of the restored state; .* fmi2SetupExperiment"):
+            endless.initialise(TURN).restore(first.save()).step(1e-3)
+
+
 def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_reset(fmu):
     with fmu.open() as opened:
         opened.initialise()

@@ -1,4 +1,5 @@
-"""The packaged FMUs in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table.
+"""The packaged FMUs in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table. Hosts step
+the scene in co-simulation, or evaluate derivatives and their Jacobian at points of it in model exchange.
 
 usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-fmi-sim]
 
@@ -31,8 +32,8 @@ PACKAGES = "pip install -r tests/hosts/requirements.txt"
 class Host:
     """A host. `call`: a script of tests/hosts with its arguments, or the name of a host in the program of tests/hosts/rust;
     `language` it is used from, and the one it is written in; `loader`: what imports the FMU; `sets`: what it sets before
-    initialisation; `hint`: what to do if it cannot be loaded; `three`: the call for the FMU of FMI 3.0, if the host reads it, and
-    `unset`: types and causalities that it does not set there."""
+    initialisation; `hint`: what to do if it cannot be loaded; `steps`: False if it evaluates derivatives; `three`: the call for the
+    FMU of FMI 3.0, if the host reads it, and `unset`: types and causalities that it does not set there."""
 
     name: str
     call: tuple[str, ...]
@@ -42,8 +43,11 @@ class Host:
     hint: str = PACKAGES
     enumerations: bool = True
     reads_start: bool = True
+    steps: bool = True
     three: tuple[str, ...] = ()
     unset: tuple[str, ...] = ()
+# what hosts that evaluate derivatives are compared with
+DERIVATIVES = Host("fmpy, derivatives", ("derivatives.py",), "Python", "its own, ctypes", "all types", steps=False)
 # the others are compared with the first one
 ALL = [
     Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types", three=("with_fmpy.py",)),
@@ -58,6 +62,7 @@ ALL = [
          unset=("Enumeration", "structuralParameter")),
     Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
          "choices as Integers", three=("with_fmu_container.py",), unset=("structuralParameter",)),
+    Host("casadi", ("with_casadi.py",), "Python, C++", "its own, derivatives", "all types", steps=False),
     Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types", "cargo must reach crates.io"),
     Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types",
          "cargo must reach crates.io, and a C compiler is needed", three=("fmi-rs-3",)),
@@ -115,6 +120,11 @@ def deviation(own, other, without_start, scales):
             different += other[point][name].hex() != value.hex()
             found = max(found, (apart, f"{name} at point {point}"), key=lambda pair: pair[0])
     return Deviation(*found, different, sum(len(own[point]) for point in points))
+
+
+def largest(record):
+    """Natural scales of derivatives, which no scene states: the largest value of each; 1 if all are 0."""
+    return {name: max(abs(values[name]) for values in record.values()) or 1.0 for name in record[0]}
 
 
 class Bench:
@@ -182,7 +192,7 @@ def last_line(text):
 
 def compared(bench, scenes):
     """By host its version and, by FMI 2.0 and by FMI 3.0, the deviations by scene; and why others are absent."""
-    results, absent, own = {}, {}, []
+    results, absent, own, derivatives = {}, {}, [], {}
     for done, host in enumerate(ALL):
         say(done / len(ALL), host.name)
         ran = {}, {}
@@ -194,8 +204,12 @@ def compared(bench, scenes):
                     record, version = bench.run(host, scene, three)
                     if host is ALL[0] and not three:
                         own.append(record)
+                    if not host.steps and scene.name not in derivatives:
+                        derivatives[scene.name] = bench.run(DERIVATIVES, scene)[0]
+                    expected = own[place] if host.steps else derivatives[scene.name]
+                    scales = scene.known["outputs"] if host.steps else largest(expected)
                     try:
-                        ran[three][scene.name] = deviation(own[place], record, not host.reads_start, scene.known["outputs"])
+                        ran[three][scene.name] = deviation(expected, record, not host.reads_start, scales)
                     except SystemExit as wrong:
                         raise SystemExit(f"{host.name} on {scene.name}: {wrong}") from None
         except Absent as why:

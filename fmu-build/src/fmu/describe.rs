@@ -272,7 +272,7 @@ fn scalar_variable(reference: usize, row: &Variable, (choices, part): (Choices, 
         .with("causality", causality(row))
         .with("variability", variability(row))
         .with_some("initial", initial)
-        .child(variable_type(row, part == Part::Whole && is_velocity(reference), choices))
+        .child(variable_type(row, part == Part::Whole && table().is_velocity(reference as u32), choices))
 }
 
 /// Description of a variable. Where its choices are integers, the description names the choice of each number.
@@ -284,12 +284,6 @@ fn description(row: &Variable, choices: Choices) -> String {
         }
         _ => row.description.to_owned(),
     }
-}
-
-/// Whether the variable is a velocity state. Imposed speeds may set these states at events.
-pub(super) fn is_velocity(reference: usize) -> bool {
-    let states = &table().states;
-    states[states.len() / 2..].contains(&reference)
 }
 
 fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {

@@ -8,8 +8,8 @@ use bevel_differential::variables::{Access, Causality, MODEL_NAME, Table, Variab
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use super::describe::{
-    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative, is_velocity,
-    log_categories, number, root, unit, units_in_use, variability,
+    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories,
+    number, root, unit, units_in_use, variability,
 };
 use answers::text::xml::Element;
 
@@ -110,7 +110,7 @@ fn variable(reference: usize, row: &Variable) -> Element {
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
             .with_some("nominal", row.nominal.map(number))
-            .with_some("reinit", is_velocity(reference).then_some(true))
+            .with_some("reinit", table().is_velocity(reference as u32).then_some(true))
             .with_some("derivative", row.derivative_of)
             .with_some("start", real_start(row).map(number)),
         Access::Integer(access) => element

@@ -12,7 +12,7 @@ from .fmu import Fmu
 from .inputs import Inputs, Signals
 from .instance import DISCARD, Closing, Instance
 from .plot import plot
-from .points import Steps, TimeValue, span
+from .points import Steps, TimeValue, duration, span
 from .values import DifferentialError, FileName, Number, Value, Variable
 from .warned import warn
 
@@ -107,7 +107,8 @@ class Differential(Runner):
     def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 0.5,
             step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
             frame: bool = False, *, input_slopes: bool = True) -> "np.ndarray | pandas.DataFrame":
-        """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
+        """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms"). With `stop=0` the record is
+        the state at the start.
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the meaning of those in scenes: steps
         end at jumps, and between points inputs are straight. With `input_slopes=False` values are held within a step, as those of
@@ -131,7 +132,7 @@ class Differential(Runner):
 
     def _record(self, inputs, outputs, stop, step, values=None, input_slopes=True):
         """`run` without Python warnings."""
-        stop, step = span("stop", stop), None if step is None else span("step", step)
+        stop, step = duration("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs, input_slopes)
         stops = signals.corners() if step is None else signals.jumps
         return self._simulate(Steps.of(stop, step, stops), signals, outputs, values)

@@ -50,6 +50,14 @@ def span(what: str, time: TimeValue) -> float:
     return time
 
 
+def duration(what: str, time: TimeValue) -> float:
+    """A time of 0 or more, s."""
+    time = seconds(what, time)
+    if time < 0.0:
+        raise DifferentialError(f"{what} = {time!r}: it is 0 or more, s")
+    return time
+
+
 @dataclass(frozen=True)
 class Steps:
     """Communication steps of a run.
@@ -83,7 +91,7 @@ class Steps:
 
 def _regular(stop, step, slack):
     if step is None:
-        return np.array([0.0, stop])
+        return np.unique([0.0, stop])
     if stop / step > MOST_STEPS:
         raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than {MOST_STEPS:g} steps: end earlier, or take "
                                 "longer steps")

@@ -13,7 +13,7 @@ from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
 from .plot import plot
-from .points import Steps, TimeValue, seconds, span
+from .points import Steps, TimeValue, duration, seconds, span
 from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
@@ -40,8 +40,8 @@ class Scene(Runner):
                  display_units: Sequence[str] = (), fmu: FileName | Fmu | None = None):
         super().__init__(Fmu.of(fmu).displaying(display_units))
         self.name, self.description = name, description
-        self.stop, self.step = span("stop_time", stop), span("step", step)
-        if self.step > self.stop:
+        self.stop, self.step = duration("stop_time", stop), span("step", step)
+        if self.step > self.stop > 0.0:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), by_present_names(values)) for time, values in changes]
@@ -128,7 +128,7 @@ class Scene(Runner):
         span_of_time = record["time"][-1] - record["time"][0]
         for name in _outputs(record):
             unit, values = fmu.variable(name).shown(record[name])
-            mean = np.trapezoid(values, record["time"]) / span_of_time
+            mean = np.trapezoid(values, record["time"]) / span_of_time if span_of_time else values[-1]
             lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
         return "\n".join(aligned(lines))
 
@@ -191,7 +191,7 @@ class Scene(Runner):
     def _record(self, outputs=None, values=None, stop=None, step=None):
         """`run` without Python warnings; by steps of `step` in place of the scene's, s."""
         self.check_settable(values or ())
-        stop = self.stop if stop is None else span("stop", stop)
+        stop = self.stop if stop is None else duration("stop", stop)
         steps = Steps.of(stop, step or self.step, self._signals.jumps, exact=True)
         return self._simulate(steps, self._signals, self._named(outputs), values)
 

@@ -171,6 +171,22 @@ impl Simulation {
         self.follow_commands();
     }
 
+    /// Moves to `states`, which differ in positions only, at an event. The energy of this jump is work of the host.
+    pub fn jump_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
+        self.complete_step_to_event()?;
+        let stored = |simulation: &Self, from: &Accepted| {
+            energy(&simulation.model, &simulation.inputs, &from.applied_to(&simulation.state))
+        };
+        let before = self.accepted.map(|from| stored(self, &from));
+        self.set_states(states);
+        if let (Some(before), Some(mut from)) = (before, self.accepted) {
+            from.q = self.state.q;
+            self.state.work += stored(self, &from) - before;
+            self.accepted = Some(from);
+        }
+        Ok(())
+    }
+
     /// Sets imposed motions to their commands.
     pub fn follow_commands(&mut self) {
         imposed::set(&self.model, &self.inputs, &mut self.state);
@@ -236,12 +252,17 @@ impl Simulation {
         next_change(&self.model, &self.state)
     }
 
-    /// An event: commands, friction and teeth change to what is due.
-    pub fn update(&mut self) -> Result<Update, StepFailure> {
-        // events whose time is known come without a step that is completed
+    /// Completes the step up to an event: events whose time is known come without a step that is completed.
+    fn complete_step_to_event(&mut self) -> Result<(), StepFailure> {
         if self.accepted.is_some_and(|from| from.time < self.state.time()) {
             self.complete_step()?;
         }
+        Ok(())
+    }
+
+    /// An event: commands, friction and teeth change to what is due.
+    pub fn update(&mut self) -> Result<Update, StepFailure> {
+        self.complete_step_to_event()?;
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
         let (before, followed) = match &self.accepted {
             Some(from) => (from.applied_to(state), from.followed),

@@ -106,10 +106,13 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     let (scene, wants) = want::parse(scene, &question.wants).map_err(question_error)?;
     let latest = scene.stop_time - LEAST_POINTS * scene.step;
     if !(0.0..=latest).contains(&question.from) {
-        return Err(question_error(format!(
-            "--from {} s: scene {} runs for {} s in steps of {} s; at most {latest} s leaves something to judge",
-            question.from, scene.name, scene.stop_time, scene.step
-        )));
+        let Scene { name, stop_time, step, .. } = &scene;
+        let runs = format!("scene {name} runs for {stop_time} s in steps of {step} s");
+        return Err(question_error(if latest < 0.0 {
+            format!("{runs}, too short to judge; make stop_time longer or step shorter")
+        } else {
+            format!("--from {} s: {runs}; at most {latest} s leaves something to judge", question.from)
+        }));
     }
     progress.warn(SceneRun::start(&scene, scene.step)?.warnings());
     let richest = reference::richest(&scene)?;

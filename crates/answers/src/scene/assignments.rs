@@ -1,7 +1,7 @@
 //! Changes of a scene on the command line, each `name=value`: checked as the values in a file are.
 
 use super::set::{Setting, closest, value, variable};
-use super::times::{check_step, span};
+use super::times::{check_step, duration, span};
 use super::{Scene, former_names};
 use crate::problem::{Problem, Problems};
 
@@ -41,7 +41,7 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
 fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problem> {
     let value = value(text);
     match name {
-        "stop_time" => scene.stop_time = span(name, &value)?,
+        "stop_time" => scene.stop_time = duration(name, &value)?,
         "step" => scene.step = span(name, &value)?,
         _ => {
             if let (Err(_), Some(time)) = (variable(name), closest(name, TIMES.into_iter())) {

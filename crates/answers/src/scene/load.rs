@@ -36,7 +36,7 @@ use toml::{Table, Value};
 
 use super::display_units::DisplayUnits;
 use super::set::{Setting, closest, real, variable, written};
-use super::times::{check_step, seconds, span};
+use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::{Event, InputTable, Scene, former_names, input_file};
 use crate::problem::Problems;
@@ -154,8 +154,9 @@ fn notes(entry: &File) -> Vec<String> {
 
 /// Stop time and communication step [s]; NaN for one that is not valid.
 fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
-    let mut checked = |key: &str, value: &Value| span(key, value).map_err(|problem| problems.push(problem));
-    let (stop_time, step) = (checked("stop_time", &entry.stop_time), checked("step", &entry.step));
+    let mut checked = |length: Result<f64, String>| length.map_err(|problem| problems.push(problem));
+    let stop_time = checked(duration("stop_time", &entry.stop_time));
+    let step = checked(span("step", &entry.step));
     if let (Ok(stop_time), Ok(step)) = (stop_time, step) {
         problems.extend(check_step(step, stop_time).err());
     }

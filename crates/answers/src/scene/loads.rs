@@ -53,7 +53,8 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         bail!("scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load", scene.name);
     }
     let every = every.unwrap_or(scene.step);
-    if !(every > 0.0 && every <= scene.stop_time) {
+    // a scene without any duration has a record of its start
+    if !(every > 0.0 && (every <= scene.stop_time || scene.stop_time == 0.0)) {
         bail!("--every {every} s: must be above 0 and at most the scene's {} s", scene.stop_time);
     }
     let mut run = SceneRun::start(scene, scene.step.min(every))?;

@@ -31,6 +31,10 @@ fn cost(scene: &Scene) -> Option<String> {
     let begun = ThreadTime::now();
     let mut run = SceneRun::start(scene, scene.step).ok()?;
     let started = begun.elapsed();
+    // a scene without any duration shows no cost
+    if run.is_over() {
+        return None;
+    }
     while !run.is_over() && begun.elapsed().as_secs_f64() < PIECE {
         run.advance().ok()?;
     }

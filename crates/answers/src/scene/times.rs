@@ -17,14 +17,23 @@ pub fn seconds(value: &Value) -> Result<f64, String> {
 
 /// Seconds of a length of time: finite and above zero. `key` names it in the error.
 pub fn span(key: &str, value: &Value) -> Result<f64, String> {
-    let message = |what: String| format!("{key} = {}: {what}", written(value));
-    let span = seconds(value).map_err(message)?;
-    if span > 0.0 && span.is_finite() { Ok(span) } else { Err(message("must be above 0 s".into())) }
+    length(key, value, |span| span > 0.0, "must be above 0 s")
 }
 
-/// Whether a communication step fits into the simulated time.
+/// Seconds of a length of time that may be zero. `key` names it in the error.
+pub fn duration(key: &str, value: &Value) -> Result<f64, String> {
+    length(key, value, |duration| duration >= 0.0, "must be 0 s or more")
+}
+
+fn length(key: &str, value: &Value, is_valid: fn(f64) -> bool, rule: &str) -> Result<f64, String> {
+    let message = |what: String| format!("{key} = {}: {what}", written(value));
+    let length = seconds(value).map_err(message)?;
+    if is_valid(length) && length.is_finite() { Ok(length) } else { Err(message(rule.into())) }
+}
+
+/// Checks that a communication step fits into the simulated time. A scene without any duration has no steps.
 pub fn check_step(step: f64, stop_time: f64) -> Result<(), String> {
-    if step > stop_time {
+    if step > stop_time && stop_time > 0.0 {
         return Err(format!("step = {step} s is longer than stop_time = {stop_time} s"));
     }
     Ok(())
@@ -51,5 +60,17 @@ mod tests {
             assert!(span("step", &value).is_err_and(|problem| problem.starts_with("step = ")), "{value:?}");
         }
         assert!(check_step(1.0, 0.5).is_err() && check_step(0.5, 0.5).is_ok());
+    }
+
+    #[test]
+    fn a_duration_may_be_zero_and_then_has_no_steps() {
+        assert_eq!(duration("stop_time", &Value::Integer(0)), Ok(0.0));
+        for value in [Value::Float(-1e-300), Value::Float(f64::INFINITY), Value::String("-1 ms".into())] {
+            assert!(
+                duration("stop_time", &value).is_err_and(|problem| problem.starts_with("stop_time = ")),
+                "{value:?}"
+            );
+        }
+        assert!(check_step(1.0, 0.0).is_ok());
     }
 }

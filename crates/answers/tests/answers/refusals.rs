@@ -45,7 +45,8 @@ fn a_scene_that_is_not_there_or_too_long_is_refused_by_name() {
     assert_eq!(found.problems[0].hint.as_deref(), Some("study_straight"));
     let found = refused(json!({"ask": "plan", "of": about("study_straight", &["stop_time=1e9", "step=1e-9"])}));
     assert!(found.problems[0].message.contains("more than"), "{found:?}");
-    let found = refused(json!({"ask": "plan", "of": about("study_straight", &["geometry.module=1 m", "stop_time=0"])}));
+    let found =
+        refused(json!({"ask": "plan", "of": about("study_straight", &["geometry.module=1 m", "stop_time=-1"])}));
     assert_eq!(found.problems.len(), 2);
     assert_eq!((found.problems[0].variable.as_deref(), found.problems[0].unit), (Some("geometry.module"), Some("m")));
 }

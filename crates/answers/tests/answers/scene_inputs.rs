@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use answers::progress::Progress;
 use answers::scene::run::{SceneRun, run};
-use answers::scene::{Scene, assignments, find, load};
+use answers::scene::{Scene, assignments, find, load, loads};
 use anyhow::Result;
 
 use crate::folder;
@@ -77,6 +77,7 @@ fn wrong_times_are_told_by_key_and_value() {
         (FRAME.replace("100 ms", "100 mm"), "s, ms, us, min"),
         (FRAME.replace("\"1 ms\"", "true"), "step = true: must be a number of seconds, or a text like \"20 ms\""),
         (FRAME.replace("1 ms", "-1 ms"), "step = \"-1 ms\": must be above 0 s"),
+        (FRAME.replace("100 ms", "-1 ms"), "stop_time = \"-1 ms\": must be 0 s or more"),
         (FRAME.replace("1 ms", "1 s"), "step = 1 s is longer than stop_time = 0.1 s"),
         (format!("{FRAME}[[at]]\ntime = \"200 ms\"\n"), "time = 0.2 s is outside the scene's [0, 0.1] s"),
         (format!("{FRAME}[[at]]\ntime = [1]\n"), "[[at]] time = [...]"),
@@ -85,6 +86,23 @@ fn wrong_times_are_told_by_key_and_value() {
         let problem = parsed(&text).err().map(|error| format!("{error:#}")).unwrap_or_default();
         assert!(problem.contains(wanted), "\"{wanted}\" is not in: {problem}");
     }
+}
+
+#[test]
+fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
+    let start = "[set]\nscene.start = \"rolling\"\ncarrier.speed_command = 30.0\n";
+    for frame in [FRAME.replace("100 ms", "0 s"), FRAME.replace("\"100 ms\"", "0")] {
+        let scene = parsed(&format!("{frame}{start}"))?;
+        let mut csv = Vec::new();
+        let outcome = run(&scene, None, Some(&mut csv), &mut Progress::silent())?;
+        let speed = outcome.outputs[0];
+        assert_eq!([speed.min, speed.mean, speed.max, speed.end], [30.0; 4]);
+        assert_eq!(String::from_utf8(csv)?.lines().last(), Some("0,30"));
+        // meshes are preloaded unless the start says otherwise
+        let lines = loads::write(&parsed(&frame)?, None, &mut Vec::new(), &mut Progress::silent())?;
+        assert!(lines > 0, "the loads at the start");
+    }
+    Ok(())
 }
 
 #[test]
@@ -198,7 +216,7 @@ fn wrong_changes_are_told_with_what_was_probably_meant() {
         ("geometry.modul=4 mm", &["geometry.modul", "did you mean geometry.module?"][..]),
         ("stop_tim=1", &["did you mean stop_time?"]),
         ("stop_time=1 m", &["stop_time = \"1 m\"", "s, ms, us, min"]),
-        ("stop_time=0", &["must be above 0 s"]),
+        ("stop_time=-1 ms", &["must be 0 s or more"]),
         ("step=20 s", &["step = 20 s is longer than stop_time = 10 s"]),
         ("geometry.module=4 kg", &["units that do: m, mm, um"]),
         ("geometry.module=4", &["did you mean 4 mm"]),

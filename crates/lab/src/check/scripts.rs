@@ -194,7 +194,11 @@ pub const HOSTS: Script = Script {
             flag("with-fmi-sim", "Also run hosts in Rust: fmi-sim, fmi-rs and fmu-runner (builds for many minutes)"),
         ]
     },
-    needs: Needs::Own(["tests/hosts", "hosts/venv", "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox"]),
+    needs: Needs::Own([
+        "tests/hosts",
+        "hosts/venv",
+        "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox, CasADi",
+    ]),
     file: "crates/lab/python/hosts.py",
     doing: "running hosts",
     folder: Some("hosts"),

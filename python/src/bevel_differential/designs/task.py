@@ -42,7 +42,7 @@ class Task:
         self.figures = list(dict.fromkeys([*self.wants, *(condition.want for condition in self.conditions)]))
         if not self.figures:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
-        if not 0.0 <= start < scene.stop:
+        if not 0.0 <= start <= scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
         # fewer than two points have no mean and no swing
         if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - SLACK):

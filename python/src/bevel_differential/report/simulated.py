@@ -44,6 +44,9 @@ class Simulated:
     @classmethod
     def of(cls, scene: Scene) -> Self:
         """Simulates a scene as it is written, then with all effects that only add outputs."""
+        if not scene.stop:
+            raise DifferentialError(f"scene {scene.name} has no duration, and a report shows what happens over time: give it a stop_time "
+                                    "above 0 s")
         seconds: list[float] = []
         while not seconds or (len(seconds) < TIMED and sum(seconds) < SHORT):
             begin = time.perf_counter()

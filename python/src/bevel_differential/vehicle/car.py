@@ -9,7 +9,7 @@ import numpy as np
 from ..fmu import Fmu
 from ..instance import Instance
 from ..plot import plot
-from ..points import Steps, TimeValue, span
+from ..points import Steps, TimeValue, duration, span
 from ..values import DifferentialError, FileName, Number, Value, suggestion
 from ..warned import warn
 from .equations import motor_torque
@@ -68,7 +68,7 @@ class Car:
         `request` that it can give at that speed, without a lag. `controller(time, values)` is called before each step with
         what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
         Returns a structured array with a field "time"."""
-        stop, step = span("stop", stop), span("step", step)
+        stop, step = duration("stop", stop), span("step", step)
         self._tell_unset()
         self._check_step(step)
         ask, turn = course("request", request), course("steer", steer)

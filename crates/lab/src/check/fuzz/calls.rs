@@ -5,7 +5,7 @@ use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
-use bevel_differential::variables::guid;
+use bevel_differential::variables::{guid, table};
 
 use super::arguments::{CallResult, Flaws, VariableKind, references, row};
 use super::functions::Function;
@@ -32,6 +32,7 @@ pub fn call(
     let f = &mut Flaws::default();
     let wanted = match function {
         F::fmi2GetReal => VariableKind::Real,
+        F::fmi2SetReal if instance.kind == MODEL_EXCHANGE && r.chance(2) => VariableKind::State,
         F::fmi2SetReal => VariableKind::Settable,
         F::fmi2GetInteger | F::fmi2SetInteger => VariableKind::Integer,
         F::fmi2GetBoolean | F::fmi2SetBoolean => VariableKind::Boolean,
@@ -42,8 +43,13 @@ pub fn call(
     let n = vr.len();
     let (mut numbers, mut integers) = (vec![f64::NAN; n.max(ROOM)], vec![i32::MIN; n.max(1)]);
     let orders: Vec<i32> = vr.iter().map(|_| if r.chance(10) { r.bits() as i32 } else { 1 }).collect();
-    let values: Vec<f64> =
+    let mut values: Vec<f64> =
         vr.iter().map(|&v| row(v).map_or(0.0, |row| r.value_for(row)) * if r.chance(2) { 1.0 } else { 0.9 }).collect();
+    if wanted == VariableKind::State {
+        let x = next_states(instance, r);
+        let states = vr.iter().map(|&v| table().state(v));
+        values.iter_mut().zip(states).for_each(|(value, k)| *value = k.map_or(*value, |k| x[k]));
+    }
     let whole: Vec<i32> = vr.iter().map(|&v| row(v).map_or(0, |row| r.integer_for(row))).collect();
     let needed = n > 0;
     let count = match function {
@@ -87,12 +93,20 @@ pub fn call(
             let defined = [r.below(2), r.below(3) / 2].map(|x| x as i32);
             let start = if r.chance(2) { 0.0 } else { r.real() };
             let (tolerance, stop) = (if r.chance(2) { 1e-5 } else { r.real() }, r.real());
-            CallResult::of(run!(fmi2SetupExperiment(c, defined[0], tolerance, start, defined[1], stop)), f)
+            let status = run!(fmi2SetupExperiment(c, defined[0], tolerance, start, defined[1], stop));
+            if status == Status::Ok {
+                instance.has_announced = defined != [0; 2];
+            }
+            CallResult::of(status, f)
         }
         F::fmi2EnterInitializationMode => CallResult::of(run!(fmi2EnterInitializationMode(c)), f),
         F::fmi2ExitInitializationMode => CallResult::of(run!(fmi2ExitInitializationMode(c)), f),
         F::fmi2Terminate => CallResult::of(run!(fmi2Terminate(c)), f),
-        F::fmi2Reset => CallResult::of(run!(fmi2Reset(c)), f),
+        F::fmi2Reset => {
+            let status = run!(fmi2Reset(c));
+            instance.has_announced &= status != Status::Ok;
+            CallResult::of(status, f)
+        }
         F::fmi2GetReal => {
             let (vr, place) = (read!(vr.as_ptr()), f.place(r, numbers.as_mut_ptr(), needed));
             CallResult::of(run!(fmi2GetReal(c, vr, count, place)), f).with(&numbers[..n])
@@ -191,17 +205,7 @@ pub fn call(
             CallResult::of(run!(fmi2SetTime(c, time)), f)
         }
         F::fmi2SetContinuousStates => {
-            let mut x = [0.0; ROOM];
-            // a step of Euler's from where the instance is, now and then with something wild in it
-            let mut rates = [0.0; STATES];
-            run!(fmi2GetContinuousStates(instance.component, x.as_mut_ptr(), STATES));
-            run!(fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), STATES));
-            instance.take_log();
-            let h = r.pick(&[0.0, 1e-7, 1e-6]);
-            x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
-            if r.chance(8) {
-                x[r.below(STATES)] = r.real();
-            }
+            let x = next_states(instance, r);
             let count = counted(r, f, STATES);
             CallResult::of(run!(fmi2SetContinuousStates(c, f.pointer(r, x.as_ptr(), true), count)), f)
         }
@@ -263,6 +267,23 @@ fn time_of(instance: &FuzzedInstance) -> f64 {
     unsafe { fmi2GetRealStatus(instance.component, LAST_SUCCESSFUL_TIME, &mut now) };
     instance.take_log();
     now
+}
+
+/// A step of Euler's from where the instance is, now and then with something wild in it.
+fn next_states(instance: &FuzzedInstance, r: &mut Random) -> [f64; ROOM] {
+    let (mut x, mut rates) = ([0.0; ROOM], [0.0; STATES]);
+    // SAFETY: a live component and places for all states
+    unsafe {
+        fmi2GetContinuousStates(instance.component, x.as_mut_ptr(), STATES);
+        fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), STATES);
+    }
+    instance.take_log();
+    let h = r.pick(&[0.0, 1e-7, 1e-6]);
+    x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
+    if r.chance(8) {
+        x[r.below(STATES)] = r.real();
+    }
+    x
 }
 
 /// The right count, or seldom one that must be refused and for which there is room nonetheless.

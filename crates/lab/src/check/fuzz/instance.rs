@@ -23,6 +23,8 @@ pub struct FuzzedInstance {
     pub is_filtered: bool,
     /// A state for comparisons, overwritten each time; NULL until it is needed.
     pub comparison_state: FmuState,
+    /// True if a tolerance or a stop time was announced: these outlast restored states.
+    pub has_announced: bool,
     /// Calls refused one after the other.
     pub refused: usize,
 }
@@ -42,6 +44,7 @@ impl FuzzedInstance {
             recorder,
             is_filtered: false,
             comparison_state: ptr::null_mut(),
+            has_announced: false,
             refused: 0,
         })
     }

@@ -84,7 +84,7 @@ fn make_call(
     tally: &mut Tally,
 ) -> Result<(), BrokenPromise> {
     if instance.refused > PATIENCE {
-        instance.refused = 0;
+        (instance.refused, instance.has_announced) = (0, false);
         tally.started_instances += u64::from(scenes::start(instance, r));
         instance.take_log();
     }
@@ -116,6 +116,7 @@ fn make_call(
         })?;
     }
     if let Some(restored) = outcome.restored
+        && !instance.has_announced
         && instance.bytes().is_some_and(|bytes| bytes != restored)
     {
         return Err(broken("the instance is not in the state that was set".into()));
