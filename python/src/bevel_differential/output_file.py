@@ -20,18 +20,6 @@ def checked(file) -> Path | None:
     return file
 
 
-def write_whole(file, text: str) -> None:
-    """Writes a file whole or, where the disk is full, not at all. Raises `DifferentialError`."""
-    file = Path(file)
-    part = file.with_name(f"{file.name}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(file)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise DifferentialError(f"{file}: {error.strerror}; nothing is written") from None
-
-
 def is_parquet(file) -> bool:
     """Whether a table is written as Parquet: its file's ending says so."""
     return file is not None and Path(file).suffix.lower() in (".parquet", ".pq")

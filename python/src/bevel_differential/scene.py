@@ -18,6 +18,7 @@ from .scene_file import find, read_scene
 from .text import aligned
 from .values import DifferentialError, FileName, Number, Value
 from .warned import warn
+from .writing import whole
 
 if TYPE_CHECKING:
     import pandas
@@ -138,7 +139,8 @@ class Scene(Runner):
         fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})
                   for name, unit in units.items()]
         table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
-        require("pyarrow.parquet", "sweep").write_table(table, file)
+        with whole(file) as part:
+            require("pyarrow.parquet", "sweep").write_table(table, part)
         return Path(file)
 
     def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
