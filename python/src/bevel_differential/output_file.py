@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from .values import DifferentialError
+from .writing import try_whole
 
 PICTURES = (".png", ".svg", ".pdf")
 
@@ -17,6 +18,7 @@ def checked(file) -> Path | None:
         raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
     if file.is_dir():
         raise DifferentialError(f"{file}: it is a folder; name a file")
+    try_whole(file)
     return file
 
 

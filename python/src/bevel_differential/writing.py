@@ -51,12 +51,12 @@ def whole(file: FileName, synced: bool = False) -> Iterator[Path]:
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             yield final
             return
-        if there and not os.access(final, os.W_OK):
-            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         part = final.with_name(f".{final.name[:KEPT]}.{secrets.token_hex(4)}.part")
         try:
             # with the permissions of a new file
             part.touch(exist_ok=False)
+            if there and not os.access(final, os.W_OK):
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
             yield part
             if there:
                 part.chmod(stat.S_IMODE(there.st_mode))
@@ -69,6 +69,16 @@ def whole(file: FileName, synced: bool = False) -> Iterator[Path]:
         finally:
             with suppress(OSError):
                 part.unlink(missing_ok=True)
+
+
+class _Tried(Exception):
+    """End of a trial."""
+
+
+def try_whole(file: FileName) -> None:
+    """Raises `OutputError` if `file` cannot be written, as far as a new file in its folder tells. Nothing is left."""
+    with suppress(_Tried), whole(file):
+        raise _Tried
 
 
 @contextmanager
@@ -185,7 +195,8 @@ def _named(file):
     except BrokenPipeError:
         raise
     except OSError as error:
-        raise OutputError(file, error.strerror or str(error)) from None
+        # libraries add their own words to those of the system
+        raise OutputError(file, os.strerror(error.errno) if error.errno else str(error)) from None
 
 
 def _sync(path, mode):

@@ -147,7 +147,10 @@ fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
     let failed = || format!("{} cannot be written", shown(path));
     whole_file::write(path, |part| {
         let mut file = BufWriter::new(File::create(part).with_context(failed)?);
-        let done = write(&mut file)?;
+        let done = write(&mut file).map_err(|error| {
+            let is_of_file = error.chain().any(|cause| cause.is::<std::io::Error>());
+            if is_of_file { error.context(failed()) } else { error }
+        })?;
         file.flush().with_context(failed)?;
         Ok(done)
     })

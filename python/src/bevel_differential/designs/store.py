@@ -93,7 +93,7 @@ class Store:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
             self.finished = self._finished(resume)
-        elif self.folder.exists():
+        elif (self.folder / PLAN).exists():
             self._check_parts(resume)
         if self.finished is None:
             self._begin()
@@ -152,6 +152,8 @@ class Store:
         if not resume:
             raise DifferentialError(f"{self.file}: the file exists and holds the results of this plan; --resume (resume=True) shows "
                                     "them, --force (force=True) starts over")
+        # a process that is killed after its last step leaves them
+        shutil.rmtree(self.folder, ignore_errors=True)
         return table
 
     def _check_parts(self, resume):
@@ -173,7 +175,7 @@ class Store:
                 with whole(self.folder / PLAN, synced=True) as part:
                     part.write_text(json.dumps(self.metadata, indent=1), encoding="utf-8")
         except (OSError, OutputError) as error:
-            raise StoreError(f"{self.folder}: {error.strerror or error}") from None
+            raise StoreError(str(OutputError(self.folder, error.strerror or str(error)))) from None
 
     def _read_parts(self):
         """All parts as one table, in order of run. If a run occurs twice, its last row counts. Parts that are cut off are left out."""

@@ -25,14 +25,13 @@ def run(arguments: argparse.Namespace) -> int:
     changes = once("--set", arguments.set)
     if changes and not arguments.scenes:
         raise DifferentialError("--set changes scenes: name one")
-    with shown(arguments.progress) as progress:
+    with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
         question = {"ask": "pattern", "of": [about(scene, changes) for scene in arguments.scenes]}
         found = ask(question, progress=part(progress, 0.0, 0.9))
-        with in_folder(arguments.out) as folder:
-            for name, content in {**found["files"], "findings.md": found["document"]}.items():
-                write_whole(folder / name, content)
-            progress(0.9, "drawing")
-            style.apply()
-            pictures = draw(folder)
+        for name, content in {**found["files"], "findings.md": found["document"]}.items():
+            write_whole(folder / name, content)
+        progress(0.9, "drawing")
+        style.apply()
+        pictures = draw(folder)
     print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")
     return 0
