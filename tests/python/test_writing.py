@@ -230,3 +230,19 @@ def test_only_the_owner_writes_files():
     found = {file.relative_to(PACKAGE).as_posix(): direct(file.read_text(encoding="utf-8")) for file in sorted(PACKAGE.rglob("*.py"))}
     assert found.pop("writing.py")
     assert {file: lines for file, lines in found.items() if lines} == {}
+
+
+RUST = [file for folder in ("fmu-build/src", "crates/answers/src", "crates/lab/src") for file in sorted((PACKAGE.parents[2] / folder).rglob("*.rs"))]
+# the owner of files, and that of locks; a folder that takes the place of another, and the files that pip and programs of tests wrote
+RUST_OWNERS = {"whole_file.rs", "lock.rs"}
+RUST_OTHERS = {"fs::rename(made, &old)", "fs::rename(&wheel, &target)", "File::create(&file)"}
+
+
+def test_only_the_owner_in_rust_writes_files():
+    found = []
+    for file in RUST:
+        source = file.read_text(encoding="utf-8").partition("#[cfg(test)]\nmod tests")[0]
+        calls = re.findall(r"(?:fs::(?:write|copy|rename)|File::(?:create|create_new|options)|OpenOptions::new)\([^()]*\)?", source)
+        found += [(file.name, call) for call in calls if file.name not in RUST_OWNERS and not re.search(r"\bpart\b", call)
+                  and call not in RUST_OTHERS]
+    assert RUST and not found

@@ -40,11 +40,7 @@ impl EvidenceCommand {
         let _alone = Lock::of(&paths::target().join("evidence"))?;
         let made = paths::evidence().with_file_name(".evidence.part");
         let mut command = environment.command();
-        command
-            .arg(paths::workspace().join(SCRIPT))
-            .arg(&fmu)
-            .arg(paths::workspace().join(SCENES))
-            .arg(&made);
+        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::workspace().join(SCENES)).arg(&made);
         let output = script::follow(&mut command, SCRIPT, &progress)?;
         take(&made)?;
         progress.finish();

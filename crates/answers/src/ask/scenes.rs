@@ -148,7 +148,7 @@ fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
     whole_file::write(path, |part| {
         let mut file = BufWriter::new(File::create(part).with_context(failed)?);
         let done = write(&mut file).map_err(|error| {
-            let is_of_file = error.chain().any(|cause| cause.is::<std::io::Error>());
+            let is_of_file = error.chain().any(|cause| cause.is::<std::io::Error>() || cause.is::<csv::Error>());
             if is_of_file { error.context(failed()) } else { error }
         })?;
         file.flush().with_context(failed)?;
