@@ -4,6 +4,7 @@ names the file and the cause."""
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -179,3 +180,14 @@ def test_a_folder_that_may_not_be_written_to(case, disk, inputs, fmu_file, monke
     assert mount("-o", "remount,ro", str(disk))
     before = content(disk)
     judged(case, disk, before, refused(case, inputs, fmu_file, capsys), "Read-only file system")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is full")
+@pytest.mark.parametrize("words", [["plan", "study_straight"], ["plan"], ["geometry", "--out", "{out}"]])
+def test_a_full_disk_under_standard_output(words, fmu_file, tmp_path):
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        words = [word.format(out=tmp_path) for word in words]
+        ran = subprocess.run([sys.executable, "-m", "bevel_differential", *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False,
+                             env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file})
+    lines = [line for line in ran.stderr.splitlines() if not line.startswith("warning: ")]
+    assert lines == ["bevel-differential: standard output: No space left on device"] and ran.returncode == 1

@@ -33,7 +33,7 @@ class OutputError(DifferentialError):
     """Error of a file that cannot be written. `filename` and `strerror` are those of the operating system's error."""
 
     def __init__(self, filename: FileName, strerror: str):
-        super().__init__(f"{filename}: {strerror}; nothing is written to it; make room, or name another place")
+        super().__init__(f"{filename}: {strerror}; nothing is written to it; make room, or name another place", kind="failed")
         self.filename, self.strerror = filename, strerror
 
 
