@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sysconfig
+import tempfile
 from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
@@ -20,7 +21,9 @@ PLATFORMS = "BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS"
 
 
 class FmuHook(BuildHookInterface):
-    """Hatch calls `initialize` before it packs the wheel."""
+    """Hatch calls `initialize` before it packs the wheel. `parts`: a folder with what the package holds beside Python's files."""
+
+    parts = None
 
     def initialize(self, version, build_data):
         root = Path(self.root)
@@ -35,12 +38,19 @@ class FmuHook(BuildHookInterface):
         cargo = shutil.which("cargo")
         if cargo is None:
             raise SystemExit(NEEDED.format(what="cargo is not on the search path"))
-        parts = root.parent / "target" / "wheel" / "parts"
-        command = [cargo, "run", "--release", "--locked", "--", "wheel", "--platforms", "this-machine", "--parts", str(parts)]
+        # of this build: another one may run at the same time
+        self.parts = tempfile.mkdtemp(prefix="bevel-differential-")
+        command = [cargo, "run", "--release", "--locked", "--", "wheel", "--platforms", "this-machine", "--parts", self.parts]
         if subprocess.run(command, cwd=root.parent, check=False).returncode:
+            shutil.rmtree(self.parts)
             raise SystemExit(NEEDED.format(what="the build above failed"))
-        build_data["force_include"][str(parts)] = "bevel_differential"
+        build_data["force_include"][self.parts] = "bevel_differential"
         name(build_data, "this-machine")
+
+    def finalize(self, version, build_data, artifact_path):
+        """Hatch calls it when the wheel is packed."""
+        if self.parts:
+            shutil.rmtree(self.parts)
 
 
 def name(build_data, platforms):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from bevel_differential import DifferentialError, Scene, extras, shipped_scenes
+from bevel_differential import Scene, extras, shipped_scenes
 from bevel_differential.command import main
 from bevel_differential.report import runup
 from bevel_differential.report.simulated import ONLY_GIVE_OUTPUTS
@@ -123,19 +123,3 @@ def test_a_missing_package_is_said_with_its_extra(monkeypatch):
         monkeypatch.setattr(extras.importlib, "import_module", missing)
         with pytest.raises(extras.DifferentialError, match=r"matplotlib.*extra report"):
             write(scene, "report.html")
-
-
-def test_a_full_disk_leaves_no_half_report(tmp_path, monkeypatch):
-    from bevel_differential.output_file import write_whole
-
-    def full(self, *_, **__):
-        self.touch()
-        raise OSError(28, "No space left on device")
-
-    (tmp_path / "report.html").write_text("the one before", encoding="utf-8")
-    monkeypatch.setattr(type(tmp_path), "write_text", full)
-    with pytest.raises(DifferentialError, match="report.html: No space left on device; nothing is written"):
-        write_whole(tmp_path / "report.html", "half")
-    monkeypatch.undo()
-    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
-    assert (tmp_path / "report.html").read_text(encoding="utf-8") == "the one before"

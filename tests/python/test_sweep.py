@@ -300,6 +300,34 @@ def test_a_disk_that_fills_on_the_way_keeps_the_parts_before(scene, tmp_path, mo
     assert rest.new == 13 and rest.digest() == sweep(scene, **few()).digest()
 
 
+def test_a_part_that_is_cut_off_is_left_out_and_its_runs_are_repeated(scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(store, "INTERVAL", 0.0)
+    evaluate, done = Task.evaluate, []
+
+    def stopping(task, run, values):
+        if len(done) == 7:
+            raise KeyboardInterrupt
+        done.append(run)
+        return evaluate(task, run, values)
+
+    monkeypatch.setattr(Task, "evaluate", stopping)
+    file = tmp_path / "found.parquet"
+    with pytest.raises(Stopped):
+        sweep(scene, **few(), out=file)
+    monkeypatch.undo()
+    for part, length in zip(sorted(file.with_name("found.parquet.parts").glob("part-*")), (0, 5, 300)):
+        part.write_bytes(part.read_bytes()[:length])
+    with pytest.warns(match="part-000002.*: it is incomplete; its runs are repeated"):
+        rest = sweep(scene, **few(), out=file, resume=True)
+    assert rest.new == 13 + 3 and rest.digest() == sweep(scene, **few()).digest()
+
+
+def test_a_folder_of_parts_without_its_plan_is_begun_again(scene, tmp_path):
+    # a full disk or a killed process leaves one
+    (tmp_path / "found.parquet.parts").mkdir()
+    assert sweep(scene, **few(), out=tmp_path / "found.parquet").new == 20
+
+
 def test_plan_json_of_the_parts_is_the_metadata(scene, tmp_path, monkeypatch):
     monkeypatch.setattr(Task, "evaluate", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
     with pytest.raises(Stopped, match="0 of 20"):

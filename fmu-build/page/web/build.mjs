@@ -1,5 +1,5 @@
 // Builds the page, one HTML file: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html
-import { existsSync, readFileSync, renameSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -48,9 +48,7 @@ async function main([library, data, out]) {
     program: packed(outputFiles[0].text),
   };
   const page = own("index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
-  // whole or not at all: others may look for it meanwhile
-  writeFileSync(`${out}.part`, page);
-  renameSync(`${out}.part`, out);
+  writeFileSync(out, page);
   const bytes = Buffer.byteLength(page);
   const sizes = Object.entries(parts).map(([name, text]) => `${name} ${Math.round(Buffer.byteLength(text) / 1e3)}`);
   console.log(`${out}: ${Math.round(bytes / 1e3)} kB (${sizes.join(", ")})`);

@@ -14,6 +14,7 @@ use clap::Args;
 
 use crate::fmu::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use crate::fmu::effect_list;
+use crate::tools::files::write_whole;
 use crate::tools::paths;
 use answers::text::xml::Element;
 
@@ -160,11 +161,7 @@ pub(super) fn default_experiment() -> Element {
 
 /// Writes the model description to `file`.
 pub fn write(file: &Path) -> Result<()> {
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    fs::write(file, model_description(Choices::Enumerations)?)
-        .with_context(|| format!("{} cannot be written", file.display()))
+    write_whole(file, model_description(Choices::Enumerations)?.as_bytes())
 }
 
 /// Element for co-simulation or model exchange: the attributes that only this kind has, then those of both kinds.

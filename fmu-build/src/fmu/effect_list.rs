@@ -1,16 +1,15 @@
 //! The effects as documents and scripts read them: tables for README.md and docs/effects.md, and a list in JSON beside the
 //! FMU. All of it follows from the effects' own declarations.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bevel_differential::model::{EFFECTS, InputField, effects};
 use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use serde_json::{Value, json};
 
 use crate::fmu::documentation::start;
-use crate::tools::paths;
+use crate::tools::files::write_whole;
 use crate::tools::sections;
 use answers::text::table::Table;
 
@@ -46,9 +45,7 @@ pub fn stale() -> Result<Option<&'static str>> {
 /// Writes the list of effects in JSON beside the FMU, for scripts.
 pub fn write_json(fmu: &Path) -> Result<()> {
     let list: Vec<Value> = EFFECTS.iter().map(described).collect();
-    let file = fmu.with_file_name("effects.json");
-    fs::write(&file, serde_json::to_string_pretty(&list)?)
-        .with_context(|| format!("{} cannot be written", paths::shown(&file)))
+    write_whole(&fmu.with_file_name("effects.json"), serde_json::to_string_pretty(&list)?.as_bytes())
 }
 
 fn described(effect: &EffectEntry) -> Value {

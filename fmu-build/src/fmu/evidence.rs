@@ -2,12 +2,14 @@
 //! makes them; packaging copies them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result};
 use clap::Args;
 
 use crate::fmu::package;
+use crate::tools::files::remove_folder;
+use crate::tools::lock::Lock;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script};
@@ -35,13 +37,12 @@ impl EvidenceCommand {
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         progress.begin_bar("simulating");
+        let _alone = Lock::of(&paths::target().join("evidence"))?;
+        let made = paths::evidence().with_file_name(".evidence.part");
         let mut command = environment.command();
-        command
-            .arg(paths::workspace().join(SCRIPT))
-            .arg(&fmu)
-            .arg(paths::workspace().join(SCENES))
-            .arg(paths::evidence());
+        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::workspace().join(SCENES)).arg(&made);
         let output = script::follow(&mut command, SCRIPT, &progress)?;
+        take(&made)?;
         progress.finish();
         print!("{output}");
         println!("{} is renewed; the next packaging takes it into the FMU", paths::shown(&paths::evidence()));
@@ -49,10 +50,21 @@ impl EvidenceCommand {
     }
 }
 
-/// Paths in the archive and the files for them, in a fixed order. None without the folder: the FMU that makes the first evidence
-/// carries none.
-pub fn files() -> Result<Vec<(String, PathBuf)>> {
-    let root = paths::evidence();
+/// The lock of the evidence in the repository, held while it is replaced or read.
+fn lock() -> Result<Lock> {
+    Lock::of(&paths::target().join("evidence-files"))
+}
+
+/// Puts the folder `made` in the place of the evidence in the repository.
+fn take(made: &Path) -> Result<()> {
+    let (_alone, old) = (lock()?, paths::evidence());
+    remove_folder(&old)?;
+    fs::rename(made, &old).with_context(|| format!("{} cannot be written", paths::shown(&old)))
+}
+
+/// Paths in the archive and contents, in a fixed order. None without the folder: the FMU that makes the first evidence carries none.
+pub fn files() -> Result<Vec<(String, Vec<u8>)>> {
+    let (_alone, root) = (lock()?, paths::evidence());
     let mut found = Vec::new();
     if root.is_dir() {
         collect(&root, IN_ARCHIVE, &mut found)?;
@@ -61,21 +73,20 @@ pub fn files() -> Result<Vec<(String, PathBuf)>> {
     Ok(found)
 }
 
-/// Contents of `DOCUMENT`, if there is evidence.
-pub fn document() -> Result<Option<Vec<u8>>> {
-    let file = paths::evidence().join(REQUIREMENTS);
-    let read = || fs::read(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)));
-    file.is_file().then(read).transpose()
+/// Contents of `DOCUMENT`, if there are these files of evidence.
+pub fn document(files: &[(String, Vec<u8>)]) -> Option<&[u8]> {
+    let path = format!("{IN_ARCHIVE}/{REQUIREMENTS}");
+    files.iter().find(|(of, _)| *of == path).map(|(_, content)| &content[..])
 }
 
-fn collect(folder: &Path, in_archive: &str, found: &mut Vec<(String, PathBuf)>) -> Result<()> {
+fn collect(folder: &Path, in_archive: &str, found: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
     for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", paths::shown(folder)))? {
         let entry = entry?.path();
         let name = format!("{in_archive}/{}", entry.file_name().unwrap_or_default().to_string_lossy());
         if entry.is_dir() {
             collect(&entry, &name, found)?;
         } else {
-            found.push((name, entry));
+            found.push((name, fs::read(&entry).with_context(|| format!("{} cannot be read", paths::shown(&entry)))?));
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ use std::time::SystemTime;
 use anyhow::{Context, Result, ensure};
 
 use crate::fmu::libraries::{CRATES, folders};
-use crate::tools::files::write_whole;
+use crate::tools::files::make_whole;
 use crate::tools::paths;
 
 /// Separators in a folder that is looked for: `/src` may be the middle of any path, and tells nothing of a machine.
@@ -52,10 +52,10 @@ fn cleaned(library: &Path) -> Result<PathBuf> {
     }
     let folder = paths::target().join("cross").join("this-machine");
     let copy = folder.join(library.file_name().unwrap_or_default());
-    write_whole(&copy, &content)?;
-    if cfg!(target_os = "macos") {
-        sign(&copy)?;
-    }
+    make_whole(&copy, |part| {
+        fs::write(part, &content).with_context(|| format!("{} cannot be written", paths::shown(&copy)))?;
+        if cfg!(target_os = "macos") { sign(part) } else { Ok(()) }
+    })?;
     Ok(copy)
 }
 

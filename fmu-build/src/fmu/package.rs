@@ -150,8 +150,9 @@ fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
     add("modelDescription.xml", version.description()?.as_bytes(), PLAIN)?;
     add(terminals::FILE, terminals::text()?.as_bytes(), PLAIN)?;
-    for (path, file) in evidence::files()? {
-        add(&path, &read(&file)?, PLAIN)?;
+    let evidence = evidence::files()?;
+    for (path, content) in &evidence {
+        add(path, content, PLAIN)?;
     }
     for library in libraries {
         for (platform, file) in version.binaries(library) {
@@ -159,13 +160,12 @@ fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing
         }
     }
     let licences = licences::collected(CRATES[0], libraries)?;
-    let tests = evidence::document()?;
-    let beside =
-        documentation::Beside { live: page.map(|_| page::FILE), tests: tests.as_ref().map(|_| evidence::DOCUMENT) };
+    let tests = evidence::document(&evidence);
+    let beside = documentation::Beside { live: page.map(|_| page::FILE), tests: tests.map(|_| evidence::DOCUMENT) };
     let index = documentation::page(libraries, &licences.linked, &beside)?;
     add("documentation/index.html", index.as_bytes(), PLAIN)?;
     if let Some(tests) = tests {
-        add(&format!("documentation/{}", evidence::DOCUMENT), &tests, PLAIN)?;
+        add(&format!("documentation/{}", evidence::DOCUMENT), tests, PLAIN)?;
     }
     if let Some(page) = page {
         add(&format!("documentation/{}", page::FILE), page, PLAIN)?;

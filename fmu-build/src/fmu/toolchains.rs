@@ -11,6 +11,8 @@ use anyhow::{Context, Result, bail};
 use bevel_differential::variables;
 use clap::Args;
 
+use crate::tools::files::write_whole;
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::Wanted;
@@ -136,6 +138,11 @@ impl DebianToolchain {
             return Ok(unpacked);
         }
         let unpacked = self.folder();
+        let _alone = Lock::of(&unpacked.0)?;
+        // while this run waited, another one may have installed it
+        if let Some(unpacked) = self.found() {
+            return Ok(unpacked);
+        }
         progress.stage(&format!("unpacking {}", self.what));
         let output = Command::new("bash")
             .arg(script(self.name))
@@ -148,7 +155,7 @@ impl DebianToolchain {
             let messages = String::from_utf8_lossy(&output.stderr);
             bail!("the tool chain {} cannot be installed: {}", self.name, messages.trim_end());
         }
-        fs::write(unpacked.stamp(), self.wanted_stamp()?)?;
+        write_whole(&unpacked.stamp(), self.wanted_stamp()?.as_bytes())?;
         Ok(unpacked)
     }
 

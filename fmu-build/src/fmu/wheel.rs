@@ -12,7 +12,8 @@ use crate::fmu::licences;
 use crate::fmu::package::{self, Packing};
 use crate::fmu::page;
 use crate::fmu::platforms::{self, Platform};
-use crate::tools::files::{copy_file, copy_folder, write_whole};
+use crate::tools::files::{copy_file, copy_folder, remove_folder, write_whole};
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{self, Environment};
@@ -44,9 +45,10 @@ impl WheelCommand {
     /// Builds the wheel and prints where it is and what it is for.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("building the library");
+        let _alone = Lock::of(&paths::wheel())?;
         let libraries = platforms::build(&self.platforms)?;
         if let Some(folder) = &self.parts {
-            remove(folder)?;
+            remove_folder(folder)?;
             paths::create_folder(folder)?;
             write_parts(&libraries, Packing::Quick, folder)?;
             progress.finish();
@@ -74,8 +76,8 @@ impl WheelCommand {
 /// Builds the wheel around `libraries` in `folder` and returns its path.
 pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) -> Result<PathBuf> {
     let (source, built) = (folder.join("source"), folder.join("built"));
-    remove(&source)?;
-    remove(&built)?;
+    remove_folder(&source)?;
+    remove_folder(&built)?;
     stage(libraries, &source)?;
     let platforms: Vec<&str> = libraries.iter().map(|library| library.in_wheels).collect();
     let mut pip = environment.command();
@@ -91,13 +93,6 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
     let target = folder.join(wheel.file_name().unwrap_or_default());
     fs::rename(&wheel, &target).with_context(|| format!("{} cannot be written", paths::shown(&target)))?;
     Ok(target)
-}
-
-fn remove(folder: &Path) -> Result<()> {
-    if folder.exists() {
-        fs::remove_dir_all(folder).with_context(|| format!("{} cannot be removed", paths::shown(folder)))?;
-    }
-    Ok(())
 }
 
 /// Copies into `source` what the wheel is built from, so that nothing is written where the sources are.

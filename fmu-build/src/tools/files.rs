@@ -5,6 +5,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
+use answers::text::whole_file;
+
 use crate::tools::paths;
 
 /// Copies all files below `from` to `to`, but for folders called `without`.
@@ -23,15 +25,30 @@ pub fn copy_folder(from: &Path, to: &Path, without: &str) -> Result<()> {
 
 /// Writes a file that is complete or not there, as others may write it at the same time.
 pub fn write_whole(file: &Path, content: &[u8]) -> Result<()> {
+    make_whole(file, |part| {
+        fs::write(part, content).with_context(|| format!("{} cannot be written", paths::shown(file)))
+    })
+}
+
+/// The same of a file that `make` writes to the path that it gets.
+pub fn make_whole(file: &Path, make: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     paths::create_folder(file.parent().unwrap_or(Path::new(".")))?;
-    let partial = file.with_extension(format!("{}.part", std::process::id()));
-    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, file));
-    written.with_context(|| format!("{} cannot be written", paths::shown(file)))
+    whole_file::write(file, make)
+}
+
+/// Removes a folder with all that is in it, if it exists.
+pub fn remove_folder(folder: &Path) -> Result<()> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).with_context(|| format!("{} cannot be removed", paths::shown(folder)))?;
+    }
+    Ok(())
 }
 
 /// Copies a file into a folder, which is made.
 pub fn copy_file(file: &Path, folder: &Path) -> Result<()> {
     paths::create_folder(folder)?;
     let target = folder.join(file.file_name().unwrap_or_default());
-    fs::copy(file, target).with_context(|| format!("{} cannot be copied", paths::shown(file))).map(drop)
+    make_whole(&target, |part| {
+        fs::copy(file, part).with_context(|| format!("{} cannot be copied", paths::shown(file))).map(drop)
+    })
 }

@@ -2,6 +2,7 @@
 //! nothing here uses another module.
 
 pub mod files;
+pub mod lock;
 pub mod paths;
 pub mod program;
 pub mod progress;

@@ -3,13 +3,15 @@
 
 use std::env;
 use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 use bevel_differential::variables;
 
+use crate::tools::files::{make_whole, write_whole};
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 
 /// Oldest Python that the pinned numpy and matplotlib support.
@@ -95,13 +97,10 @@ impl Environment {
 
     /// This environment, worked on by `make` unless it has one of the stamps that are `enough`; then it gets `stamp`.
     fn made(self, enough: &[&str], stamp: &str, make: impl FnOnce(&Self) -> Result<()>) -> Result<Self> {
-        fs::create_dir_all(self.folder.parent().unwrap_or(&self.folder))?;
-        // released when the file is closed, be it by a crash
-        let lock = File::create(self.folder.with_extension("lock")).context("the environment cannot be locked")?;
-        lock.lock().context("the environment cannot be locked")?;
+        let _alone = Lock::of(&self.folder)?;
         if !enough.iter().any(|stamp| self.has(stamp)) {
             make(&self)?;
-            fs::write(self.stamp(), stamp)?;
+            write_whole(&self.stamp(), stamp.as_bytes())?;
         }
         Ok(self)
     }
@@ -193,13 +192,16 @@ impl Environment {
             source.display().to_string()
         );
         let program = self.programs().join(if cfg!(windows) { "bevel-differential.py" } else { "bevel-differential" });
-        let failed = || format!("{} cannot be written", paths::shown(&program));
-        fs::write(&program, text).with_context(failed)?;
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).with_context(failed)?;
-        }
+        make_whole(&program, |part| {
+            fs::write(part, text)?;
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::PermissionsExt as _;
+                fs::set_permissions(part, fs::Permissions::from_mode(0o755))?;
+            }
+            Ok(())
+        })
+        .with_context(|| format!("{} cannot be written", paths::shown(&program)))?;
         Ok(program)
     }
 

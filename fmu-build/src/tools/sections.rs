@@ -5,6 +5,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
+use crate::tools::files::{copy_file, write_whole};
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 
 /// Whether a document has `text` between the lines `marks`.
@@ -16,22 +18,23 @@ pub fn is_current(document: &str, marks: [&str; 2], text: &str) -> Result<bool> 
 
 /// Puts `text` between the two lines `marks` of `document`, a path in the workspace.
 pub fn renew(document: &str, marks: [&str; 2], text: &str) -> Result<()> {
+    // another run may renew another section
+    let _alone = Lock::of(&paths::target().join("documents"))?;
     let file = paths::workspace().join(document);
     let old = fs::read_to_string(&file).with_context(|| format!("{document} cannot be read"))?;
     let renewed = replaced(&old, marks, text).with_context(|| {
         format!("{document} has no marked section; add the lines \"{}\" and \"{}\"", marks[0], marks[1])
     })?;
-    fs::write(&file, renewed).with_context(|| format!("{document} cannot be written"))
+    write_whole(&file, renewed.as_bytes())
 }
 
 /// Copies the pictures of `folder` to docs/figures.
 pub fn copy_pictures(folder: &Path) -> Result<()> {
     let figures = paths::workspace().join("docs").join("figures");
-    paths::create_folder(&figures)?;
     for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", paths::shown(folder)))? {
         let path = entry?.path();
-        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
-            fs::copy(&path, figures.join(name)).with_context(|| format!("{} cannot be copied", paths::shown(&path)))?;
+        if path.extension().is_some_and(|ending| ending == "png") {
+            copy_file(&path, &figures)?;
         }
     }
     Ok(())

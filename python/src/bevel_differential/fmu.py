@@ -4,6 +4,7 @@ import atexit
 import hashlib
 import os
 import shutil
+import tempfile
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
@@ -20,6 +21,8 @@ _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
+
+NO_FMU = "{}: not an FMU ({}); name a file that ends with .fmu"
 
 
 class _ByName(dict[str, Variable]):
@@ -47,7 +50,7 @@ class Fmu:
 
     def __init__(self, file: FileName):
         self.file = Path(file)
-        self.folder = str(file) if self.file.is_dir() else extract(str(file))
+        self.folder = str(file) if self.file.is_dir() else extracted(file)
         if not self.file.is_dir():
             _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
@@ -74,8 +77,8 @@ class Fmu:
                     raise DifferentialError(f"{file}: there is no such FMU")
                 try:
                     _shared[key] = cls(file)
-                except (BadZipFile, OSError) as error:
-                    raise DifferentialError(f"{file}: not an FMU ({error}); name a file that ends with .fmu") from None
+                except OSError as error:
+                    raise DifferentialError(NO_FMU.format(file, error)) from None
             return _shared[key]
 
     @classmethod
@@ -166,6 +169,24 @@ class Fmu:
 
         A `with` statement frees the instance at its end."""
         return Instance(self, kind, name)
+
+
+def extracted(file: FileName) -> str:
+    """A new temporary folder with the contents of the archive `file`."""
+    folder = None
+    try:
+        folder = tempfile.mkdtemp()
+        extract(str(file), folder)
+        return folder
+    except BaseException as error:
+        if folder:
+            shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, BadZipFile) or isinstance(error, OSError) and error.filename == str(file):
+            raise DifferentialError(NO_FMU.format(file, error)) from None
+        if isinstance(error, OSError):
+            raise DifferentialError(f"{file}: it cannot be unpacked into {folder or 'a temporary folder'}: {error.strerror or error}; make "
+                                    "room there, or name another place by the environment variable TMPDIR") from None
+        raise
 
 
 def usual() -> FileName:

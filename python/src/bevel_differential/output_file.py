@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from .values import DifferentialError
+from .writing import try_whole
 
 PICTURES = (".png", ".svg", ".pdf")
 
@@ -17,19 +18,8 @@ def checked(file) -> Path | None:
         raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
     if file.is_dir():
         raise DifferentialError(f"{file}: it is a folder; name a file")
+    try_whole(file)
     return file
-
-
-def write_whole(file, text: str) -> None:
-    """Writes a file whole or, where the disk is full, not at all. Raises `DifferentialError`."""
-    file = Path(file)
-    part = file.with_name(f"{file.name}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(file)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise DifferentialError(f"{file}: {error.strerror}; nothing is written") from None
 
 
 def is_parquet(file) -> bool:

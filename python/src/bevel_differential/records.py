@@ -8,6 +8,7 @@ from typing import Any
 from .extras import require
 from .output_file import is_parquet
 from .values import FileName
+from .writing import whole
 
 
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
@@ -16,9 +17,10 @@ def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *c
         pa = require("pyarrow", "sweep")
         columns = dict(zip(head, map(list, zip(*rows))))
         table = pa.table({name: [None if cell == "" else cell for cell in cells] for name, cells in columns.items()})
-        require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), file)
+        with whole(file) as part:
+            require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), part)
         return Path(file)
-    with open(file, "w", newline="", encoding="utf-8") as out:
+    with whole(file) as part, open(part, "w", newline="", encoding="utf-8") as out:
         out.writelines(f"# {comment}\n" for comment in comments)
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(head)

@@ -19,6 +19,7 @@ from .scene_file import find, read_scene
 from .text import aligned
 from .values import DifferentialError, FileName, Number, Value
 from .warned import warn
+from .writing import whole
 
 if TYPE_CHECKING:
     import pandas
@@ -159,7 +160,8 @@ class Scene(Runner):
         fields = [pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": unit})
                   for name, unit, column in zip(head, units, columns)]
         table = pa.table([np.ascontiguousarray(column) for column in columns], pa.schema(fields))
-        require("pyarrow.parquet", "sweep").write_table(table, file)
+        with whole(file) as part:
+            require("pyarrow.parquet", "sweep").write_table(table, part)
         return Path(file)
 
     def plot(self, record: np.ndarray, file: FileName | None = None, display_units: Sequence[str] = ()) -> "Figure":

@@ -4,7 +4,9 @@
 label is "quantity, unit". Every picture ends with a caption that says what to see.
 """
 
+import io
 import textwrap
+from pathlib import Path
 
 import matplotlib
 from cycler import cycler
@@ -12,6 +14,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from .values import DifferentialError
+from .writing import write_whole
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
 PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
@@ -76,12 +79,16 @@ def note(axes, x, y, text, **options):
 def save(picture, path, shaded=False):
     """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
     `shaded` surfaces keep all."""
+    kind = Path(path).suffix.lower().removeprefix(".")
+    # a full disk would leave libraries in the middle of their own files
+    drawn = io.BytesIO()
     try:
-        picture.savefig(path)
-    except (OSError, ValueError) as error:
+        picture.savefig(drawn, format=kind)
+    except ValueError as error:
         raise DifferentialError(f"{path}: {error}") from None
-    if shaded or not str(path).lower().endswith(".png"):
-        return
-    with Image.open(path) as drawn:
-        few = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+    if not shaded and kind == "png":
+        with Image.open(drawn) as image:
+            few = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+        drawn = io.BytesIO()
+        few.save(drawn, format=kind, optimize=True)
+    write_whole(path, drawn.getvalue())

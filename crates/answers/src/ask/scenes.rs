@@ -16,7 +16,7 @@ use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
 use crate::scene::{self, Scene, former_names, loads, plan, script, ssv};
-use crate::text::shown;
+use crate::text::{shown, whole_file};
 
 /// All scenes of a folder.
 #[derive(Deserialize)]
@@ -143,21 +143,18 @@ impl RunQuestion {
     }
 }
 
-/// What `write` returns, after its file is at `path`. Where it fails nothing is left of the file.
+/// What `write` returns, after its file is at `path`.
 fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     let failed = || format!("{} cannot be written", shown(path));
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let mut file = BufWriter::new(File::create(&part).with_context(failed)?);
-    let done = write(&mut file).and_then(|done| {
+    whole_file::write(path, |part| {
+        let mut file = BufWriter::new(File::create(part).with_context(failed)?);
+        let done = write(&mut file).map_err(|error| {
+            let is_of_file = error.chain().any(|cause| cause.is::<std::io::Error>() || cause.is::<csv::Error>());
+            if is_of_file { error.context(failed()) } else { error }
+        })?;
         file.flush().with_context(failed)?;
-        std::fs::rename(&part, path).with_context(failed)?;
         Ok(done)
-    });
-    if done.is_err() {
-        let _ = std::fs::remove_file(&part);
-    }
-    done
+    })
 }
 
 impl PatternQuestion {

@@ -1,8 +1,9 @@
-//! Text that answers are given in: tables, numbers, CSV, XML.
+//! Text that answers are given in: tables, numbers, CSV, XML, and files of them.
 
 pub mod csv_file;
 pub mod numbers;
 pub mod table;
+pub mod whole_file;
 pub mod xml;
 
 use std::env;

@@ -14,6 +14,7 @@ use crate::tools::script::environment;
 use answers::text::table::Table;
 use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
+use fmu_build::tools::lock::Lock;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
@@ -52,6 +53,7 @@ impl TestPageCommand {
         let fmu = package::package()?;
         progress.stage("testing the page");
         let checked = paths::target().join("browser").join("checked.csv");
+        let _alone = Lock::of(&paths::target().join("browser"))?;
         let mut pytest = environment.command();
         pytest
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "--tb=short", "--table"])

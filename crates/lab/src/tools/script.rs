@@ -9,6 +9,8 @@ use answers::text::table::for_terminal;
 use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, value_parser};
 use fmu_build::fmu::{libraries, package, plain_types};
+use fmu_build::tools::files::write_whole;
+use fmu_build::tools::lock::Lock;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::{Environment, Wanted};
 use fmu_build::tools::{paths, script, sections};
@@ -152,6 +154,7 @@ impl Script {
             Needs::Tests => Environment::complete(report)?,
             Needs::Own(own) => environment(own, report)?,
         };
+        let _alone = folder.map(Lock::of).transpose()?;
         let arguments = prepare(&progress)?;
         if let Some(folder) = folder {
             paths::create_folder(folder)?;
@@ -196,8 +199,7 @@ impl Script {
                 _ => fs::read_to_string(folder.join(file)).with_context(|| format!("{file} cannot be read"))?,
             };
             match name {
-                "" => fs::write(paths::workspace().join(document), text)
-                    .with_context(|| format!("{document} cannot be written"))?,
+                "" => write_whole(&paths::workspace().join(document), text.as_bytes())?,
                 _ => sections::renew(
                     document,
                     [&format!("<!-- {name}:begin -->"), &format!("<!-- {name}:end -->")],

@@ -13,7 +13,8 @@ use clap::Args;
 
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::fmu::wasm::WasmCrate;
-use crate::tools::files::copy_folder;
+use crate::tools::files::{copy_folder, make_whole, write_whole};
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{Environment, finish};
@@ -57,6 +58,7 @@ impl PageCommand {
             bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
         }
         let progress = Progress::start("building the library for browsers");
+        let _alone = Lock::of(&paths::page())?;
         let library = library(&tools, if self.quick { QUICK } else { FOR_USERS })?;
         progress.stage("bundling the page");
         let page = bundle(&library)?;
@@ -80,14 +82,16 @@ fn bundle(library: &Path) -> Result<PathBuf> {
     copy_folder(&paths::workspace().join("fmu-build").join("page").join("web"), &web, "node_modules")?;
     let packed = packed(library, &folder)?;
     let data = folder.join("data.json");
-    fs::write(&data, serde_json::to_vec(&data::data()?)?).context("data.json cannot be written")?;
+    write_whole(&data, &serde_json::to_vec(&data::data()?)?)?;
     let mut npm = Command::new("npm");
     npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
     finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
     let page = folder.join(FILE);
-    let mut node = Command::new("node");
-    node.current_dir(&web).arg("build.mjs").args([&packed, &data, &page]);
-    finish(&mut node, "the page cannot be bundled")?;
+    make_whole(&page, |part| {
+        let mut node = Command::new("node");
+        node.current_dir(&web).arg("build.mjs").args([&packed, &data, part]);
+        finish(&mut node, "the page cannot be bundled")
+    })?;
     Ok(page)
 }
 

@@ -16,11 +16,14 @@ pub use translate::File;
 use crate::fmu::package::{Packing, Version};
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::fmu::wasm::WasmCrate;
+use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::python::{Environment, finish};
 
 /// The crate of the library.
 const CRATE: &str = "bevel-differential-sources";
+/// Folder that both versions of FMI are compiled in.
+const FOLDER: &str = "sources";
 /// The stack within the library's memory, twice what any scene of the tests takes [bytes].
 const STACK: &str = "-Clink-arg=-zstack-size=262144";
 /// Parts that both versions of FMI share, in `fmu-build/sources/c`.
@@ -47,13 +50,14 @@ impl Tools {
             Version::Two => ("fmi2", "fmi2Functions.c"),
             Version::Three => ("fmi3", "fmi3Functions.c"),
         };
+        let _alone = Lock::of(&paths::target().join("cross").join(FOLDER))?;
         let library = WasmCrate {
             package: CRATE,
             features: &[feature],
             parts: if packing == Packing::Quick { "16" } else { "1" },
             level: "2",
             options: &[STACK],
-            folder: "sources",
+            folder: FOLDER,
         };
         let library = library.compiled(&self.wasm, "the library for sources in C cannot be built")?;
         let mut files = translate::files(&self.in_c(&library)?)?;

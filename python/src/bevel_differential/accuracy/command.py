@@ -29,6 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..output_file import checked, checked_picture
     from ..progress import shown
     from ..values import DifferentialError
+    from ..writing import write_whole
     from . import accuracy
 
     # before the work, not after it
@@ -48,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:
-            Path(file).write_text(found.answer[key], encoding="utf-8")
+            write_whole(file, found.answer[key])
             print(f"written: {file}")
     if arguments.plot:
         found.plot(arguments.plot)

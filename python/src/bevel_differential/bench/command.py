@@ -1,7 +1,6 @@
 """The command `bench`."""
 
 import argparse
-import shutil
 from pathlib import Path
 
 from ..command.arguments import add_farm, add_fmu, add_set, add_units, farm, once
@@ -23,6 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Runs the tests, prints what to read from them and writes files. Returns 0. Raises `DifferentialError`."""
     from ..extras import require
     from ..values import DifferentialError, suggestion
+    from ..writing import in_folder, write_whole
     from . import TESTS, bench, scene_file
 
     require("matplotlib", "plot")
@@ -31,10 +31,10 @@ def run(arguments: argparse.Namespace) -> int:
             raise DifferentialError(f"there is no test {name!r}{suggestion(name, TESTS)}; known: {', '.join(TESTS)}", kind="use")
     if arguments.scene and len(arguments.test) != 1:
         raise DifferentialError("--scene: name the one test that it is for", kind="use")
-    folder = Path(arguments.out)
-    folder.mkdir(parents=True, exist_ok=True)
     for name in arguments.test or TESTS:
-        says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
-        shutil.copy(arguments.scene or scene_file(name), folder)
-        print(f"{name}: {says} ({folder / name}.png, .csv)")
+        scene = Path(arguments.scene or scene_file(name))
+        with in_folder(arguments.out) as folder:
+            says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
+            write_whole(folder / scene.name, scene.read_bytes())
+        print(f"{name}: {says} ({Path(arguments.out) / name}.png, .csv)")
     return 0

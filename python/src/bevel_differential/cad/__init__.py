@@ -4,11 +4,11 @@
 from collections.abc import Collection
 from importlib.util import find_spec
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 from ..extras import require
 from ..values import FileName
+from ..writing import in_folder, write_whole
 
 GEARS = ("planet", "side_gear")
 PARTS = (*GEARS, "assembly")
@@ -60,8 +60,7 @@ def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), 
             made[f"{part}.{kind}"] = mesh(found["shape"], part, kind)
         elif part in GEARS:
             made[f"{part}.dxf"] = drawing(found["shape"], part)
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, content in made.items():
-        (folder / name).write_bytes(content)
+    with in_folder(folder) as stage:
+        for name, content in made.items():
+            write_whole(stage / name, content)
     return list(made)

@@ -7,6 +7,8 @@ import importlib.util
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
+from io import UnsupportedOperation
 from typing import NoReturn
 
 from ..extras import install, version
@@ -61,17 +63,29 @@ def main(argv: Sequence[str] | None = None) -> int:
         if arguments[0] in ("-V", "--version"):
             print(f"{NAME} {version() or 'of sources that are not installed'}")
             return 0
-        return _run(arguments[0], arguments[1:])
+        status = _run(arguments[0], arguments[1:])
+        # at exit Python would show an error by itself
+        sys.stdout.flush()
+        return status
     except DifferentialError as error:
         return _said(error, WRONG_USE if error.kind == "use" else FAILED)
     except KeyboardInterrupt as interrupt:
         return _said(interrupt if str(interrupt) else "stopped", INTERRUPTED)
     except BrokenPipeError:
-        # whoever read has enough; nothing is left to say, also at exit
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # whoever read has enough; nothing is left to say
+        _discard_output()
         return FAILED
     except OSError as error:
-        return _said(f"{error.filename}: {error.strerror}" if error.filename else error, FAILED)
+        if error.filename is None:
+            # all files that are written have names
+            _discard_output()
+        return _said(f"{error.filename or 'standard output'}: {error.strerror or error}", FAILED)
+
+
+def _discard_output():
+    """What is still to be printed goes nowhere, also at exit."""
+    with suppress(UnsupportedOperation):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(name, arguments):

@@ -1,10 +1,10 @@
 """The command `examples`: files of designs, tolerances and duty cycles, and programs with a car, of which the documents speak."""
 
 import argparse
-import shutil
 from pathlib import Path
 
 from ..values import DifferentialError
+from ..writing import in_folder, write_whole
 
 # folders of examples, and the files of each
 FOLDERS = {"design": ("*.toml", "*.csv"), "vehicle": ("*.py",)}
@@ -23,9 +23,12 @@ def run(arguments: argparse.Namespace) -> int:
     there = [str(copy) for copy in copies.values() if copy.exists()]
     if there:
         raise DifferentialError(f"{', '.join(there)} {'is' if len(there) == 1 else 'are'} there already; name another folder by --out")
-    for file, copy in copies.items():
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        print(f"written: {shutil.copyfile(file, copy)}")
+    with in_folder(out) as stage:
+        for file, copy in copies.items():
+            copied = stage / copy.relative_to(out)
+            copied.parent.mkdir(exist_ok=True)
+            write_whole(copied, file.read_bytes())
+    print("\n".join(f"written: {copy}" for copy in copies.values()))
     return 0
 
 

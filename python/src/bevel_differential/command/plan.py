@@ -1,7 +1,6 @@
 """The command `plan`: what a scene will simulate, and the scene for other hosts."""
 
 import argparse
-from pathlib import Path
 
 from .arguments import add_set, add_units, once
 
@@ -19,6 +18,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Prints the plan and writes files. Returns 0."""
     from ..answers import about, ask
     from ..output_file import checked
+    from ..writing import write_whole
 
     if arguments.scene is None:
         print(listed("plan", arguments))
@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     files = {kind: checked(file) for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)) if file}
     print(ask({"ask": "plan", "of": of})["text"], end="")
     for kind, file in files.items():
-        Path(file).write_text(ask({"ask": "export", "of": of, "format": kind})["text"], encoding="utf-8")
+        write_whole(file, ask({"ask": "export", "of": of, "format": kind})["text"])
         print(f"written: {file}")
     return 0
 

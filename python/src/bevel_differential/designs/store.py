@@ -15,6 +15,8 @@ import pyarrow.parquet as pq
 
 from ..output_file import checked
 from ..values import DifferentialError, FileName
+from ..warned import warn
+from ..writing import OutputError, whole
 from .space import Space
 from .task import Row, Task
 
@@ -91,7 +93,7 @@ class Store:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
             self.finished = self._finished(resume)
-        elif self.folder.exists():
+        elif (self.folder / PLAN).exists():
             self._check_parts(resume)
         if self.finished is None:
             self._begin()
@@ -150,6 +152,8 @@ class Store:
         if not resume:
             raise DifferentialError(f"{self.file}: the file exists and holds the results of this plan; --resume (resume=True) shows "
                                     "them, --force (force=True) starts over")
+        # a process that is killed after its last step leaves them
+        shutil.rmtree(self.folder, ignore_errors=True)
         return table
 
     def _check_parts(self, resume):
@@ -168,42 +172,30 @@ class Store:
         try:
             self.folder.mkdir(exist_ok=True)
             if not (self.folder / PLAN).exists():
-                _replace(self.folder / PLAN, lambda to: to.write_text(json.dumps(self.metadata, indent=1), encoding="utf-8"))
-        except OSError as error:
-            raise StoreError(f"{self.folder}: {error.strerror or error}") from None
+                with whole(self.folder / PLAN, synced=True) as part:
+                    part.write_text(json.dumps(self.metadata, indent=1), encoding="utf-8")
+        except (OSError, OutputError) as error:
+            raise StoreError(str(OutputError(self.folder, error.strerror or str(error)))) from None
 
     def _read_parts(self):
-        """All parts as one table, in order of run. If a run occurs twice, its last row counts."""
-        tables = [pq.read_table(part, schema=self.columns.schema) for part in sorted(self.folder.glob("part-*.parquet"))]
-        table = pa.concat_tables(tables) if tables else self.columns.schema.empty_table()
+        """All parts as one table, in order of run. If a run occurs twice, its last row counts. Parts that are cut off are left out."""
+        tables = [self.columns.schema.empty_table()]
+        for part in sorted(self.folder.glob("part-*.parquet")):
+            try:
+                tables.append(pq.read_table(part, schema=self.columns.schema))
+            except pa.ArrowInvalid:
+                warn([f"{part}: it is incomplete; its runs are repeated"])
+        table = pa.concat_tables(tables)
         places = {run: place for place, run in enumerate(table["run"].to_pylist())}
         return table.take(pa.array([places[run] for run in sorted(places)], pa.int64()))
 
     def _write(self, table, file):
         try:
-            _replace(file, lambda to: pq.write_table(table, to))
-        except OSError as error:
-            raise StoreError(f"{file}: {error.strerror or error}; {self.progress()}, once there is room") from None
+            with whole(file, synced=True) as part:
+                pq.write_table(table, part)
+        except OutputError as error:
+            raise StoreError(f"{file}: {error.strerror}; {self.progress()}, once there is room") from None
 
 
 class StoreError(DifferentialError):
     """Results cannot be written."""
-
-
-def _replace(file, write):
-    """Writes a temporary file, and renames it to `file` once its contents have reached the disk."""
-    temporary = file.with_name(f".{file.name}.{os.getpid()}")
-    try:
-        write(temporary)
-        with open(temporary, "rb+") as written:
-            os.fsync(written.fileno())
-        os.replace(temporary, file)
-        # Windows cannot open a folder to sync it
-        if os.name == "posix":
-            folder = os.open(file.parent, os.O_RDONLY)
-            try:
-                os.fsync(folder)
-            finally:
-                os.close(folder)
-    finally:
-        temporary.unlink(missing_ok=True)

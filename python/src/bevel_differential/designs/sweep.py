@@ -16,11 +16,13 @@ import pyarrow.parquet as pq
 
 from ..extras import version
 from ..fmu import Fmu
+from ..output_file import checked
 from ..points import TimeValue, seconds
 from ..scene import Scene
 from ..text import aligned
 from ..values import DifferentialError, FileName
 from ..want import Condition, Want
+from ..writing import locked
 from .farm import Farm
 from .plan import Plan
 from .space import Given, Space
@@ -108,7 +110,7 @@ def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan
             begun = time.perf_counter()
             table = with_metadata(columns.table(list(workers.rows(task, plan.designs()))), metadata)
             return SweepResult(table, metadata, None, time.perf_counter() - begun, plan.runs)
-    with Store(out, columns, metadata, resume, force) as store, going_on_later(store):
+    with locked(checked(out)), Store(out, columns, metadata, resume, force) as store, going_on_later(store):
         done = store.runs()
         missing = [design for design in plan.designs() if design[0] not in done]
         taken = 0.0

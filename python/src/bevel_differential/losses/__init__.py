@@ -13,9 +13,11 @@ from ..accuracy import accuracy
 from ..designs import Dimension, Farm, Row, Space
 from ..designs.store import Columns, Store
 from ..designs.sweep import going_on_later, hashed
+from ..output_file import checked
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
 from ..warned import silenced
+from ..writing import locked
 from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
 from .point import AXES, FIGURES, PointTask, benched
 
@@ -111,6 +113,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             space = Space(tuple(Dimension(name, "list", ()) for name in AXES))
             about = hashed(scene, {"losses": {name: levels[name] for name in VARIABLES}, "bound": str(bound), "unseen": unseen,
                                    "seed": seed, "most": most, "runs": 2 * most + unseen, "figures": FIGURES, "conditions": []})
+            opened.enter_context(locked(checked(out)))
             store = opened.enter_context(Store(out, Columns(task, space), about, resume, force))
             opened.enter_context(going_on_later(store))
         runs = _Runs(task, store, opened.enter_context(Farm(**farm)))

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..output_file import write_whole
 from ..report import head, words
 from ..report.blocks import Section, Table, Text
 from ..report.write import need, page
 from ..values import FileName
+from ..writing import write_whole
 from . import MAPPED, SIGNS, LossMap, figures, inputs
 from .axes import axes as axes_of
 from .figures import largest, warmth_text

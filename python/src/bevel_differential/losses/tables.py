@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..output_file import write_whole
 from ..records import write
 from ..values import FileName
+from ..writing import write_whole
 from . import MAPPED, SIGNS, LossMap
 from .grid import places, torques_of
 

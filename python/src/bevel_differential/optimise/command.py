@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ..command.arguments import add_farm, add_fmu, farm
 from ..warned import warn
+from ..writing import in_folder, locked, write_whole
 
 # effort of --quick: enough for a front, not for a good one
 QUICK = {"population": 32, "generations": 12, "starts": 1}
@@ -37,13 +38,14 @@ def run(arguments: argparse.Namespace) -> int:
     if start_warning := problem.start_warning():
         warn([start_warning])
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
-    store = Store(out, problem, arguments.resume)
-    try:
-        with Farm(**farm(arguments)) as workers:
-            _optimise(arguments, problem, out, store, workers)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
-                                f"{out / 'front.csv'}; go on by --resume") from None
+    with locked(out):
+        store = Store(out, problem, arguments.resume)
+        try:
+            with Farm(**farm(arguments)) as workers:
+                _optimise(arguments, problem, out, store, workers)
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
+                                    f"{out / 'front.csv'}; go on by --resume") from None
     return 0
 
 
@@ -69,17 +71,18 @@ def _optimise(arguments, problem, out, store, workers):
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
     confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, workers)}
-    to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
     notes = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
     notes += _confirmation(confirmed.values(), problem)
-    (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in notes), encoding="utf-8")
-    picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *notes]))
-    for letter, (reason, row) in zip(LETTERS, reasons):
-        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
-        free = write_gears(problem, row, out / letter)
-        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
+    with in_folder(out) as stage:
+        to_csv(confirmed.values(), problem, stage / "front.csv")
+        write_whole(stage / "choice.md", table + "".join(f"\n{line}\n" for line in notes))
+        picture(rows, chosen, compared, problem, stage / "front.png")
+        for letter, (reason, row) in zip(LETTERS, reasons):
+            write_whole(stage / f"{letter}.toml", scene_text(problem, row, f"design {letter}, {reason}"))
+            free = write_gears(problem, row, stage / letter)
+            print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
 
 
 def _confirmation(confirmed, problem):

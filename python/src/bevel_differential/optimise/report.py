@@ -3,7 +3,6 @@
 import json
 from collections.abc import Iterable, Sequence
 from math import isnan
-from pathlib import Path
 
 import pandas as pd
 
@@ -11,6 +10,7 @@ from .. import cad
 from ..answers import ask, assignments
 from ..readable import in_words, wrapped
 from ..values import FileName
+from ..writing import whole
 from .design_task import Confirmed, DesignRow
 from .front import costs, dominates
 from .pair import heights
@@ -22,10 +22,9 @@ NO_CHANGE = {"+0.0 %", "-0.0 %"}
 
 
 def to_csv(confirmed: Iterable[Confirmed], problem: Problem, file: FileName) -> None:
-    """The front, SI; numbers read back to the same bits. The file is replaced as a whole, so that an interruption leaves the one before."""
-    part = Path(f"{file}.part")
-    pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(part, index=False)
-    part.replace(file)
+    """Writes the front, SI; numbers read back to the same bits."""
+    with whole(file) as part:
+        pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(part, index=False)
 
 
 def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, DesignRow], problem: Problem) -> str:

@@ -20,6 +20,7 @@ from pymoo.problems.static import StaticProblem
 from ..designs.farm import Farm
 from ..designs.space import Dimension, Space
 from ..values import DifferentialError, FileName, Number
+from ..writing import whole, write_whole
 from .design_task import DesignRow, DesignTask, evaluated
 from .front import costs, front, thinned
 from .problem import Problem
@@ -45,15 +46,12 @@ class Store:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out") from None
-        (self.folder / PROBLEM).write_text(json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n",
-                                           encoding="utf-8")
+        write_whole(self.folder / PROBLEM, json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n")
 
     def save(self) -> None:
-        """Writes all rows. A file is replaced as a whole, so that an interruption leaves the one before."""
-        table = pd.DataFrame([row.flat() for row in self.rows.values()])
-        part = self.folder / f"{EVALUATIONS}.part"
-        table.to_parquet(part, index=False)
-        part.replace(self.folder / EVALUATIONS)
+        """Writes all rows."""
+        with whole(self.folder / EVALUATIONS) as part:
+            pd.DataFrame([row.flat() for row in self.rows.values()]).to_parquet(part, index=False)
 
     def _read(self):
         try:

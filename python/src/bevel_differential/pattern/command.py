@@ -1,7 +1,6 @@
 """The command `pattern`."""
 
 import argparse
-from pathlib import Path
 
 from ..command.arguments import add_progress, add_set, once
 
@@ -20,20 +19,19 @@ def run(arguments: argparse.Namespace) -> int:
     from ..answers import about, ask
     from ..progress import part, shown
     from ..values import DifferentialError
+    from ..writing import in_folder, write_whole
     from .picture import draw, style
 
     changes = once("--set", arguments.set)
     if changes and not arguments.scenes:
         raise DifferentialError("--set changes scenes: name one")
-    with shown(arguments.progress) as progress:
+    with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
         question = {"ask": "pattern", "of": [about(scene, changes) for scene in arguments.scenes]}
         found = ask(question, progress=part(progress, 0.0, 0.9))
-        folder = Path(arguments.out)
-        folder.mkdir(parents=True, exist_ok=True)
         for name, content in {**found["files"], "findings.md": found["document"]}.items():
-            (folder / name).write_text(content, encoding="utf-8")
+            write_whole(folder / name, content)
         progress(0.9, "drawing")
         style.apply()
         pictures = draw(folder)
-    print(f"{found['text']}files in {folder}: {', '.join([*found['files'], 'findings.md', *pictures])}")
+    print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")
     return 0

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from ..answers import Progress
 from ..extras import require
-from ..output_file import write_whole
 from ..progress import part, silent
 from ..scene import Scene
 from ..values import FileName
+from ..writing import write_whole
 from . import energy, forces, gears, head, pattern, strength, traces, waterfall, worth
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated

@@ -25,20 +25,20 @@ def run(arguments: argparse.Namespace) -> int:
     from ..progress import part, shown
     from ..report.write import write
     from ..scene import Scene
+    from ..writing import in_folder, write_whole
     from .simulation import simulate_cases
 
-    folder = Path(arguments.out)
-    folder.mkdir(parents=True, exist_ok=True)
     style.apply()
-    with shown(arguments.progress) as progress:
+    with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
         results = simulate_cases(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING))
         for place, name in enumerate(SCENES):
             share = (1.0 - SIMULATING) / len(SCENES)
             begin = SIMULATING + place * share
             with Scene.load(name, fmu=arguments.fmu) as scene:
                 write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
-    found = ask({"ask": "study", "results": results})
-    (folder / "table.md").write_text(found["document"], encoding="utf-8")
+        found = ask({"ask": "study", "results": results})
+        write_whole(folder / "table.md", found["document"])
+    folder = Path(arguments.out)
     print(found["text"])
     print(f"results: {folder}")
     print(f"reports: {', '.join(str(folder / f'{name}.html') for name in SCENES)}")

@@ -9,6 +9,7 @@ import numpy as np
 from ..answers import Progress
 from ..differential import Differential
 from ..values import DifferentialError, FileName
+from ..writing import whole
 from . import figures
 
 MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
@@ -152,5 +153,6 @@ def write_spectra(path, spectra):
 
 def save(path, columns):
     header = ",".join(title for title, _ in columns)
-    np.savetxt(path, np.column_stack([values for _, values in columns]), delimiter=",", header=header, comments="",
-               fmt="%.10g")
+    with whole(path) as part:
+        np.savetxt(part, np.column_stack([values for _, values in columns]), delimiter=",", header=header, comments="",
+                   fmt="%.10g")

@@ -5,11 +5,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from shutil import rmtree
 from typing import TypeAlias
-from zipfile import BadZipFile
 
-from fmpy import extract, read_model_description
+from fmpy import read_model_description
 
 from ..answers import Progress
+from ..fmu import extracted
 from ..progress import silent
 from ..values import DifferentialError, FileName
 from ..warned import by_owner, warn
@@ -51,10 +51,7 @@ def _opened(fmu: FileName) -> Iterator[Unit]:
     file = Path(fmu)
     if not file.is_file():
         raise DifferentialError(f"{file}: there is no such FMU")
-    try:
-        folder = Path(extract(str(file)))
-    except (BadZipFile, OSError) as error:
-        raise DifferentialError(f"{file}: it is no FMU ({error}); name a file that ends with .fmu") from None
+    folder = Path(extracted(file))
     try:
         yield Unit(file, folder, _description(file, folder))
     finally:

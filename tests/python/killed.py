@@ -1,0 +1,163 @@
+"""Commands in processes of their own that are killed at random moments, or that write at the same time: python killed.py FOLDER SEED.
+
+An answer is calculated once, so that commands spend their time on writing. Prints what was found; fails if a file is neither old nor new."""
+
+import os
+import random
+import signal
+import sys
+import time
+import traceback
+from pathlib import Path
+
+from bevel_differential import Scene, answers, style
+from bevel_differential.command import main
+from bevel_differential.designs import store
+from bevel_differential.designs.sweep import sweep
+
+KILLS = 10
+# one spring per mesh: a run takes a few milliseconds
+LUMPED = {"scene.gear_contact": "lumped", "left.load_torque": 835.0, "right.load_torque": 835.0}
+SWEEP = {"vary": {"geometry.backlash": "0.1 mm..0.2 mm:100"}, "plan": "grid", "wants": ["left.speed"], "workers": 0}
+OLD = b"old"
+FIGURE = style.figure(1.0)
+
+
+def remembered(function):
+    """The function, which is asked once for each question."""
+    known = {}
+
+    def answer(question, *_, **__):
+        key = repr(question)
+        if key not in known:
+            known[key] = function(question)
+        return known[key]
+
+    return answer
+
+
+def written(folder):
+    """Writes dimensions, curves and a mesh of the gears, and a scene for other hosts."""
+    shown, sys.stdout = sys.stdout, open(os.devnull, "w", encoding="utf-8")
+    assert main(["geometry", "--stl", "--part", "planet", "--facets", "4", "--out", str(folder / "gears")]) == 0
+    assert main(["plan", "study_straight", "--ssv", str(folder / "start.ssv"), "--python", str(folder / "run.py")]) == 0
+    sys.stdout = shown
+    style.save(FIGURE, folder / "picture.png")
+
+
+def content(folder, names):
+    """Those of the files that are there, with what they contain."""
+    found = {}
+    for name in names:
+        try:
+            found[name] = (folder / name).read_bytes()
+        except FileNotFoundError:
+            continue
+    return found
+
+
+def forked(work):
+    """Process that works until its end."""
+    process = os.fork()
+    if process:
+        return process
+    status = 1
+    try:
+        work()
+        status = 0
+    except Exception:
+        traceback.print_exc()
+    finally:
+        os._exit(status)
+
+
+def killed_after(moment, work):
+    """Kills the work after so many seconds."""
+    process = forked(work)
+    time.sleep(moment)
+    os.kill(process, signal.SIGKILL)
+    status = os.waitpid(process, 0)[1]
+    assert os.WIFSIGNALED(status) or status == 0, "the command has failed"
+
+
+def duration(work):
+    """Time that the work takes in a process of its own, s."""
+    begin = time.monotonic()
+    assert os.waitpid(forked(work), 0)[1] == 0
+    return time.monotonic() - begin
+
+
+def killed(folder, whole, draw):
+    """Commands that write files, killed before, between and after them."""
+    (folder / "gears").mkdir(parents=True)
+    longest, counts = 1.2 * duration(lambda: written(folder)), []
+    for _ in range(KILLS):
+        for name in whole:
+            (folder / name).write_bytes(OLD)
+        killed_after(draw.uniform(0.0, longest), lambda: written(folder))
+        found = content(folder, whole)
+        assert found.keys() == whole.keys() and all(text in (OLD, whole[name]) for name, text in found.items())
+        counts.append(sum(text == whole[name] for name, text in found.items()))
+    print(f"killed: {counts} of {len(whole)} files are new")
+
+
+def together(folder, whole):
+    """Two commands at the same time, with a reader beside them."""
+    folder.mkdir()
+
+    def often():
+        for _ in range(5):
+            written(folder)
+
+    left, read = {forked(often), forked(often)}, 0
+    while left:
+        found = content(folder, whole)
+        assert all(text == whole[name] for name, text in found.items())
+        read += len(found)
+        for process in list(left):
+            ended, status = os.waitpid(process, os.WNOHANG)
+            if ended:
+                assert status == 0, "a command has failed"
+                left.remove(process)
+    assert content(folder, whole) == whole and not list(folder.rglob(".*"))
+    print(f"together: {read} files read")
+
+
+def resumed(folder, draw):
+    """A sweep that is killed, and goes on each time, has the rows of one that is not; so have two at the same time."""
+    folder.mkdir()
+    # a part for each row
+    store.INTERVAL = 0.0
+
+    def swept(name):
+        with Scene("lumped", set=LUMPED, outputs=["left.speed"], stop=2e-3, step=1e-3) as scene:
+            return sweep(scene, **SWEEP, out=folder / name, resume=True)
+
+    # from the start to the end, and without a run
+    longest, least = (duration(lambda: swept("whole")) for _ in range(2))
+    whole, parts, counts = swept("whole"), folder / "killed.parquet.parts", []
+    for _ in range(KILLS):
+        killed_after(least + draw.uniform(0.0, 1.5 * (longest - least) / KILLS), lambda: swept("killed.parquet"))
+        counts.append(len(list(parts.glob("part-*"))))
+    last = swept("killed.parquet")
+    assert last.digest() == whole.digest() and not parts.exists()
+    assert [os.waitpid(process, 0)[1] for process in [forked(lambda: swept("both")) for _ in range(2)]] == [0, 0]
+    assert swept("both").digest() == whole.digest()
+    print(f"sweep: {counts} of {len(whole.table)} rows are kept; {last.new} new ones at last")
+
+
+def begin(folder, seed):
+    """Runs it all."""
+    draw = random.Random(seed)
+    answers.ask = remembered(answers.ask)
+    (folder / "whole").mkdir()
+    written(folder / "whole")
+    names = [file.relative_to(folder / "whole").as_posix() for file in (folder / "whole").rglob("*") if file.is_file()]
+    whole = content(folder / "whole", names)
+    killed(folder / "killed", whole, draw)
+    together(folder / "together", whole)
+    resumed(folder / "resumed", draw)
+
+
+if __name__ == "__main__":
+    begin(Path(sys.argv[1]), int(sys.argv[2]))
