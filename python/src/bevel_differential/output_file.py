@@ -29,7 +29,7 @@ def write_whole(file, text: str) -> None:
         part.replace(file)
     except OSError as error:
         part.unlink(missing_ok=True)
-        raise DifferentialError(f"{file}: {error.strerror}; nothing is written") from None
+        raise DifferentialError(f"{file}: {error.strerror}; nothing is written", kind="failed") from None
 
 
 def is_parquet(file) -> bool:

@@ -79,7 +79,7 @@ def save(picture, path, shaded=False):
     try:
         picture.savefig(path)
     except (OSError, ValueError) as error:
-        raise DifferentialError(f"{path}: {error}") from None
+        raise DifferentialError(f"{path}: {error}", kind="failed") from None
     if shaded or not str(path).lower().endswith(".png"):
         return
     with Image.open(path) as drawn:

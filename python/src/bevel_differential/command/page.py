@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     address = page.as_uri()
     print(address)
     if not webbrowser.open(address):
-        raise DifferentialError("no browser can be opened from here: open the address above in one")
+        raise DifferentialError("no browser can be opened from here: open the address above in one", kind="failed")
     return 0
 
 
@@ -39,4 +39,4 @@ def page_file() -> Path:
         if place.is_file():
             return place.resolve()
     raise DifferentialError("the page is not in this package. It comes with a wheel that was built where the page was made: in a "
-                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`")
+                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`", kind="failed")

@@ -189,6 +189,9 @@ class Store:
 class StoreError(DifferentialError):
     """Results cannot be written."""
 
+    def __init__(self, message: str):
+        super().__init__(message, kind="failed")
+
 
 def _replace(file, write):
     """Writes a temporary file, and renames it to `file` once its contents have reached the disk."""
