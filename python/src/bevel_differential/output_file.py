@@ -4,14 +4,22 @@ from pathlib import Path
 
 from .values import DifferentialError
 
-PICTURES = (".png", ".svg", ".pdf")
+PARQUET = (".parquet", ".pq")
+# endings of the files that are written, by what they are
+ENDINGS = {"table": (".csv", *PARQUET), "CSV file": (".csv",), "Parquet file": PARQUET, "picture": (".png", ".svg", ".pdf"),
+           "page": (".html", ".htm"), "scene": (".toml",), "parameter set": (".ssv",), "Python script": (".py",), "MATLAB script": (".m",)}
 
 
-def checked(file) -> Path | None:
-    """The path of a file that can be written as far as its folder tells; None stays None."""
+def checked(file, kind: str | None = None) -> Path | None:
+    """The path of a file that can be written as far as its folder tells; None stays None. Its ending must be one of its kind, of
+    `ENDINGS`."""
     if file is None:
         return None
     file = Path(file)
+    if kind is not None and file.suffix.lower() not in ENDINGS[kind]:
+        first, *others = ENDINGS[kind]
+        raise DifferentialError(f"{file}: a {kind} ends with {' or '.join([', '.join([first, *others[:-1]]), *others[-1:]])}; name it "
+                                f"{file.with_suffix(first).name if file.name else 'so'}")
     folder = file.absolute().parent
     if not folder.is_dir():
         raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
@@ -34,12 +42,4 @@ def write_whole(file, text: str) -> None:
 
 def is_parquet(file) -> bool:
     """Whether a table is written as Parquet: its file's ending says so."""
-    return file is not None and Path(file).suffix.lower() in (".parquet", ".pq")
-
-
-def checked_picture(file) -> Path | None:
-    """The same of a picture, whose ending says its kind."""
-    file = checked(file)
-    if file is not None and file.suffix.lower() not in PICTURES:
-        raise DifferentialError(f"{file}: a picture ends with {', '.join(PICTURES)}")
-    return file
+    return file is not None and Path(file).suffix.lower() in PARQUET

@@ -11,6 +11,7 @@ from .extras import require
 from .fmu import Fmu
 from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
+from .output_file import checked
 from .plot import plot
 from .points import Steps, TimeValue, seconds, span
 from .records import write
@@ -133,6 +134,7 @@ class Scene(Runner):
 
     def to_parquet(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI as Parquet; fields name their units."""
+        checked(file, "Parquet file")
         pa = require("pyarrow", "sweep")
         units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in _outputs(record)}}
         fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})

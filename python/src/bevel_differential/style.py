@@ -11,6 +11,7 @@ from cycler import cycler
 from matplotlib.figure import Figure
 from PIL import Image
 
+from .output_file import checked
 from .values import DifferentialError
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
@@ -76,6 +77,7 @@ def note(axes, x, y, text, **options):
 def save(picture, path, shaded=False):
     """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
     `shaded` surfaces keep all."""
+    checked(path, "picture")
     try:
         picture.savefig(path)
     except (OSError, ValueError) as error:

@@ -4,6 +4,7 @@ import argparse
 import shutil
 from pathlib import Path
 
+from ..command import DONE
 from ..command.arguments import add_farm, add_fmu, add_set, farm, once
 
 
@@ -19,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the tests, prints what to read from them and writes files. Returns 0. Raises `DifferentialError`."""
+    """Runs the tests, prints what to read from them and writes files. Raises `DifferentialError`."""
     from ..extras import require
     from ..values import DifferentialError, suggestion
     from . import TESTS, bench, scene_file
@@ -36,4 +37,4 @@ def run(arguments: argparse.Namespace) -> int:
         says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, **farm(arguments))
         shutil.copy(arguments.scene or scene_file(name), folder)
         print(f"{name}: {says} ({folder / name}.png, .csv)")
-    return 0
+    return DONE

@@ -2,8 +2,10 @@
 
 import argparse
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
+from ..output_file import ENDINGS, checked
 from ..values import DifferentialError
 
 
@@ -25,12 +27,25 @@ def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     return values
 
 
+def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
+    """A file to write, of a kind in `output_file.ENDINGS`; one that cannot be written is wrong use, before any work."""
+
+    def file(text: str) -> Path | None:
+        try:
+            return checked(text, kind)
+        except DifferentialError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
+    parser.add_argument(option, metavar="FILE", type=file, help=help, **more)
+
+
 def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:
     """Files to write, a table and a picture; `before`: names that the options `csv` and `plot` had before, which still do."""
-    parser.add_argument("--csv", metavar="FILE", help=f"write {table}: CSV, or Parquet where the file ends in .parquet")
-    parser.add_argument("--plot", metavar="FILE", help=f"draw {picture} (PNG, SVG or PDF)")
+    add_file(parser, "--csv", "table", f"write {table}")
+    add_file(parser, "--plot", "picture", f"draw {picture}")
     for option, name in before.items():
-        parser.add_argument(name, dest=option, help=argparse.SUPPRESS)
+        add_file(parser, name, {"csv": "table", "plot": "picture"}[option], argparse.SUPPRESS, dest=option)
 
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:

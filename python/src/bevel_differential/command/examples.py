@@ -4,6 +4,7 @@ import argparse
 import shutil
 from pathlib import Path
 
+from . import DONE
 from ..values import DifferentialError
 
 # folders of examples, and the files of each
@@ -16,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Copies the files and names them. Returns 0. Raises `DifferentialError` where one is there already."""
+    """Copies the files and names them. Raises `DifferentialError` where one is there already."""
     out = Path(arguments.out)
     copies = {file: out / name / file.name for name, patterns in FOLDERS.items() for pattern in patterns
               for file in sorted((folder() / name).glob(pattern))}
@@ -26,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     for file, copy in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
         print(f"written: {shutil.copyfile(file, copy)}")
-    return 0
+    return DONE
 
 
 def folder() -> Path:

@@ -1,34 +1,33 @@
 """The command `plan`: what a scene will simulate, and the scene for other hosts."""
 
 import argparse
-from pathlib import Path
 
-from .arguments import add_set, once
+from . import DONE
+from .arguments import add_file, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
-    parser.add_argument("--ssv", metavar="FILE", help="write the start values as a parameter set of SSP 1.0, which hosts read")
-    parser.add_argument("--python", metavar="FILE", help="write a Python script that simulates the scene, with the bits of `run`")
+    add_file(parser, "--ssv", "parameter set", "write the start values as a parameter set of SSP 1.0, which hosts read")
+    add_file(parser, "--python", "Python script", "write a Python script that simulates the scene, with the bits of `run`")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints the plan and writes files. Returns 0."""
+    """Prints the plan and writes files."""
     from ..answers import about, ask
-    from ..output_file import checked
 
     if arguments.scene is None:
         print(listed("plan", arguments))
-        return 0
+        return DONE
     of = about(arguments.scene, once("--set", arguments.set))
-    files = {kind: checked(file) for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)) if file}
     print(ask({"ask": "plan", "of": of})["text"], end="")
-    for kind, file in files.items():
-        Path(file).write_text(ask({"ask": "export", "of": of, "format": kind})["text"], encoding="utf-8")
-        print(f"written: {file}")
-    return 0
+    for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)):
+        if file:
+            file.write_text(ask({"ask": "export", "of": of, "format": kind})["text"], encoding="utf-8")
+            print(f"written: {file}")
+    return DONE
 
 
 def listed(command: str, arguments: argparse.Namespace) -> str:

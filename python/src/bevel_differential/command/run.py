@@ -3,7 +3,8 @@
 import argparse
 from collections.abc import Callable
 
-from .arguments import add_files, add_fmu, add_set, once
+from . import DONE
+from .arguments import add_file, add_files, add_fmu, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -13,25 +14,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--stop", metavar="TIME", help="another end, such as \"0.2 s\"")
     parser.add_argument("--output", metavar="NAME", action="append", help="what to record, instead of the scene's outputs")
     add_files(parser, "the record in SI", "the record")
-    parser.add_argument("--parquet", help=argparse.SUPPRESS)
+    add_file(parser, "--parquet", "Parquet file", argparse.SUPPRESS)
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulates, prints a summary and writes files. Returns 0."""
-    from ..output_file import checked, checked_picture, is_parquet
+    """Simulates, prints a summary and writes files."""
+    from ..output_file import is_parquet
     from ..scene import Scene
-    from ..values import DifferentialError
     from .plan import listed
 
     if arguments.scene is None:
         print(listed("run", arguments))
-        return 0
-    for file in (arguments.csv, arguments.parquet):
-        checked(file)
-    if arguments.parquet and not is_parquet(arguments.parquet):
-        raise DifferentialError(f"--parquet {arguments.parquet}: a Parquet file ends in .parquet; --csv writes either by its ending")
-    checked_picture(arguments.plot)
+        return DONE
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
         record = scene.set(once("--set", arguments.set)).run(arguments.output, stop=arguments.stop)
         print(scene.summary(record))
@@ -42,4 +37,4 @@ def run(arguments: argparse.Namespace) -> int:
             if file:
                 write(record, file)
                 print(f"written: {file}")
-    return 0
+    return DONE

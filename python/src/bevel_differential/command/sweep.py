@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from .arguments import add_farm, add_fmu, add_set, assignment, farm, once
+from . import DONE, FINDING
+from .arguments import add_farm, add_file, add_fmu, add_set, assignment, farm, once
 
 # keys of a plan file, and the name of each option here
 KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
@@ -27,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
     parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
-    parser.add_argument("--out", metavar="FILE", help="results as Parquet; --resume goes on from this file")
-    parser.add_argument("--csv", metavar="FILE", help="write all runs: CSV, or Parquet where the file ends in .parquet")
+    add_file(parser, "--out", "Parquet file", "results; --resume goes on from this file")
+    add_file(parser, "--csv", "table", "write all runs as a table")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="overwrite existing results")
     add_farm(parser)
@@ -36,15 +37,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    """Sweeps and prints what was found. Runs that fail, and a sweep without a feasible design, are findings. Raises
+    `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.sweep import sweep, text
     from ..scene import Scene
-    from ..output_file import checked
     from ..records import write
     from ..values import DifferentialError
 
     given = _merged(arguments)
-    checked(arguments.csv)
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
     with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(text(result, asked=given.get("runs")))
         if arguments.csv:
             print(f"written: {write(arguments.csv, result.table.column_names, zip(*result.table.to_pydict().values()))}")
-    return 0
+    return FINDING if result.failures() or not any(result.table["feasible"].to_pylist()) else DONE
 
 
 def _merged(arguments):

@@ -83,10 +83,7 @@ class Store:
         self._rows: list[Row] = []
         self._flushed = time.monotonic()
         self.finished: pa.Table | None = None
-        checked(self.file)
-        if self.file.suffix.lower() == ".csv":
-            raise DifferentialError(f"{file}: results that can be resumed are stored as Parquet; name the file {self.file.stem}.parquet "
-                                    "(--csv writes a table as well)")
+        checked(self.file, "Parquet file")
         if force:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():

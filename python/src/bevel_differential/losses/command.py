@@ -2,7 +2,8 @@
 
 import argparse
 
-from ..command.arguments import add_farm, add_files, add_fmu, add_scene, farm, once
+from ..command import DONE, FINDING
+from ..command.arguments import add_farm, add_file, add_files, add_fmu, add_scene, farm, once
 
 # default values of the axes; those of torque and speed are parts of the scene's own values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
@@ -22,19 +23,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--unseen", metavar="N", type=int, default=300, help="points that measure the error (default: 300)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of these points (default: 1)")
     parser.add_argument("--most", metavar="N", type=int, default=20000, help="most points in one direction (default: 20000)")
-    parser.add_argument("--out", metavar="FILE", help="all runs as Parquet; --resume goes on from this file")
+    add_file(parser, "--out", "Parquet file", "all runs; --resume goes on from this file")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the runs")
     parser.add_argument("--force", action="store_true", help="overwrite existing runs")
     add_files(parser, "the map", "bias, loss and measured error")
-    parser.add_argument("--simulink", metavar="FILE", help="write the map for blocks of Simulink (a MATLAB script)")
-    parser.add_argument("--report", metavar="FILE", help="write a page with figures, tables and the measured error (HTML)")
+    add_file(parser, "--simulink", "MATLAB script", "write the map for blocks of Simulink")
+    add_file(parser, "--report", "page", "write a page with figures, tables and the measured error")
     add_farm(parser)
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Makes the map, says how good it is and writes files. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
-    from ..output_file import checked, checked_picture
+    """Makes the map, says how good it is and writes files. A map that is worse than its bound is a finding. Raises
+    `DifferentialError`, `KeyboardInterrupt`."""
     from ..report.write import need
     from ..scene import Scene
     from . import losses
@@ -43,9 +44,6 @@ def run(arguments: argparse.Namespace) -> int:
     from .report import write as write_report
     from .tables import save, save_for_simulink
 
-    for file in (arguments.csv, arguments.simulink, arguments.report):
-        checked(file)
-    checked_picture(arguments.plot)
     if arguments.report:
         need()
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
@@ -64,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
                         (arguments.report, write_report)):
         if file:
             print(f"written: {write(made, file)}")
-    return 0
+    return FINDING if made.estimate > GOAL else DONE
 
 
 def _axes(scene, arguments):

@@ -4,6 +4,7 @@ import argparse
 import math
 from pathlib import Path
 
+from ..command import DONE, FINDING
 from ..command.arguments import add_farm, add_fmu, farm
 from ..warned import warn
 
@@ -26,7 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the optimisation. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    """Runs the optimisation. Interference of a chosen design is a finding. Raises `DifferentialError`, of the kind "finding" if no
+    design is feasible, and `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
     from .search import Store
@@ -40,14 +42,15 @@ def run(arguments: argparse.Namespace) -> int:
     store = Store(out, problem, arguments.resume)
     try:
         with Farm(**farm(arguments)) as workers:
-            _optimise(arguments, problem, out, store, workers)
+            free = _optimise(arguments, problem, out, store, workers)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
                                 f"{out / 'front.csv'}; go on by --resume") from None
-    return 0
+    return DONE if free else FINDING
 
 
 def _optimise(arguments, problem, out, store, workers):
+    """Prints and writes all. Returns True if the gears of all chosen designs turn freely."""
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
     from .report import LETTERS, choice_table, compared_with_front, picture, scene_text, to_csv, write_gears
@@ -76,10 +79,13 @@ def _optimise(arguments, problem, out, store, workers):
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in notes), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *notes]))
+    all_free = True
     for letter, (reason, row) in zip(LETTERS, reasons):
         (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
         free = write_gears(problem, row, out / letter)
         print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
+        all_free = all_free and free
+    return all_free
 
 
 def _confirmation(confirmed, problem):

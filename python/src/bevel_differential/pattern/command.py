@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from ..command import DONE
 from ..command.arguments import add_progress, add_set, once
 
 
@@ -16,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulates, writes files and pictures, prints what they show. Returns 0."""
+    """Simulates, writes files and pictures, prints what they show."""
     from ..answers import about, ask
     from ..progress import part, shown
     from ..values import DifferentialError
@@ -36,4 +37,4 @@ def run(arguments: argparse.Namespace) -> int:
         style.apply()
         pictures = draw(folder)
     print(f"{found['text']}files in {folder}: {', '.join([*found['files'], 'findings.md', *pictures])}")
-    return 0
+    return DONE

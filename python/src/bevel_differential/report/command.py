@@ -2,7 +2,8 @@
 
 import argparse
 
-from ..command.arguments import add_fmu, add_progress, add_set, once
+from ..command import DONE
+from ..command.arguments import add_file, add_fmu, add_progress, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -11,7 +12,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     # as it was called before
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
     add_set(parser)
-    parser.add_argument("--out", metavar="FILE", help="the page to write (default: report-NAME.html)")
+    add_file(parser, "--out", "page", "the page to write; default: report-NAME.html")
     parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are "
                                                              "off")
     add_fmu(parser)
@@ -19,8 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Writes the report and says where. Returns 0."""
-    from ..output_file import checked
+    """Writes the report and says where."""
     from ..progress import shown
     from ..scene import Scene
     from ..values import DifferentialError
@@ -32,8 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     with Scene.load(name, fmu=arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
         file = arguments.out or f"report-{scene.name}.html"
-        checked(file)
         with shown(arguments.progress) as progress:
             written = write(scene, file, arguments.quick, progress)
         print(f"written: {written}")
-    return 0
+    return DONE

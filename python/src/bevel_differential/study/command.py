@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from ..command import DONE
 from ..command.arguments import add_fmu, add_progress
 
 # their scenes, for reports
@@ -19,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulates, compares, and writes files. Returns 0."""
+    """Simulates, compares, and writes files."""
     from .. import style
     from ..answers import ask
     from ..progress import part, shown
@@ -42,4 +43,4 @@ def run(arguments: argparse.Namespace) -> int:
     print(found["text"])
     print(f"results: {folder}")
     print(f"reports: {', '.join(str(folder / f'{name}.html') for name in SCENES)}")
-    return 0
+    return DONE

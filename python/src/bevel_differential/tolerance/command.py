@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from ..command import DONE, FINDING
 from ..command.arguments import add_farm, add_files, add_fmu, farm
 
 QUICK = 64
@@ -21,14 +22,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the command."""
+    """Runs the command. Draws that fail are a finding."""
     from ..designs import Farm
-    from ..output_file import checked, checked_picture
     from . import report
     from .plan import Plan
 
-    checked(arguments.csv)
-    checked_picture(arguments.plot)
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
     plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
     with Farm(**farm(arguments), progress=True) as workers:
@@ -38,4 +36,4 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.plot:
         print(f"picture: {report.draw(plan, result, arguments.plot)}")
-    return 0
+    return FINDING if any(row.message for row in result.rows) else DONE
