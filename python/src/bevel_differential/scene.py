@@ -50,10 +50,11 @@ class Scene(Runner):
         self._signals = self._checked_signals()
 
     @classmethod
-    def load(cls, what: FileName, fmu: FileName | Fmu | None = None) -> Self:
-        """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once."""
+    def load(cls, what: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None) -> Self:
+        """The scene in the TOML file `what`, or the shipped one of that name; `stop`: another end, after which nothing changes any
+        more. All errors in a file are reported at once."""
         file = find(what)
-        return cls(fmu=fmu, **read_scene(file))
+        return cls(fmu=fmu, **read_scene(file, stop))
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""

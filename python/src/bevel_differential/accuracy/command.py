@@ -4,7 +4,7 @@ import argparse
 import time
 
 from ..command import DONE, FINDING
-from ..command.arguments import add_file, add_progress, add_scene, once
+from ..command.arguments import add_file, add_progress, add_quick, add_scene, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_file(parser, "--write", "scene", "write the scene with the chosen setting")
     add_file(parser, "--ssv", "parameter set", "write the start values of the chosen setting for hosts of the FMU")
     add_file(parser, "--python", "Python script", "write the scene with the chosen setting as a script")
+    add_quick(parser, "no times are measured, and no other solver is tried")
     add_progress(parser)
 
 
@@ -36,11 +37,13 @@ def run(arguments: argparse.Namespace) -> int:
         require("matplotlib", "plot")
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
-        found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=once("--set", arguments.set),
-                         file=arguments.write, progress=progress)
+        found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=changes(arguments),
+                         file=arguments.write, timed=not arguments.quick, progress=progress)
     print(found.text)
-    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
-          f"{time.monotonic() - begin:.2g} s in all")
+    each = "" if arguments.quick else f" of {found.reference.seconds:.2g} s each"
+    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs{each}: {time.monotonic() - begin:.2g} s in all")
+    if arguments.quick:
+        print("quick: no times are measured, and no other solver is tried")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:

@@ -59,10 +59,27 @@ def add_set(parser: argparse.ArgumentParser) -> None:
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")
 
 
+def add_stop(parser: argparse.ArgumentParser) -> None:
+    """Another end of the scene."""
+    parser.add_argument("--stop", metavar="TIME", help="another end of the scene, such as \"0.2 s\"")
+
+
+def add_quick(parser: argparse.ArgumentParser, what: str) -> None:
+    """A coarser answer in less time; `what` is different in it."""
+    parser.add_argument("--quick", action="store_true", help=f"a coarser answer in less time: {what}")
+
+
 def add_scene(parser: argparse.ArgumentParser) -> None:
     """The scene, and values that differ from its own."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
+    add_stop(parser)
+
+
+def changes(arguments: argparse.Namespace) -> dict[str, str]:
+    """The options --set and --stop as changes of a scene in a question to the library of answers."""
+    stop = [] if arguments.stop is None else [("stop_time", arguments.stop)]
+    return once("--set", [*arguments.set, *stop])
 
 
 def add_farm(parser: argparse.ArgumentParser) -> None:

@@ -3,7 +3,7 @@
 import argparse
 
 from . import DONE
-from .arguments import add_file, add_progress, add_scene, once
+from .arguments import add_file, add_progress, add_scene, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,7 +20,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..answers import about, ask
     from ..progress import shown
 
-    of = about(arguments.scene, once("--set", arguments.set))
+    of = about(arguments.scene, changes(arguments))
     with shown(arguments.progress) as progress:
         found = ask({"ask": "loads", "of": of, "every": arguments.every, "out": arguments.out}, progress=progress)
     print(f"{arguments.out}: {found['lines']} loads of tooth pairs")

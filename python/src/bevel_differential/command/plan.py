@@ -3,13 +3,14 @@
 import argparse
 
 from . import DONE
-from .arguments import add_file, add_set, once
+from .arguments import add_file, add_set, add_stop, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
+    add_stop(parser)
     add_file(parser, "--ssv", "parameter set", "write the start values as a parameter set of SSP 1.0, which hosts read")
     add_file(parser, "--python", "Python script", "write a Python script that simulates the scene, with the bits of `run`")
 
@@ -21,7 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.scene is None:
         print(listed("plan", arguments))
         return DONE
-    of = about(arguments.scene, once("--set", arguments.set))
+    of = about(arguments.scene, changes(arguments))
     print(ask({"ask": "plan", "of": of})["text"], end="")
     for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)):
         if file:

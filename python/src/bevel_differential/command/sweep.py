@@ -4,10 +4,10 @@ import argparse
 from pathlib import Path
 
 from . import DONE, FINDING
-from .arguments import add_farm, add_file, add_fmu, add_set, assignment, farm, once
+from .arguments import add_farm, add_file, add_fmu, add_set, add_stop, assignment, farm, once
 
 # keys of a plan file, and the name of each option here
-KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
+KEYS = {"scene": "scene", "stop": "stop", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
 DEFAULTS = {"plan": "random", "seed": 0, "start": 0.0}
 
@@ -19,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), "
                              "triangular(A, PEAK, B), lognormal(MEDIAN, FACTOR) or seed")
     add_set(parser)
+    add_stop(parser)
     parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (default: random)")
     parser.add_argument("--runs", type=int, metavar="N", help="number of designs; not for a grid; Sobol rounds up to a power of two")
     parser.add_argument("--seed", type=int, metavar="N", help="seed of all draws (default: 0)")
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     given = _merged(arguments)
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
-    with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
+    with Scene.load(given["scene"], arguments.fmu, given.get("stop")) as scene:
         scene.set(given["set"])
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
@@ -60,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _merged(arguments):
     """Values of the plan file, replaced or extended by those of the command line."""
     given = {**DEFAULTS, **(_read(arguments.plan_file) if arguments.plan_file else {})}
-    for name in ("scene", "plan", "runs", "seed", "start"):
+    for name in ("scene", "stop", "plan", "runs", "seed", "start"):
         if getattr(arguments, name) is not None:
             given[name] = getattr(arguments, name)
     for name in ("set", "vary"):

@@ -176,7 +176,7 @@ class _Runs:
         if row.message:
             torque, speed, difference, temperature = key
             raise DifferentialError(f"at {torque:g} N.m, {speed:g} rad/s, a difference of {difference:g} rad/s and {temperature:g} K: "
-                                    f"{row.message}", kind="failed")
+                                    f"{row.message}", kind=row.kind)
         self.restless += not row.feasible
         self.found[key] = [row.figures[name] for name in FIGURES]
 

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 from ..command import DONE, FINDING
-from ..command.arguments import add_farm, add_fmu, farm
+from ..command.arguments import add_farm, add_fmu, add_quick, add_stop, farm
 from ..warned import warn
 
 # effort of --quick: enough for a front, not for a good one
@@ -20,7 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--generations", type=int, help="how many generations")
     parser.add_argument("--starts", type=int, help="independent searches; with several, a last one starts from the best designs of all")
     parser.add_argument("--seed", type=int, help="seed of all random numbers; the same seed gives the same front")
-    parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
+    add_stop(parser)
+    add_quick(parser, "a small search, and only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     add_farm(parser)
     add_fmu(parser)
@@ -35,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
-    problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
+    problem = Problem.load(arguments.problem, arguments.fmu, arguments.stop).sized(**{**(QUICK if arguments.quick else {}), **effort})
     if start_warning := problem.start_warning():
         warn([start_warning])
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
@@ -79,6 +80,9 @@ def _optimise(arguments, problem, out, store, workers):
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in notes), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *notes]))
+    if arguments.quick:
+        print(f"quick: {len(rows) - len(chosen)} designs of the front are not confirmed, and {problem.population} designs x {total} "
+              "generations are a small search")
     all_free = True
     for letter, (reason, row) in zip(LETTERS, reasons):
         (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")

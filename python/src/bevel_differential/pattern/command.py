@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from ..command import DONE
-from ..command.arguments import add_progress, add_set, once
+from ..command.arguments import add_progress, add_quick, add_set, add_stop, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -12,6 +12,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names (default: solid teeth in the study's turn, "
                                                                    "aligned and with one thing out of place at a time)")
     add_set(parser)
+    add_stop(parser)
+    add_quick(parser, "longer steps; without a scene, aligned and with one offset, angle and crowning")
     parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
     add_progress(parser)
 
@@ -23,11 +25,11 @@ def run(arguments: argparse.Namespace) -> int:
     from ..values import DifferentialError
     from .picture import draw, style
 
-    changes = once("--set", arguments.set)
-    if changes and not arguments.scenes:
-        raise DifferentialError("--set changes scenes: name one")
+    changed = changes(arguments)
+    if changed and not arguments.scenes:
+        raise DifferentialError("--set and --stop change scenes: name one")
     with shown(arguments.progress) as progress:
-        question = {"ask": "pattern", "of": [about(scene, changes) for scene in arguments.scenes]}
+        question = {"ask": "pattern", "of": [about(scene, changed) for scene in arguments.scenes], "quick": arguments.quick}
         found = ask(question, progress=part(progress, 0.0, 0.9))
         folder = Path(arguments.out)
         folder.mkdir(parents=True, exist_ok=True)

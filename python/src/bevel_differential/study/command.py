@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from ..command import DONE
-from ..command.arguments import add_fmu, add_progress
+from ..command.arguments import add_fmu, add_progress, add_quick
 
 # their scenes, for reports
 SCENES = ("study_straight", "study_turning")
@@ -15,6 +15,7 @@ SIMULATING = 0.3
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (default: study)")
+    add_quick(parser, "without the reports")
     add_fmu(parser)
     add_progress(parser)
 
@@ -28,13 +29,13 @@ def run(arguments: argparse.Namespace) -> int:
     from ..scene import Scene
     from .simulation import simulate_cases
 
-    folder = Path(arguments.out)
+    folder, scenes = Path(arguments.out), () if arguments.quick else SCENES
     folder.mkdir(parents=True, exist_ok=True)
     style.apply()
     with shown(arguments.progress) as progress:
-        results = simulate_cases(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING))
-        for place, name in enumerate(SCENES):
-            share = (1.0 - SIMULATING) / len(SCENES)
+        results = simulate_cases(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING if scenes else 1.0))
+        for place, name in enumerate(scenes):
+            share = (1.0 - SIMULATING) / len(scenes)
             begin = SIMULATING + place * share
             with Scene.load(name, fmu=arguments.fmu) as scene:
                 write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
@@ -42,5 +43,5 @@ def run(arguments: argparse.Namespace) -> int:
     (folder / "table.md").write_text(found["document"], encoding="utf-8")
     print(found["text"])
     print(f"results: {folder}")
-    print(f"reports: {', '.join(str(folder / f'{name}.html') for name in SCENES)}")
+    print(f"reports: {', '.join(str(folder / f'{name}.html') for name in scenes)}" if scenes else "quick: without the reports")
     return DONE

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from ..command import DONE, FINDING
-from ..command.arguments import add_farm, add_files, add_fmu, farm
+from ..command.arguments import add_farm, add_files, add_fmu, add_quick, add_stop, farm
 
 QUICK = 64
 
@@ -14,7 +14,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", help="tolerance file (TOML), such as tolerances.toml of `bevel-differential examples`")
     parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
     parser.add_argument("--seed", type=int, help="another draw")
-    parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
+    add_stop(parser)
+    add_quick(parser, f"{QUICK} draws")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
     add_farm(parser)
     add_files(parser, "all runs", "spread, yield and indices", plot="--picture")
@@ -28,10 +29,13 @@ def run(arguments: argparse.Namespace) -> int:
     from .plan import Plan
 
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
-    plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
+    plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices,
+                     stop=arguments.stop)
     with Farm(**farm(arguments), progress=True) as workers:
         result = plan.run(workers)
     print(report.text(plan, result))
+    if arguments.quick:
+        print(f"quick: {plan.study.runs} draws; intervals are wider than with the draws of the file")
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.plot:

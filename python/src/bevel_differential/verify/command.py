@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterable
 
 from ..command import DONE, FINDING
-from ..command.arguments import add_file, add_progress
+from ..command.arguments import add_file, add_progress, add_quick
 from .judged import ASSUMED, Judged
 
 HEAD = ("experiment", "kind", "variable", "deviation by tolerance", "time, s", "verdict")
@@ -14,7 +14,7 @@ TABLE = ("experiment", "kind", "variable", "unit", "time", "value", "expected", 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("fmu", metavar="FMU", nargs="?", help="an FMU that carries evidence by FMI-LS-REF (start value: that of this package)")
-    parser.add_argument("--quick", action="store_true", help="smoke tests alone")
+    add_quick(parser, "only smoke tests")
     add_file(parser, "--csv", "table", "write the largest deviation of each variable")
     add_progress(parser)
 
@@ -39,6 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"no tolerance is stated: {ASSUMED:g} of each variable's largest magnitude is assumed")
     wrong = sum(judged.verdict != "passed" for judged in found)
     print(f"{len(found)} experiments, {len(found) - wrong} passed" + (f", {wrong} not" if wrong else ""))
+    if arguments.quick:
+        print("quick: only smoke tests where there are any")
     if arguments.csv:
         write(arguments.csv, TABLE, _cells(found), "times in s, values in the unit of the variable")
         print(f"written: {arguments.csv}")
