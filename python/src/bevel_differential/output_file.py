@@ -16,15 +16,15 @@ def checked(file, kind: str | None = None) -> Path | None:
     if file is None:
         return None
     file = Path(file)
-    if kind is not None and file.suffix.lower() not in ENDINGS[kind]:
-        first, *others = ENDINGS[kind]
-        raise DifferentialError(f"{file}: a {kind} ends with {' or '.join([', '.join([first, *others[:-1]]), *others[-1:]])}; name it "
-                                f"{file.with_suffix(first).name if file.name else 'so'}")
     folder = file.absolute().parent
     if not folder.is_dir():
         raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
     if file.is_dir():
         raise DifferentialError(f"{file}: it is a folder; name a file")
+    if kind is not None and file.suffix.lower() not in ENDINGS[kind]:
+        first, *others = ENDINGS[kind]
+        raise DifferentialError(f"{file}: a {kind} ends with {' or '.join([', '.join([first, *others[:-1]]), *others[-1:]])}; name it "
+                                f"{file.with_suffix(first).name}")
     return file
 
 
