@@ -76,7 +76,8 @@ impl InterferenceCheck {
                 self.spec.backlash * MM
             ));
         }
-        let headings = ["Teeth in the middle of their gaps", "Backlash taken up on one side, as gears run", "Neighbours"];
+        let headings =
+            ["Teeth in the middle of their gaps", "Backlash taken up on one side, as gears run", "Neighbours"];
         for (number, (heading, finding)) in (1..).zip(headings.iter().zip(self.findings())) {
             out += &wrapped(&format!("{number}. {heading}: {finding}."));
         }
