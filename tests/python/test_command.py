@@ -90,41 +90,41 @@ def test_a_plan_file_says_the_same_as_options_and_options_come_first(tmp_path):
     assert main([*SWEEP, "--plan", "lhs", "--runs", "4", "--seed", "1", "--out", str(again)]) == 0
     assert SweepResult.load(out).digest() == SweepResult.load(again).digest()
     file.write_text("scen = 1\n")
-    assert main(["sweep", "--plan-file", str(file)]) == 1
+    assert main(["sweep", "--plan-file", str(file)]) == 2
 
 
 def test_failures_are_listed_by_message_the_most_frequent_first(capsys):
     assert main(["sweep", "--scene", "study_turning", "--vary", "geometry.module=-1 mm, -2 mm, 4.5 mm", "--vary",
-                 "left.load_torque=1, 2", "--plan", "grid", "--want", "left.speed", "--workers", "0"]) == 0
+                 "left.load_torque=1, 2", "--plan", "grid", "--want", "left.speed", "--workers", "0"]) == 3
     lines = capsys.readouterr().out.splitlines()
     assert lines[:2] == ["runs      6", "failed    4"]
     assert [line.split()[0] for line in lines[2:4]] == ["2", "2"] and all("geometry.module" in line for line in lines[2:4])
 
 
-@pytest.mark.parametrize("arguments, status, parts", [
-    (["swep"], 2, ["swep", "did you mean sweep"]),
-    (["loads"], 2, ["scene", "loads --help"]),
-    (["run", "--set", "geometry.module=4 mm"], 2, ["--set", "name a scene"]),
-    (["run", "study_turning", "--stop", "1 ms", "--parquet", "a.csv"], 1, ["--parquet a.csv", "--csv"]),
-    ([*SWEEP, "--runs", "2", "--out", "a.csv"], 1, ["a.csv", "a.parquet"]),
-    (["run", "study_turning", "--set", "left.load_torque"], 2, ["--set", "NAME=VALUE"]),
-    (["sweep", "--plan", "all"], 2, ["--plan", "all"]),
-    (["run", "study_turnin"], 1, ["study_turnin", "did you mean study_turning"]),
-    (["run", "study_turning", "--set", "geometry.module=4 ft"], 1, ["geometry.module", "ft"]),
-    (["run", "study_turning", "--stop", "soon"], 1, ["stop", "soon"]),
-    (["run", "study_turning", "--stop", "1 ms", "--plot", "/nowhere/a.png"], 1, ["/nowhere/a.png"]),
-    (["run", "study_turning", "--stop", "1 ms", "--csv", "/nowhere/a.csv"], 1, ["/nowhere/a.csv"]),
-    (["run", "study_turning", "--fmu", "/nowhere.fmu"], 1, ["/nowhere.fmu", "no such FMU"]),
-    (["sweep", "--vary", "left.load_torque=1..2"], 1, ["--scene"]),
-    (["sweep", "--scene", "study_turning", "--want", "left.speed", "--runs", "2"], 1, ["nothing varies"]),
-    (["sweep", "--scene", "study_turning", "--vary", "left.load_torque=1..2", "--runs", "2"], 1, ["nothing is wanted"]),
-    ([*SWEEP, "--runs", "2", "--from", "0.7 s"], 1, ["from", "0.7"]),
-    ([*SWEEP, "--runs", "2", "--workers", "-1"], 1, ["workers", "-1"]),
-    ([*SWEEP, "--runs", "2", "--out", "/nowhere/a.parquet"], 1, ["/nowhere"]),
-    (["sweep", "--plan-file", "/nowhere.toml"], 1, ["/nowhere.toml"]),
+@pytest.mark.parametrize("arguments, parts", [
+    (["swep"], ["swep", "did you mean sweep"]),
+    (["loads"], ["scene", "loads --help"]),
+    (["run", "--set", "geometry.module=4 mm"], ["--set", "name a scene"]),
+    (["run", "study_turning", "--stop", "1 ms", "--parquet", "a.csv"], ["--parquet: a.csv", ".parquet"]),
+    ([*SWEEP, "--runs", "2", "--out", "a.csv"], ["a.csv", "a.parquet"]),
+    (["run", "study_turning", "--set", "left.load_torque"], ["--set", "NAME=VALUE"]),
+    (["sweep", "--plan", "all"], ["--plan", "all"]),
+    (["run", "study_turnin"], ["study_turnin", "did you mean study_turning"]),
+    (["run", "study_turning", "--set", "geometry.module=4 ft"], ["geometry.module", "ft"]),
+    (["run", "study_turning", "--stop", "soon"], ["stop", "soon"]),
+    (["run", "study_turning", "--stop", "1 ms", "--plot", "/nowhere/a.png"], ["/nowhere/a.png"]),
+    (["run", "study_turning", "--stop", "1 ms", "--csv", "/nowhere/a.csv"], ["/nowhere/a.csv"]),
+    (["run", "study_turning", "--fmu", "/nowhere.fmu"], ["/nowhere.fmu", "no such FMU"]),
+    (["sweep", "--vary", "left.load_torque=1..2"], ["--scene"]),
+    (["sweep", "--scene", "study_turning", "--want", "left.speed", "--runs", "2"], ["nothing varies"]),
+    (["sweep", "--scene", "study_turning", "--vary", "left.load_torque=1..2", "--runs", "2"], ["nothing is wanted"]),
+    ([*SWEEP, "--runs", "2", "--from", "0.7 s"], ["from", "0.7"]),
+    ([*SWEEP, "--runs", "2", "--workers", "-1"], ["workers", "-1"]),
+    ([*SWEEP, "--runs", "2", "--out", "/nowhere/a.parquet"], ["/nowhere"]),
+    (["sweep", "--plan-file", "/nowhere.toml"], ["/nowhere.toml"]),
 ])
-def test_wrong_use_is_one_line_and_a_status(capsys, arguments, status, parts):
-    assert main(arguments) == status
+def test_wrong_use_is_one_line_and_a_status(capsys, arguments, parts):
+    assert main(arguments) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and said.startswith("bevel-differential") and all(part in said for part in parts), said
 

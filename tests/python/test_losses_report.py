@@ -199,7 +199,7 @@ def test_what_accuracy_chose_is_the_model(single, tmp_path):
 
 @pytest.mark.parametrize("file, words", [("nowhere/map.html", "there is no folder"), (".", "it is a folder")])
 def test_a_file_that_cannot_be_written_is_said_before_the_work(file, words, capsys, fmu_file):
-    assert main(["losses", "torque_bias", "--report", file, "--fmu", fmu_file]) == 1
+    assert main(["losses", "torque_bias", "--report", file, "--fmu", fmu_file]) == 2
     said = capsys.readouterr()
     assert said.err.count("\n") == 1 and words in said.err and not said.out
 

@@ -107,7 +107,7 @@ def test_what_is_no_fmu_is_said(tmp_path, content):
     (["spectrum", "none.csv", "--plot", "{folder}/none/a.png"], "there is no folder")])
 def test_the_command_says_it_before_any_run(tmp_path, capsys, command, said):
     (tmp_path / "wide.toml").write_text(WIDE)
-    assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 1
+    assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 2
     assert said in capsys.readouterr().err
 
 
@@ -132,7 +132,7 @@ def test_wrong_kinds_in_a_scene_file_are_said(tmp_path, fmu, old, new, said):
 @pytest.mark.parametrize("line", ["scene = 3", 'runs = "many"', "seed = 1.5", "want = [3]", "plan = 7", "condition = [1]"])
 def test_wrong_kinds_in_a_plan_file_are_said(tmp_path, capsys, line):
     (tmp_path / "plan.toml").write_text(line)
-    assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 1
+    assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 2
     assert f"plan.toml: {line.split()[0]} is a" in capsys.readouterr().err
 
 

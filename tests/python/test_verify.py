@@ -115,7 +115,7 @@ def test_other_physics_is_noticed_with_scene_variable_time_and_by_how_much(unit,
     # the scene rattle follows a table from 0 s on, so that a start value changes nothing
     file = f"parameters/{scene}.ssv" if variable else f"inputs/{scene}.csv"
     change = changed if variable else (lambda text: text.replace("3.49", "3.56"))
-    assert main(["verify", unit({file: change}, {*FEW, scene})]) == 1
+    assert main(["verify", unit({file: change}, {*FEW, scene})]) == 3
     lines = capsys.readouterr().out.splitlines()
     said = [line for line in lines if line.startswith(f"{scene}, validation: {variable or ''}")]
     found = re.search(r": (\S+) at (\S+) s is (\S+) .*expected (\S+) .*within (\S+): off by (\S+), (\S+) times the tolerance$", said[0])
@@ -150,16 +150,16 @@ def test_other_physics_is_noticed_with_scene_variable_time_and_by_how_much(unit,
     ({"tolerances.csv": lambda text: re.sub(r"(hil,left.twist,rad),\S+", r"\1,0", text)}, ["tolerances.csv, line", "value 0", "above 0"]),
 ])
 def test_broken_evidence_is_reported_by_name(unit, capsys, changes, parts):
-    assert main(["verify", unit(changes)]) == 1
+    assert main(["verify", unit(changes)]) == 3
     lines = capsys.readouterr().out.splitlines()
     said = [line for line in lines if line.startswith("hil, validation: ")]
-    assert len(said) == 1 and all(part in said[0] for part in parts), said
+    assert len(said) == 1 and all(part in said[0] for part in parts) and not re.search("fmi[23][A-Z]", said[0]), said
     assert any(re.match(r"hil +validation +broken$", line) for line in lines)
     assert sum(line.endswith(" passed") for line in lines) >= len(FEW)
 
 
 def test_without_the_file_of_validations_smoke_tests_are_left_and_the_command_fails(unit, capsys):
-    assert main(["verify", unit({"validation.exp": None})]) == 1
+    assert main(["verify", unit({"validation.exp": None})]) == 3
     lines = capsys.readouterr().out.splitlines()
     assert any(re.match(r"validation.exp +validation +broken$", line) for line in lines)
     assert "validation.exp, validation: validation.exp: it is not in the FMU" in lines
@@ -167,7 +167,7 @@ def test_without_the_file_of_validations_smoke_tests_are_left_and_the_command_fa
 
 
 def test_tolerances_without_their_column_leave_nothing_to_judge_by(unit, capsys):
-    assert main(["verify", unit({"tolerances.csv": b"experiment,variable\n"})]) == 1
+    assert main(["verify", unit({"tolerances.csv": b"experiment,variable\n"})]) == 3
     lines = capsys.readouterr().out.splitlines()
     assert sum("tolerances.csv" in line and "no column tolerance" in line for line in lines) == 2 * len(FEW)
 
@@ -186,7 +186,7 @@ def test_a_result_alone_that_differs_fails(unit, fmu_file, capsys):
     row = result.splitlines()[7].split(",")
     row[1] = repr(1.01 * float(row[1]))
     changed = result.replace(result.splitlines()[7], ",".join(row))
-    assert main(["verify", unit({MANIFEST: manifest(related("results/a.csv")), "results/a.csv": changed})]) == 1
+    assert main(["verify", unit({MANIFEST: manifest(related("results/a.csv")), "results/a.csv": changed})]) == 3
     assert f"left.speed at {float(row[0]):.6g} s is" in capsys.readouterr().out
 
 

@@ -272,7 +272,7 @@ def test_a_manifest_without_experiments_and_results_is_refused(held, entries):
 
 def test_the_command_tells_faults_and_fails_where_a_file_of_experiments_is_missing(simulated, tmp_path, capsys):
     entries = manifest(related("gone.exp", "experiment/validation", EXP), related("out.csv"), description=None)
-    assert main(["verify", stand_in.packed(tmp_path / "unit.fmu", {MANIFEST: entries, "out.csv": DEFAULT})]) == 1
+    assert main(["verify", stand_in.packed(tmp_path / "unit.fmu", {MANIFEST: entries, "out.csv": DEFAULT})]) == 3
     said = capsys.readouterr().out
     assert "fault: fmi-ls-manifest.xml: the attribute fmi-ls-description is missing" in said
     assert "gone.exp, validation: gone.exp: it is not in the FMU" in said and "2 experiments, 1 passed, 1 not" in said

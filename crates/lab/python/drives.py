@@ -19,7 +19,7 @@ from pathlib import Path
 from bevel_differential import DifferentialWarning, Fmu
 from bevel_differential.text import aligned
 from effects_list import effects
-from tools import WORKSPACE, say, significant
+from tools import WORKSPACE, Finding, say, significant
 
 sys.path.append(str(WORKSPACE / "tests" / "python"))
 import drive_requirements  # noqa: E402
@@ -156,7 +156,7 @@ def main():
     seconds = sum(record["seconds"] or 0.0 for record in records)
     end = f"{len(records)} drives, {seconds:.0f} s of processor time, {time.monotonic() - begin:.0f} s"
     if violated:
-        raise SystemExit(f"\n{text}\n\n{violated} of {end}; again: {command} --seed SEED --index INDEX")
+        raise Finding(f"\n{text}\n\n{violated} of {end}; again: {command} --seed SEED --index INDEX")
     print(f"{text}\n\nevery requirement is met in {end}")
 
 
@@ -166,7 +166,7 @@ def one(file, seed, index):
     verdict = judged(Fmu.of(file), drive)
     text = f"{json.dumps(drive, indent=1)}\n{json.dumps(verdict, indent=1)}"
     if verdict["problems"]:
-        raise SystemExit(f"\n{text}")
+        raise Finding(f"\n{text}")
     print(text)
 
 

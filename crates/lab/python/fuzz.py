@@ -13,7 +13,7 @@ import time
 from collections import Counter
 
 from bevel_differential.text import markdown
-from tools import say
+from tools import Finding, say
 
 # a round takes some seconds, half a minute at most, and a busy machine some times that; one that takes so long hangs
 PATIENCE = 600.0
@@ -72,7 +72,7 @@ def worked(workers, rounds, calls):
         say(max(done, 0) / max(rounds, 1), f"{max(done, 0) * calls} calls")
     failures = [worker.why for worker in workers if worker.why]
     if failures:
-        raise SystemExit("\n\n".join(failures))
+        raise Finding("\n\n".join(failures))
     return [worker.tally for worker in workers]
 
 

@@ -17,7 +17,7 @@ import platform_hosts
 import platform_scenes
 from bevel_differential.text import markdown
 from effects_list import effects
-from tools import WORKSPACE, say
+from tools import WORKSPACE, Finding, say
 
 # where the list of effects is
 FMU = WORKSPACE / "target" / "fmu" / "BevelDifferential.fmu"
@@ -69,7 +69,7 @@ def main():
         for each in platforms:
             each.close()
     if not same:
-        sys.exit(f"the libraries do not agree:\n{text}")
+        raise Finding(f"the libraries do not agree:\n{text}")
     print(text, end="")
 
 

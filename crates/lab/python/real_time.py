@@ -10,7 +10,7 @@ from pathlib import Path
 from bevel_differential.text import markdown
 import real_time_sources
 from counting import NARROW, callgrind, counts, stepping
-from tools import say
+from tools import Finding, say
 
 # scenes, by the names that the stepping program knows
 SCENES = (("straight",), ("turn", "rolling", "reversal"))
@@ -46,7 +46,7 @@ def main():
             rows.append([name, size, f"{median:.0f}", str(most), f"{most / median:.2f}"])
     text = f"{markdown(rows)}\nInstructions of a communication step of 1 ms, {STEPS} steps each. {remark}"
     if worst > MOST:
-        raise SystemExit(f"{text}\nthe costliest step costs {worst:.2f} times the median one, more than {MOST:g}")
+        raise Finding(f"{text}\nthe costliest step costs {worst:.2f} times the median one, more than {MOST:g}")
     print(text, end="")
 
 

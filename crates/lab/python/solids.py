@@ -16,7 +16,7 @@ import numpy as np
 from bevel_differential import Differential, Fmu
 from calls import Calls, in_turn, quartiles
 from solids_errors import QUANTITIES, errors, look, order, path_ripple
-from tools import WORKSPACE, say, write_measured
+from tools import WORKSPACE, Finding, say, write_measured
 
 sys.path.append(str(WORKSPACE / "benches" / "peers"))
 import gears  # noqa: E402
@@ -194,7 +194,7 @@ def verdict(found):
         row = found.solid(facets, 1)
         off = abs(row.look["mean"] / found.tooth.look["mean"] - 1.0) if row else 0.0
         if not off <= bound:
-            raise SystemExit(f"{facets} facets miss the mean force by {100.0 * off:.3g} %, more than {100.0 * bound:g} %")
+            raise Finding(f"{facets} facets miss the mean force by {100.0 * off:.3g} %, more than {100.0 * bound:g} %")
 
 
 def main():

@@ -24,7 +24,7 @@ from bevel_differential.text import markdown
 from effects_list import effects
 from platform_hosts import STEPS, Platform
 from platforms import FMU, compared
-from tools import WORKSPACE, say
+from tools import WORKSPACE, Finding, say
 
 # what the sources do without
 SOLID, METHODS = "solid", ("radau", "rodas4", "dormand_prince")
@@ -248,7 +248,7 @@ def main():
     text += f"\n{values} values of {len(scenes)} scenes; {size / 1e6:.1f} MB of sources, {packed / 1e6:.2f} MB in the archive. "
     text += f"They call {', '.join(sorted(calls_of_c))}. An instance uses at most {taken / 2**20:.2f} MiB.\n"
     if problems:
-        raise SystemExit(f"{text}\n" + "\n".join(problems))
+        raise Finding(f"{text}\n" + "\n".join(problems))
     print(text, end="")
 
 

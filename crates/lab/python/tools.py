@@ -7,11 +7,21 @@ import platform
 import sys
 from pathlib import Path
 
+from bevel_differential.command import FINDING
+
 WORKSPACE = Path(__file__).resolve().parents[3]
 # below this a number is shown with a power of ten
 SMALL = 1e-3
 # from here on a fraction is shown as a multiple
 MANY = 10.0
+
+
+class Finding(SystemExit):
+    """Ends a script whose check is done and has found something."""
+
+    def __init__(self, text):
+        print(text, file=sys.stderr, flush=True)
+        super().__init__(FINDING)
 
 
 def say(fraction, what):

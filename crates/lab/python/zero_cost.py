@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bevel_differential.text import markdown
 from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, completed, executed, instructions, stepping
-from tools import say
+from tools import Finding, say
 
 SCENES = ("straight", "turn")
 WORK = (FLOAT, BRANCH)
@@ -27,13 +27,13 @@ def check(scene, off, left_out):
     (bits, here), (others, there) = off, left_out
     place = f"effects that are off, {scene}"
     if bits != others:
-        raise SystemExit(f"{place}: results change: {bits} for {others}")
+        raise Finding(f"{place}: results change: {bits} for {others}")
     for kind in WORK:
         if here[kind] > there[kind]:
-            raise SystemExit(f"{place}: {kind}: {here[kind]} for {there[kind]} per communication step")
+            raise Finding(f"{place}: {kind}: {here[kind]} for {there[kind]} per communication step")
     here, there = sum(here.values()), sum(there.values())
     if here > (1.0 + ARRANGEMENT) * there:
-        raise SystemExit(f"{place}: instructions: {here} for {there} per communication step")
+        raise Finding(f"{place}: instructions: {here} for {there} per communication step")
 
 
 def main():

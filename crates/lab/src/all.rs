@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result};
 use clap::Args;
 
+use answers::problem::question_error;
 use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::paths;
+use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
 /// What the commands look at and a fresh clone does not have, made by the program that builds. Tool chains come first.
@@ -55,7 +57,7 @@ impl AllCommand {
     pub fn run(&self) -> Result<()> {
         if let Some(unknown) = self.only.iter().find(|name| COMMANDS.iter().all(|words| words[0] != name.as_str())) {
             let names = COMMANDS.map(|words| words[0]).join(", ");
-            bail!("{unknown} is no command that is run here; there are {names}");
+            return Err(question_error(format!("{unknown} is no command that is run here; there are {names}")));
         }
         let folder = paths::target().join("all");
         fs::create_dir_all(&folder)?;
@@ -78,8 +80,7 @@ impl AllCommand {
         progress.finish();
         print!("{}", for_terminal(&table.markdown()));
         println!("\nwhat each printed: {}", paths::shown(&folder));
-        ensure!(failed.is_empty(), "these failed: {}", failed.join(", "));
-        Ok(())
+        if failed.is_empty() { Ok(()) } else { Err(Finding(format!("these failed: {}", failed.join(", "))).into()) }
     }
 }
 

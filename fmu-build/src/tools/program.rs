@@ -1,6 +1,7 @@
 //! A program with commands in groups: what it prints as help, and usage errors in one line.
 
 use std::ffi::OsString;
+use std::fmt;
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -9,8 +10,22 @@ use clap::error::ErrorKind;
 
 use answers::problem::Problems;
 
-/// Exit code of usage errors.
-const USAGE: u8 = 2;
+/// Exit status of wrong use, as in the commands of the Python package.
+const WRONG: u8 = 2;
+/// Exit status of a check that is done and has found something, as in the commands of the Python package.
+pub const FINDING: u8 = 3;
+
+/// Error of a check that is done and has found something.
+#[derive(Debug)]
+pub struct Finding(pub String);
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Finding {}
 
 /// A program, as its overview shows it.
 pub struct Program {
@@ -45,7 +60,7 @@ impl Stop {
             }
             Self::Wrong(line) => {
                 eprintln!("{line}");
-                ExitCode::from(USAGE)
+                ExitCode::from(WRONG)
             }
         }
     }
@@ -113,13 +128,17 @@ impl Program {
     }
 }
 
-/// How the program ends after its command: an error is printed, and one of use has its own exit code.
+/// How the program ends after its command: an error is printed, and wrong use and findings have their own exit statuses.
 pub fn end(outcome: Result<()>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            if error.is::<Problems>() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
+            match () {
+                () if error.is::<Problems>() => ExitCode::from(WRONG),
+                () if error.is::<Finding>() => ExitCode::from(FINDING),
+                () => ExitCode::FAILURE,
+            }
         }
     }
 }

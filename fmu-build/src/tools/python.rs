@@ -13,6 +13,7 @@ use bevel_differential::variables;
 use crate::tools::files::{make_whole, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
+use crate::tools::program::Finding;
 
 /// Oldest Python that the pinned numpy and matplotlib support.
 const OLDEST: (u32, u32) = (3, 11);
@@ -218,7 +219,7 @@ impl Environment {
             .context("pytest cannot be run")?;
         let report = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
         if !output.status.success() {
-            bail!("the FMU fails its Python tests:\n{report}");
+            return Err(Finding(format!("the FMU fails its Python tests:\n{report}")).into());
         }
         Ok(report)
     }

@@ -6,6 +6,7 @@ use std::thread;
 
 use anyhow::{Context, Result, bail};
 
+use crate::tools::program::{FINDING, Finding};
 use crate::tools::progress::Progress;
 
 /// Runs a command, called `name`, to its end and returns what it printed. Its lines "progress <fraction> <what>" on standard error
@@ -35,7 +36,11 @@ pub fn follow(command: &mut Command, name: &str, progress: &Progress) -> Result<
     }
     let status = child.wait().with_context(|| format!("{name} was lost"))?;
     if !status.success() {
-        bail!("{name} failed: {}", remarks.join("\n").trim_end());
+        let why = remarks.join("\n");
+        if status.code() == Some(FINDING.into()) {
+            return Err(Finding(format!("{name} has a finding: {}", why.trim_end())).into());
+        }
+        bail!("{name} failed: {}", why.trim_end());
     }
     let printed = printed.and_then(|thread| thread.join().ok()).transpose();
     Ok(printed.with_context(|| format!("what {name} printed cannot be read"))?.unwrap_or_default())

@@ -81,7 +81,7 @@ def _library() -> ctypes.CDLL:
     file = Path(os.environ.get("BEVEL_DIFFERENTIAL_ANSWERS") or shipped)
     if not file.is_file():
         raise DifferentialError(f"{file} is missing: this package was built without its library of answers for {platform}; install "
-                                "a wheel that has it, or name the library by the environment variable BEVEL_DIFFERENTIAL_ANSWERS")
+                                "a wheel that has it, or name the library by the environment variable BEVEL_DIFFERENTIAL_ANSWERS", kind="failed")
     library = ctypes.CDLL(str(file))
     library.bd_ask.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t, _PROGRESS, ctypes.c_void_p]
     # as an address, so that it can be freed

@@ -10,6 +10,8 @@ from .points import PER_SECOND
 from .values import DifferentialError, FileName, Number, Variable
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
+# beginnings of files that spreadsheet programs write: archives (.xlsx, .ods) and the format before them (.xls)
+_SPREADSHEETS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 
 
 class Quantity(Variable):
@@ -129,7 +131,10 @@ class CsvTable:
 def _lines(file):
     """Numbers and cells of the lines that are neither empty nor comments."""
     try:
-        text = file.read_text(encoding="utf-8-sig")
+        content = file.read_bytes()
+        if content.startswith(_SPREADSHEETS):
+            raise DifferentialError(f"{file}: it is a spreadsheet; save it there as CSV, and name that file")
+        text = content.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as failure:
         reason = getattr(failure, "strerror", None) or "it is no text in UTF-8"
         raise DifferentialError(f"{file}: {reason}") from None

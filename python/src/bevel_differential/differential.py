@@ -171,7 +171,7 @@ def _advance(instance, batches, record, steps, signals):
             instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
             if get(component, references, count, address + row * width) >= DISCARD:
-                instance.check(DISCARD, f"reading outputs at {begin + size:g} s")
+                instance.check(DISCARD, f"reading outputs at {begin + size:g} s", "failed")
 
 
 def _set(instance, pairs):

@@ -2,14 +2,24 @@
 
 import importlib
 import importlib.metadata
+import json
+import shlex
+import shutil
+import sys
+from pathlib import Path
 from types import ModuleType
+from urllib.parse import urlparse
+from urllib.request import url2pathname
 
 from .values import DifferentialError
+
+PACKAGE = "bevel-differential"
 
 
 def install(module: str, extra: str) -> str:
     """What to say where a package is missing."""
-    return f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: pip install \"WHEEL[{extra}]\""
+    return (f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: {_pip()} install "
+            f"\"{_package()}[{extra}]\"")
 
 
 def require(module: str, extra: str) -> ModuleType:
@@ -17,12 +27,45 @@ def require(module: str, extra: str) -> ModuleType:
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:
-        raise DifferentialError(install(missing.name or module, extra)) from None
+        raise DifferentialError(install(missing.name or module, extra), kind="failed") from None
 
 
 def version() -> str | None:
     """Version of the package; sources that are not installed have none."""
     try:
-        return importlib.metadata.version("bevel-differential")
+        return importlib.metadata.version(PACKAGE)
     except importlib.metadata.PackageNotFoundError:
         return None
+
+
+def _pip():
+    """The pip of this interpreter."""
+    program, found = Path(sys.executable), shutil.which("pip")
+    if found and Path(found).parent == program.parent:
+        return "pip"
+    near = program.relative_to(Path.cwd()) if program.is_relative_to(Path.cwd()) else program
+    return f"{shlex.quote(near.as_posix())} -m pip"
+
+
+def _package():
+    """What pip installs this package from: its folder in a clone, else its name, which pip finds installed."""
+    folder = Path(__file__).absolute().parents[2]
+    if not (folder / "pyproject.toml").is_file():
+        folder = _installed_from()
+    if folder is None:
+        return PACKAGE
+    try:
+        # from a folder of the clone, as a user of the clone writes it
+        return f"{'/'.join(['..'] * len(Path.cwd().relative_to(folder.parent).parts)) or '.'}/{folder.name}"
+    except (ValueError, OSError):
+        return str(folder)
+
+
+def _installed_from():
+    """The folder that the installed package was built from (PEP 610), if it is still there."""
+    try:
+        found = json.loads(importlib.metadata.distribution(PACKAGE).read_text("direct_url.json") or "{}")
+    except (importlib.metadata.PackageNotFoundError, ValueError):
+        return None
+    folder = Path(url2pathname(urlparse(found["url"]).path)) if "dir_info" in found else None
+    return folder if folder is not None and (folder / "pyproject.toml").is_file() else None

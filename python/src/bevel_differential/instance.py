@@ -2,6 +2,7 @@
 
 import contextlib
 import ctypes
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Self
 
@@ -20,6 +21,10 @@ UNFELT = " changes nothing in this scene: "
 NOBODY_SET = "values of the study that nobody set act in this scene: "
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
+# what a log for hosts has around the words of an error: the call that failed before it, and calls that help after it
+_CALLS = re.compile(r"^fmi[23]\w+: (?:initialisation failed:\s*)?|; continue with fmi[23]\w+ or fmi[23]\w+$")
+# beginnings of refusals that are about the call, not about a value
+_ABOUT_CALL = ("not legal in", "this call")
 # fmpy's class and the element of the model description for each kind of instance
 KINDS = {"CoSimulation": (FMU2Slave, "coSimulation"), "ModelExchange": (FMU2Model, "modelExchange")}
 
@@ -108,22 +113,23 @@ class Instance(Closing):
         lists = (text.removeprefix(NOBODY_SET) for text in (*self.messages, *self.events) if text.startswith(NOBODY_SET))
         return next(lists, "")
 
-    def check(self, status: int, doing: str) -> None:
-        """Raises the FMU's message if `status` is an error."""
+    def check(self, status: int, doing: str, kind: str = "use") -> None:
+        """Raises the FMU's message if `status` is an error, of this kind of `DifferentialError`."""
         if status >= DISCARD:
             if not self._component:
                 raise DifferentialError("the instance is closed; open another one", status)
             # a warning from before is no reason
             said, self._failure = self._failure, None
-            raise DifferentialError(said or f"{doing} failed with status {status}", status)
+            words = without_calls(said or f"it failed with status {status}")
+            raise DifferentialError(words if said and not words.startswith(_ABOUT_CALL) else f"{doing}: {words}", status, kind)
 
-    def _through(self, call, *arguments):
+    def _through(self, doing, call, *arguments):
         """Calls a method of `raw`; its error becomes that of `check`."""
         try:
             return call(*arguments)
         except FMICallException as caught:
             failure = caught
-        self.check(failure.status, failure.function)
+        self.check(failure.status, doing)
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Sets parameters and inputs, given as to `Differential.set`."""
@@ -138,7 +144,7 @@ class Instance(Closing):
 
         `slopes`: by name the change of a Real input in a second, SI units."""
         references = [self.fmu.variable(name).reference for name in slopes]
-        self._through(self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
+        self._through("setting slopes of inputs", self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
 
     def derivatives_setter(self) -> Any:
         """The function of the FMU that sets derivatives of inputs, without wrappers."""
@@ -165,14 +171,14 @@ class Instance(Closing):
         if not self._is_fresh:
             self.reset()
         self._is_fresh = False
-        self.check(self._setup(self._component, 0, 0.0, 0.0, stop is not None, stop or 0.0), "fmi2SetupExperiment")
+        self.check(self._setup(self._component, 0, 0.0, 0.0, stop is not None, stop or 0.0), "setting the stop time")
         self._write(values)
-        self.check(self._enter(self._component), "fmi2EnterInitializationMode")
-        self.check(self._exit(self._component), "fmi2ExitInitializationMode")
+        self.check(self._enter(self._component), "beginning the initialisation")
+        self.check(self._exit(self._component), "the initialisation")
 
     def reset(self) -> None:
         """As new: all variables have their start values, nothing is logged."""
-        self.check(self._reset(self._component), "fmi2Reset")
+        self.check(self._reset(self._component), "the reset")
         self.messages.clear()
         self.events.clear()
         self._is_fresh, self.time = True, 0.0
@@ -186,22 +192,22 @@ class Instance(Closing):
         """A communication step from a time that the caller keeps, s."""
         status = self._do_step(self._component, time, size, 1)
         if status >= DISCARD:
-            self.check(status, f"the step from {time:g} s")
+            self.check(status, f"the step from {time:g} s", "failed")
 
     def save(self) -> tuple[float, bytes]:
         """The state as (time, bytes), for this or another instance of the same FMU, in any process."""
-        state = self._through(self.raw.getFMUstate)
+        state = self._through("saving the state", self.raw.getFMUstate)
         try:
-            return self.time, self._through(self.raw.serializeFMUstate, state)
+            return self.time, self._through("saving the state", self.raw.serializeFMUstate, state)
         finally:
             self.raw.freeFMUstate(state)
 
     def restore(self, saved: tuple[float, bytes]) -> Self:
         """Goes back to what `save` gave."""
         time, kept = saved
-        state = self._through(self.raw.deSerializeFMUstate, kept)
+        state = self._through("restoring a state", self.raw.deSerializeFMUstate, kept)
         try:
-            self._through(self.raw.setFMUstate, state)
+            self._through("restoring a state", self.raw.setFMUstate, state)
         finally:
             self.raw.freeFMUstate(state)
         self.time, self._is_fresh = time, False
@@ -222,3 +228,8 @@ class Instance(Closing):
         # of a thread that has ended, or where nobody has closed it
         if getattr(self, "_component", None):
             self.close()
+
+
+def without_calls(message: str) -> str:
+    """An error of the FMU's log without the names of FMI functions around it, which only hosts use."""
+    return _CALLS.sub("", message)

@@ -5,11 +5,15 @@ from pathlib import Path
 from .values import DifferentialError
 from .writing import try_whole
 
-PICTURES = (".png", ".svg", ".pdf")
+PARQUET = (".parquet", ".pq")
+# endings of the files that are written, by what they are
+ENDINGS = {"table": (".csv", *PARQUET), "CSV file": (".csv",), "Parquet file": PARQUET, "picture": (".png", ".svg", ".pdf"),
+           "page": (".html", ".htm"), "scene": (".toml",), "parameter set": (".ssv",), "Python script": (".py",), "MATLAB script": (".m",)}
 
 
-def checked(file) -> Path | None:
-    """The path of a file that can be written as far as its folder tells; None stays None."""
+def checked(file, kind: str | None = None) -> Path | None:
+    """The path of a file that can be written as far as its folder tells; None stays None. Its ending must be one of its kind, of
+    `ENDINGS`."""
     if file is None:
         return None
     file = Path(file)
@@ -18,18 +22,14 @@ def checked(file) -> Path | None:
         raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
     if file.is_dir():
         raise DifferentialError(f"{file}: it is a folder; name a file")
+    if kind is not None and file.suffix.lower() not in ENDINGS[kind]:
+        first, *others = ENDINGS[kind]
+        raise DifferentialError(f"{file}: a {kind} ends with {' or '.join([', '.join([first, *others[:-1]]), *others[-1:]])}; name it "
+                                f"{file.with_suffix(first).name}")
     try_whole(file)
     return file
 
 
 def is_parquet(file) -> bool:
     """Whether a table is written as Parquet: its file's ending says so."""
-    return file is not None and Path(file).suffix.lower() in (".parquet", ".pq")
-
-
-def checked_picture(file) -> Path | None:
-    """The same of a picture, whose ending says its kind."""
-    file = checked(file)
-    if file is not None and file.suffix.lower() not in PICTURES:
-        raise DifferentialError(f"{file}: a picture ends with {', '.join(PICTURES)}")
-    return file
+    return file is not None and Path(file).suffix.lower() in PARQUET

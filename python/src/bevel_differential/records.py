@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from .extras import require
-from .output_file import is_parquet
+from .output_file import checked, is_parquet
 from .values import FileName
 from .writing import whole
 
 
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
     """Writes a file, by its ending as Parquet; numbers read back to the same bits."""
+    checked(file, "table")
     if is_parquet(file):
         pa = require("pyarrow", "sweep")
         columns = dict(zip(head, map(list, zip(*rows))))

@@ -12,6 +12,7 @@ from .fmu import Fmu
 from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
+from .output_file import checked
 from .plot import plot
 from .points import Steps, TimeValue, duration, seconds, span
 from .records import write
@@ -52,10 +53,11 @@ class Scene(Runner):
         self._signals = self._checked_signals()
 
     @classmethod
-    def load(cls, what: FileName, fmu: FileName | Fmu | None = None, display_units: Sequence[str] = ()) -> Self:
-        """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once.
-        `display_units`, and those of `fmu`, win over those of the file."""
-        given, fmu = read_scene(find(what)), Fmu.of(fmu)
+    def load(cls, what: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None,
+             display_units: Sequence[str] = ()) -> Self:
+        """The scene in the TOML file `what`, or the shipped one of that name; `stop`: another end, after which nothing changes any
+        more. All errors in a file are reported at once. `display_units`, and those of `fmu`, win over those of the file."""
+        given, fmu = read_scene(find(what), stop), Fmu.of(fmu)
         for preferred in (given.pop("display_units"), list(fmu.display_units.values()), display_units):
             fmu = fmu.displaying(preferred)
         return cls(fmu=fmu, **given)
@@ -155,6 +157,7 @@ class Scene(Runner):
 
     def to_parquet(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
         """Writes a record as Parquet, in the units of `to_csv`; fields name their units."""
+        checked(file, "Parquet file")
         pa = require("pyarrow", "sweep")
         head, units, columns = self.columns(record, display_units)
         fields = [pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": unit})

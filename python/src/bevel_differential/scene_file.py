@@ -31,9 +31,9 @@ def find_beside(file: Path, what: str) -> Path:
     return near if near.is_file() else find(what)
 
 
-def read_scene(file: Path) -> dict[str, Any]:
-    """The arguments of `Scene` that a file holds. All errors are reported at once."""
-    found = ask({"ask": "scene", "of": about(file)})
+def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
+    """The arguments of `Scene` that a file holds, with another end if `stop` is given. All errors are reported at once."""
+    found = ask({"ask": "scene", "of": about(file, {} if stop is None else {"stop_time": stop})})
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
             "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]],
@@ -44,7 +44,9 @@ def read_toml(file: Path) -> dict[str, Any]:
     """What a TOML file holds."""
     try:
         return tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except UnicodeDecodeError:
+        raise DifferentialError(f"{file}: it is no text in UTF-8; name a TOML file") from None
+    except (OSError, tomllib.TOMLDecodeError) as error:
         raise DifferentialError(f"{file}: {error}") from None
 
 

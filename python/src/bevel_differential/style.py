@@ -13,6 +13,7 @@ from cycler import cycler
 from matplotlib.figure import Figure
 from PIL import Image
 
+from .output_file import checked
 from .values import DifferentialError
 from .writing import write_whole
 
@@ -79,13 +80,13 @@ def note(axes, x, y, text, **options):
 def save(picture, path, shaded=False):
     """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
     `shaded` surfaces keep all."""
-    kind = Path(path).suffix.lower().removeprefix(".")
+    checked(path, "picture")
     # a full disk would leave libraries in the middle of their own files
-    drawn = io.BytesIO()
+    drawn, kind = io.BytesIO(), Path(path).suffix.lower().removeprefix(".")
     try:
         picture.savefig(drawn, format=kind)
     except ValueError as error:
-        raise DifferentialError(f"{path}: {error}") from None
+        raise DifferentialError(f"{path}: {error}", kind="failed") from None
     if not shaded and kind == "png":
         with Image.open(drawn) as image:
             few = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)

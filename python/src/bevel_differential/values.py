@@ -45,12 +45,12 @@ def split(text: str) -> tuple[str, str]:
 class DifferentialError(ValueError):
     """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
 
-    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None. `kind`: "use" if
-    what was asked makes no sense. `problems`: what is wrong as dicts, each with a `message` and, where they are known, `variable`,
-    `value`, `unit`, `range` and `hint`."""
+    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None. `kind`: "use" if a
+    value is wrong or the request makes no sense, "failed" if the work fails on its way, "finding" if the work is done and its result
+    is not what was wanted. `problems`: what is wrong as dicts, each with a `message` and, where they are known, `variable`, `value`,
+    `unit`, `range` and `hint`."""
 
-    def __init__(self, message: str, status: int | None = None, kind: str | None = None,
-                 problems: Sequence[Mapping[str, object]] = ()):
+    def __init__(self, message: str, status: int | None = None, kind: str = "use", problems: Sequence[Mapping[str, object]] = ()):
         super().__init__(message)
         self.status, self.kind, self.problems = status, kind, list(problems)
 

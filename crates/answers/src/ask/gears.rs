@@ -55,7 +55,7 @@ impl GeometryQuestion {
         for curve in xyz::curves(&design.pair, &design.spec, self.facets + 1) {
             add(format!("{}.txt", curve.name), curve.text());
         }
-        let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "files": files});
+        let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "verdict": check.verdict(), "files": files});
         if self.solids {
             progress.begin_task(1.0, "making solids");
             let density = design.parameters.material.density;

@@ -75,7 +75,13 @@ pub struct PatternQuestion {
     /// The scenes; without any the cases of the documentation.
     #[serde(default)]
     of: Vec<Source>,
+    /// A coarser answer: longer steps, and fewer of the cases of the documentation.
+    #[serde(default)]
+    quick: bool,
 }
+
+/// Factor of the steps of a quick contact pattern.
+const COARSER: f64 = 4.0;
 
 impl ScenesQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
@@ -159,15 +165,22 @@ fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>
 
 impl PatternQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
-        let cases = match self.of.as_slice() {
+        let mut cases = match self.of.as_slice() {
             [] => cases::all()?,
             named => named.iter().map(|of| Ok(PatternCase::of(of.scene(progress)?))).collect::<Result<_>>()?,
         };
-        let patterns = Patterns::of(&cases, progress)?;
+        let all = cases.len();
+        if self.quick && self.of.is_empty() {
+            cases.retain(|case| cases::QUICK.contains(&case.name.as_str()));
+        }
+        let patterns = Patterns::of(&cases, if self.quick { COARSER } else { 1.0 }, progress)?;
         let files: Map<String, Value> =
             patterns.files.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
-        let table = patterns.table().terminal();
-        Ok(json!({"text": table, "document": findings::markdown(&patterns.findings), "files": files}))
+        let mut text = patterns.table().terminal();
+        if self.quick {
+            text += &format!("quick: {} of {all} cases, in steps {COARSER} times as long\n", cases.len());
+        }
+        Ok(json!({"text": text, "document": findings::markdown(&patterns.findings), "files": files}))
     }
 }
 

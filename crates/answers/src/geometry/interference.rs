@@ -18,6 +18,7 @@ use crate::progress::Progress;
 use crate::text::table::wrapped;
 
 const MM: f64 = 1e3;
+const INTERFERENCE: &str = "INTERFERENCE";
 const GEARS: [&str; 2] = ["planet", "side gear"];
 /// Approaches farther than this share of the module are left out of the JSON.
 const NEAR: f64 = 0.25;
@@ -67,7 +68,6 @@ impl InterferenceCheck {
 
     /// In words.
     pub fn text(&self) -> String {
-        let [middle, driving] = &self.stances;
         let mut out = String::from("interference while the gears turn, apexes in one point\n");
         if self.thicken > 0.0 {
             out += &wrapped(&format!(
@@ -76,16 +76,34 @@ impl InterferenceCheck {
                 self.spec.backlash * MM
             ));
         }
-        out += &wrapped(&format!("1. Teeth in the middle of their gaps: {}.", self.middle(middle)));
-        out += &wrapped(&format!("2. Backlash taken up on one side, as gears run: {}.", self.driving(driving)));
-        out += &wrapped(&format!("3. Neighbours: {}.", self.neighbours()));
+        let headings =
+            ["Teeth in the middle of their gaps", "Backlash taken up on one side, as gears run", "Neighbours"];
+        for (number, (heading, finding)) in (1..).zip(headings.iter().zip(self.findings())) {
+            out += &wrapped(&format!("{number}. {heading}: {finding}."));
+        }
         out += &wrapped(&format!(
             "Looked at: {POSITIONS} positions of a tooth pitch of the planet, and more about the worst; outlines of {FACETS} \
              facets per flank; right to {:.4} mm at the heel. {}",
-            self.heel(middle.resolution),
+            self.heel(self.stances[0].resolution),
             self.meshes()
         ));
         out
+    }
+
+    /// The result of the check in a line.
+    pub fn verdict(&self) -> String {
+        if !self.any() {
+            return "verdict: no interference, the gears turn freely".into();
+        }
+        let numbered = (1..).zip(self.findings()).filter(|(_, finding)| finding.starts_with(INTERFERENCE));
+        let struck: Vec<String> = numbered.map(|(number, _): (u8, String)| number.to_string()).collect();
+        format!("verdict: {INTERFERENCE}, the gears do not turn freely: see {} above", struck.join(" and "))
+    }
+
+    /// The findings of the text, in its order.
+    fn findings(&self) -> [String; 3] {
+        let [middle, driving] = &self.stances;
+        [self.middle(middle), self.driving(driving), self.neighbours()]
     }
 
     fn middle(&self, found: &Interference) -> String {
@@ -119,7 +137,7 @@ impl InterferenceCheck {
         let mut entering = found.approaches.iter().filter(|a| found.verdict(a.gap) == Verdict::Interfering);
         let Some(worst) = entering.next() else { return String::new() };
         let mut text = format!(
-            "INTERFERENCE: {} by {:.4} mm at the heel (R = {:.4} mm) and {:.4} mm at the toe (R = {:.4} mm), {}",
+            "{INTERFERENCE}: {} by {:.4} mm at the heel (R = {:.4} mm) and {:.4} mm at the toe (R = {:.4} mm), {}",
             sentence(worst),
             -self.heel(worst.gap),
             self.pair.outer_cone * MM,
@@ -139,7 +157,7 @@ impl InterferenceCheck {
         for (angle, what) in [(planets, "neighbouring planets"), (sides, "the two side gears")] {
             if angle < 0.0 {
                 let degrees = -angle.to_degrees();
-                struck.push(format!("INTERFERENCE: the tip cones of {what} overlap by {degrees:.4} deg"));
+                struck.push(format!("{INTERFERENCE}: the tip cones of {what} overlap by {degrees:.4} deg"));
             }
         }
         if !struck.is_empty() {

@@ -34,6 +34,9 @@ pub const ANGLE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 /// Crowning shown [m].
 pub const CROWNING: f64 = 20e-6;
 
+/// Cases of a quick answer: aligned, and one of each kind of deviation.
+pub const QUICK: [&str; 4] = ["aligned", "crowned", "angle_wide", "planet_out"];
+
 /// A scene with its place in the figure.
 #[derive(Clone)]
 pub struct PatternCase {

@@ -29,13 +29,13 @@ pub struct Patterns {
 }
 
 impl Patterns {
-    /// Simulates `cases`.
-    pub fn of(cases: &[PatternCase], progress: &mut Progress) -> Result<Self> {
+    /// Simulates `cases`, in steps that are longer by the factor `coarser`.
+    pub fn of(cases: &[PatternCase], coarser: f64, progress: &mut Progress) -> Result<Self> {
         let (mut envelopes, mut contacts, mut findings) = (Envelope::file()?, Engagement::file()?, Vec::new());
         let mut outline = envelope::outline_file()?;
         for (i, case) in cases.iter().enumerate() {
             progress.begin_task(i as f64 / cases.len() as f64, &case.title);
-            let record = Engagement::new(&case.scene, progress)?;
+            let record = Engagement::coarser(&case.scene, coarser, progress)?;
             envelope::outline(&record.pair, &case.name, &mut outline)?;
             Envelope::new(&record).rows(&case.name, &mut envelopes)?;
             record.rows(&case.name, &mut contacts)?;

@@ -16,6 +16,7 @@ use bevel_differential::model::{GearContact, Parameters};
 use bevel_differential::variables::{Variable, named};
 
 use super::sections::{Flanks, LoadedSection, PairName};
+use crate::problem::question_error;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
@@ -49,15 +50,22 @@ pub struct Engagement {
 impl Engagement {
     /// Runs `scene` until a pair that came into contact after the start has parted.
     pub fn new(scene: &Scene, progress: &mut Progress) -> Result<Self> {
+        Self::coarser(scene, 1.0, progress)
+    }
+
+    /// Runs `scene` in the same way in steps that are longer by the factor `coarser`.
+    pub fn coarser(scene: &Scene, coarser: f64, progress: &mut Progress) -> Result<Self> {
         let p = &scene.parameters;
         let solid = match p.scene.gear_contact {
             GearContact::Solid => true,
             GearContact::Tooth => false,
-            _ => bail!(
-                "scene {}: a contact pattern needs single tooth pairs: set scene.gear_contact = tooth, with contact.law = line or \
-                 line_weber, or scene.gear_contact = solid",
-                scene.name
-            ),
+            _ => {
+                return Err(question_error(format!(
+                    "scene {}: a contact pattern needs single tooth pairs: set scene.gear_contact = tooth, with contact.law = line \
+                     or line_weber, or scene.gear_contact = solid",
+                    scene.name
+                )));
+            }
         };
         if !solid && p.contact.law == ContactLaw::Impact {
             progress.warn([format!(
@@ -66,7 +74,7 @@ impl Engagement {
                 scene.name
             )]);
         }
-        let step = if solid { scene.step } else { step(scene, progress)? };
+        let step = coarser * if solid { scene.step } else { step(scene, progress)? };
         let mut run = SceneRun::start(scene, step)?;
         let m = &p.material;
         let flanks = Flanks::new(&run.simulation, m.young_modulus, m.poisson_ratio, grows(p));

@@ -44,7 +44,7 @@ pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<St
     let shown = text::shown(file);
     let text = fs::read_to_string(file).map_err(|error| {
         vec![match error.kind() {
-            io::ErrorKind::InvalidData => format!("{shown} is not UTF-8; save it as UTF-8"),
+            io::ErrorKind::InvalidData => format!("{shown} {}", text::not_text(file, "CSV")),
             _ => format!("{shown} cannot be read ({error}); the path in file = is relative to the scene's own file"),
         }]
     })?;

@@ -26,6 +26,7 @@
 //! file = "cycle.csv"                     # relative to this file
 //! ```
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -39,8 +40,8 @@ use super::set::{Setting, closest, real, variable, written};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::{Event, InputTable, Scene, former_names, input_file};
-use crate::problem::Problems;
-use crate::text::shown;
+use crate::problem::{Problems, question_error};
+use crate::text::{not_text, shown};
 
 /// Contents of a scene file.
 #[derive(Clone, Deserialize)]
@@ -82,14 +83,19 @@ struct InputFileEntry {
 /// Loads the scene in `file`.
 pub fn load(file: &Path) -> Result<Scene> {
     let shown = shown(file);
-    let text = std::fs::read_to_string(file).with_context(|| format!("{shown} cannot be read"))?;
+    let text = std::fs::read_to_string(file).map_err(|why| {
+        question_error(match why.kind() {
+            io::ErrorKind::InvalidData => format!("{shown} {}", not_text(file, "TOML")),
+            _ => format!("{shown} cannot be read: {why}"),
+        })
+    })?;
     let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
     parse(name, file, &text).with_context(|| shown)
 }
 
 /// Reads the scene `name` from the TOML `text` of `file`.
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
-    given(name, file, &toml::from_str(text)?)
+    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?)
 }
 
 /// Makes the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::io::Write;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::action::LineOfAction;
@@ -11,6 +11,7 @@ use bevel_differential::model::{GearContact, ToothLoad};
 
 use super::Scene;
 use super::run::SceneRun;
+use crate::problem::question_error;
 use crate::progress::Progress;
 
 /// Times that differ by less than this part of an interval are the same.
@@ -50,12 +51,18 @@ pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear
 /// returns the number of lines.
 pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<u64> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
-        bail!("scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load", scene.name);
+        return Err(question_error(format!(
+            "scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load",
+            scene.name
+        )));
     }
     let every = every.unwrap_or(scene.step);
     // a scene without any duration has a record of its start
     if !(every > 0.0 && (every <= scene.stop_time || scene.stop_time == 0.0)) {
-        bail!("--every {every} s: must be above 0 and at most the scene's {} s", scene.stop_time);
+        return Err(question_error(format!(
+            "--every {every} s: must be above 0 and at most the scene's {} s",
+            scene.stop_time
+        )));
     }
     let mut run = SceneRun::start(scene, scene.step.min(every))?;
     let pair = *run.simulation.pair();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use bevel_differential::numeric::lanes;
 use bevel_differential::variables::{guid, index_of};
 use clap::Args;
@@ -16,6 +16,7 @@ use crate::check::fuzz;
 use answers::text::table::Table;
 use fmu_build::fmu::own;
 use fmu_build::tools::paths;
+use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
 /// Calls at random: of the host in C, and of the driver in Rust.
@@ -99,7 +100,7 @@ fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[Strin
     let said = String::from_utf8_lossy(&output.stderr);
     if !output.status.success() {
         let names = "with CARGO_PROFILE_RELEASE_STRIP=none in the environment, functions have their names";
-        bail!("{program} ({}):\n{}\n{names}", output.status, said.trim_end());
+        return Err(Finding(format!("{program} ({}):\n{}\n{names}", output.status, said.trim_end())).into());
     }
     let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind reported no count of errors")?;
     let lost = between(&said, "definitely lost: ", " bytes").unwrap_or("0");

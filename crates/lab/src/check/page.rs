@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::tools::script::environment;
@@ -16,6 +16,7 @@ use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
 use fmu_build::tools::lock::Lock;
 use fmu_build::tools::paths;
+use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
 /// Names a Chromium that is not on the search path.
@@ -73,7 +74,7 @@ impl TestPageCommand {
         if !output.status.success() {
             let [report, errors] =
                 [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-            bail!("the page fails its tests:\n{report}{errors}");
+            return Err(Finding(format!("the page fails its tests:\n{report}{errors}")).into());
         }
         print!("{}", table(&checked)?.terminal());
         Ok(())

@@ -8,10 +8,11 @@ use std::time::{Duration, Instant};
 
 use answers::ask::c::as_in_c;
 use answers::text::table::Table;
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use bevel_differential::variables::table;
 use clap::Args;
 use fmu_build::tools::paths;
+use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 use serde_json::{Map, Value, json};
 
@@ -85,8 +86,10 @@ impl QuestionsCommand {
         all.kinds.iter().for_each(|(kind, count)| shown.push([kind.clone(), count.to_string()]));
         print!("{}", shown.terminal());
         println!("longest: {:.1} s, {}", all.longest.0.as_secs_f64(), cut(&all.longest.1));
-        ensure!(all.findings.is_empty(), "{} findings, the first: {}", all.findings.len(), all.findings[0]);
-        Ok(())
+        match all.findings.first() {
+            Some(first) => Err(Finding(format!("{} findings, the first: {first}", all.findings.len())).into()),
+            None => Ok(()),
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 import argparse
 import time
-from pathlib import Path
 
-from ..command.arguments import add_progress, add_scene, add_units, once
+from ..command import DONE, FINDING
+from ..command.arguments import add_file, add_progress, add_quick, add_scene, add_units, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -15,37 +15,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="a quantity, such as left.speed:mean; may be repeated (default: all outputs of the scene)")
     parser.add_argument("--within", metavar="PERCENT", required=True, help="the accuracy that it needs, such as 1%%")
     parser.add_argument("--from", metavar="TIME", dest="from_", help="judge outputs from this time on, such as 10ms")
-    parser.add_argument("--csv", metavar="FILE", help="write a table of all that was tried")
-    parser.add_argument("--plot", metavar="FILE", help="draw error against cost (PNG, SVG or PDF)")
-    parser.add_argument("--write", metavar="FILE", help="write the scene with the chosen setting (TOML)")
-    parser.add_argument("--ssv", metavar="FILE", help="write the start values of the chosen setting for hosts of the FMU (SSP parameter set)")
-    parser.add_argument("--python", metavar="FILE", help="write the scene with the chosen setting as a Python script")
+    add_file(parser, "--csv", "CSV file", "write a table of all that was tried")
+    add_file(parser, "--plot", "picture", "draw error against cost")
+    add_file(parser, "--write", "scene", "write the scene with the chosen setting")
+    add_file(parser, "--ssv", "parameter set", "write the start values of the chosen setting for hosts of the FMU")
+    add_file(parser, "--python", "Python script", "write the scene with the chosen setting as a script")
+    add_quick(parser, "no times are measured, and no other solver is tried")
     add_progress(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Answers, prints and writes files. Returns 0."""
+    """Answers, prints and writes files. That no setting is accurate enough is a finding."""
     from ..extras import require
-    from ..output_file import checked, checked_picture
     from ..progress import shown
     from ..values import DifferentialError
     from ..writing import write_whole
     from . import accuracy
 
     # before the work, not after it
-    for file in (arguments.csv, arguments.write, arguments.ssv, arguments.python):
-        checked(file)
-    if arguments.write and Path(arguments.write).exists():
+    if arguments.write and arguments.write.exists():
         raise DifferentialError(f"{arguments.write} is there already: remove it, or name another with --write FILE")
-    if checked_picture(arguments.plot):
+    if arguments.plot:
         require("matplotlib", "plot")
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
-        found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=once("--set", arguments.set),
-                         display_units=arguments.unit, file=arguments.write, progress=progress)
+        found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=changes(arguments),
+                         display_units=arguments.unit, file=arguments.write, timed=not arguments.quick, progress=progress)
     print(found.text)
-    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
-          f"{time.monotonic() - begin:.2g} s in all")
+    each = "" if arguments.quick else f" of {found.reference.seconds:.2g} s each"
+    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs{each}: {time.monotonic() - begin:.2g} s in all")
+    if arguments.quick:
+        print("quick: no times are measured, and no other solver is tried")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:
@@ -54,4 +54,4 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.plot:
         found.plot(arguments.plot)
         print(f"written: {arguments.plot}")
-    return 0
+    return DONE if found.use else FINDING

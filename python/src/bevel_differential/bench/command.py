@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from ..command import DONE
 from ..command.arguments import add_farm, add_fmu, add_set, add_units, farm, once
 
 
@@ -19,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the tests, prints what to read from them and writes files. Returns 0. Raises `DifferentialError`."""
+    """Runs the tests, prints what to read from them and writes files. Raises `DifferentialError`."""
     from ..extras import require
     from ..values import DifferentialError, suggestion
     from ..writing import in_folder, write_whole
@@ -37,4 +38,4 @@ def run(arguments: argparse.Namespace) -> int:
             says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
             write_whole(folder / scene.name, scene.read_bytes())
         print(f"{name}: {says} ({Path(arguments.out) / name}.png, .csv)")
-    return 0
+    return DONE

@@ -72,7 +72,7 @@ def _measured(scene, torques, differences, farm):
         rows = workers.evaluate(PointTask(benched(scene)), [(run, inputs(point)) for run, point in enumerate(points)])
     for row in rows:
         if row.message:
-            raise DifferentialError(row.message)
+            raise DifferentialError(row.message, kind=row.kind)
     return {point: [float(row.figures[name]) for name in FIGURES] for point, row in zip(points, rows)}
 
 

@@ -56,7 +56,7 @@ def gear_solid(shape, i):
         sewing.Add(face)
     sewing.Perform()
     if sewing.NbFreeEdges() or sewing.NbMultipleEdges():
-        raise DifferentialError(f"the faces of the {gear['name']} cannot be sewn: {sewing.NbFreeEdges()} open edges")
+        raise DifferentialError(f"the faces of the {gear['name']} cannot be sewn: {sewing.NbFreeEdges()} open edges", kind="failed")
     solid = BRepBuilderAPI_MakeSolid(TopoDS.Shell(sewing.SewedShape())).Solid()
     BRepLib.OrientClosedSolid_s(solid)
     return solid

@@ -45,5 +45,5 @@ def step(shape, part, solids):
         tool.UpdateAssemblies()
     writer, stream = STEPCAFControl_Writer(), BytesIO()
     if not writer.Transfer(document) or writer.WriteStream(stream) != IFSelect_RetDone:
-        raise DifferentialError(f"Open CASCADE cannot write the {part} as STEP")
+        raise DifferentialError(f"Open CASCADE cannot write the {part} as STEP", kind="failed")
     return stream.getvalue()

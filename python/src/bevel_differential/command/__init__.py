@@ -1,5 +1,5 @@
 """The command `bevel-differential`. Each sub-command is a module with `add_arguments(parser)` and `run(arguments) -> exit status`.
-Only the module that is asked for is imported."""
+Only the module that is asked for is imported, and until its `run` no package that only some installations have."""
 
 import argparse
 import importlib
@@ -42,15 +42,18 @@ COMMANDS = {
     "page": (".command.page", None, "open the differential live in a browser"),
 }
 PACKAGE = __package__.partition(".")[0]
-# exit statuses: what fails while running, wrong use, Ctrl-C
-FAILED, WRONG_USE, INTERRUPTED = 1, 2, 130
+# exit statuses of all commands, and the words for them
+DONE, FAILED, WRONG, FINDING, INTERRUPTED = 0, 1, 2, 3, 130
+STATUSES = {DONE: "done", FAILED: "failed", WRONG: "wrong value or use", FINDING: "done, with a finding", INTERRUPTED: "stopped by Ctrl-C"}
+# by the kinds of `DifferentialError`
+_STATUS = {"use": WRONG, "finding": FINDING}
 
 
 class Parser(argparse.ArgumentParser):
     """Says what is wrong in one line."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(WRONG_USE, f"{self.prog}: {message}; see {self.prog} --help\n")
+        self.exit(WRONG, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -59,16 +62,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if not arguments or arguments[0] in ("-h", "--help", "help"):
             print(_overview())
-            return 0 if arguments else WRONG_USE
+            return DONE if arguments else WRONG
         if arguments[0] in ("-V", "--version"):
             print(f"{NAME} {version() or 'of sources that are not installed'}")
-            return 0
+            return DONE
         status = _run(arguments[0], arguments[1:])
         # at exit Python would show an error by itself
         sys.stdout.flush()
         return status
     except DifferentialError as error:
-        return _said(error, WRONG_USE if error.kind == "use" else FAILED)
+        return _said(error, _STATUS.get(error.kind, FAILED))
     except KeyboardInterrupt as interrupt:
         return _said(interrupt if str(interrupt) else "stopped", INTERRUPTED)
     except BrokenPipeError:
@@ -90,7 +93,7 @@ def _discard_output():
 
 def _run(name, arguments):
     if name not in COMMANDS:
-        return _said(f"there is no command {name!r}{suggestion(name, COMMANDS)}; known: {', '.join(COMMANDS)}", WRONG_USE)
+        return _said(f"there is no command {name!r}{suggestion(name, COMMANDS)}; known: {', '.join(COMMANDS)}", WRONG)
     place, extra, what = COMMANDS[name]
     try:
         module = importlib.import_module(place, PACKAGE)
@@ -110,7 +113,9 @@ def _run(name, arguments):
 
 def _overview():
     lines = aligned([("", name, what) for name, (_, _, what) in COMMANDS.items()], 3)
-    return "\n".join([f"usage: {NAME} COMMAND ...", "", *lines, "", f"{NAME} COMMAND --help says what a command takes."])
+    statuses = ", ".join(f"{status} {words}" for status, words in STATUSES.items())
+    return "\n".join([f"usage: {NAME} COMMAND ...", "", *lines, "", f"{NAME} COMMAND --help says what a command takes.",
+                      f"Exit status: {statuses}."])
 
 
 def _said(what, status):

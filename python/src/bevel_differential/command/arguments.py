@@ -2,9 +2,11 @@
 
 import argparse
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from ..former_names import present
+from ..output_file import ENDINGS, checked
 from ..values import DifferentialError
 
 
@@ -26,12 +28,27 @@ def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     return values
 
 
+def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
+    """A file to write, of a kind in `output_file.ENDINGS`; one that cannot be written is wrong use, before any work."""
+
+    def file(text: str) -> Path | None:
+        try:
+            return checked(text, kind)
+        except DifferentialError as error:
+            if error.kind == "failed":
+                raise
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
+    parser.add_argument(option, metavar="FILE", type=file, help=help, **more)
+
+
 def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:
     """Files to write, a table and a picture; `before`: names that the options `csv` and `plot` had before, which still do."""
-    parser.add_argument("--csv", metavar="FILE", help=f"write {table}: CSV, or Parquet where the file ends in .parquet")
-    parser.add_argument("--plot", metavar="FILE", help=f"draw {picture} (PNG, SVG or PDF)")
+    add_file(parser, "--csv", "table", f"write {table}")
+    add_file(parser, "--plot", "picture", f"draw {picture}")
     for option, name in before.items():
-        parser.add_argument(name, dest=option, help=argparse.SUPPRESS)
+        add_file(parser, name, {"csv": "table", "plot": "picture"}[option], argparse.SUPPRESS, dest=option)
 
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:
@@ -52,10 +69,27 @@ def add_set(parser: argparse.ArgumentParser) -> None:
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")
 
 
+def add_stop(parser: argparse.ArgumentParser) -> None:
+    """Another end of the scene."""
+    parser.add_argument("--stop", metavar="TIME", help="another end of the scene, such as \"0.2 s\"")
+
+
+def add_quick(parser: argparse.ArgumentParser, what: str) -> None:
+    """A coarser answer in less time; `what` is different in it."""
+    parser.add_argument("--quick", action="store_true", help=f"a coarser answer in less time: {what}")
+
+
 def add_scene(parser: argparse.ArgumentParser) -> None:
     """The scene, and values that differ from its own."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
+    add_stop(parser)
+
+
+def changes(arguments: argparse.Namespace) -> dict[str, str]:
+    """The options --set and --stop as changes of a scene in a question to the library of answers."""
+    stop = [] if arguments.stop is None else [("stop_time", arguments.stop)]
+    return once("--set", [*arguments.set, *stop])
 
 
 def add_farm(parser: argparse.ArgumentParser) -> None:

@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from . import DONE
 from ..values import DifferentialError
 from ..writing import in_folder, write_whole
 
@@ -16,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Copies the files and names them. Returns 0. Raises `DifferentialError` where one is there already."""
+    """Copies the files and names them. Raises `DifferentialError` where one is there already."""
     out = Path(arguments.out)
     copies = {file: out / name / file.name for name, patterns in FOLDERS.items() for pattern in patterns
               for file in sorted((folder() / name).glob(pattern))}
@@ -29,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
             copied.parent.mkdir(exist_ok=True)
             write_whole(copied, file.read_bytes())
     print("\n".join(f"written: {copy}" for copy in copies.values()))
-    return 0
+    return DONE
 
 
 def folder() -> Path:

@@ -2,6 +2,7 @@
 
 import argparse
 
+from . import DONE, FINDING
 from .arguments import add_progress, add_set, once
 
 _WHAT = {"step": "solids for CAD", "stl": "meshes", "3mf": "meshes for printing", "glb": "meshes for viewers of glTF",
@@ -22,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints the dimensions and writes the files. Returns 0."""
+    """Writes the files, prints the dimensions and, at the end, whether the gears turn freely: interference is a finding."""
     from ..answers import ask, assignments
     from ..cad import PARTS, write
     from ..progress import shown
@@ -32,5 +33,6 @@ def run(arguments: argparse.Namespace) -> int:
     with shown(arguments.progress) as progress:
         found = ask(question, progress=progress)
     names = write(found, arguments.out, arguments.kinds or (), arguments.part or PARTS)
-    print(f"{found['text']}\nfiles in {arguments.out}\n" + "\n".join(f"  {name}" for name in names))
-    return 0
+    # the verdict at the end, where it is read
+    print(f"{found['text']}\nfiles in {arguments.out}: {', '.join(names)}\n{found['verdict']}")
+    return FINDING if found["interference"] else DONE

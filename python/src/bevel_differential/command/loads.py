@@ -2,7 +2,8 @@
 
 import argparse
 
-from .arguments import add_progress, add_scene, once
+from . import DONE
+from .arguments import add_file, add_progress, add_scene, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -10,18 +11,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene(parser)
     parser.add_argument("--every", metavar="TIME", help="time between records, such as 0.1ms (default: the scene's "
                                                         "communication step)")
-    parser.add_argument("--out", metavar="FILE", required=True, help="the CSV file to write")
+    add_file(parser, "--out", "CSV file", "the file to write", required=True)
     add_progress(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Writes the loads and says how many. Returns 0."""
+    """Writes the loads and says how many."""
     from ..answers import about, ask
-    from ..output_file import checked
     from ..progress import shown
 
-    of, file = about(arguments.scene, once("--set", arguments.set)), checked(arguments.out)
+    of = about(arguments.scene, changes(arguments))
     with shown(arguments.progress) as progress:
-        found = ask({"ask": "loads", "of": of, "every": arguments.every, "out": file}, progress=progress)
-    print(f"{file}: {found['lines']} loads of tooth pairs")
-    return 0
+        found = ask({"ask": "loads", "of": of, "every": arguments.every, "out": arguments.out}, progress=progress)
+    print(f"{arguments.out}: {found['lines']} loads of tooth pairs")
+    return DONE

@@ -5,6 +5,7 @@ import importlib.resources
 import webbrowser
 from pathlib import Path
 
+from . import DONE
 from ..values import DifferentialError
 
 FILE = "BevelDifferential.html"
@@ -16,16 +17,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Opens the page and prints its address. Returns 0. Raises `DifferentialError`."""
+    """Opens the page and prints its address. Raises `DifferentialError`."""
     page = page_file()
     if arguments.path:
         print(page)
-        return 0
+        return DONE
     address = page.as_uri()
     print(address)
     if not webbrowser.open(address):
-        raise DifferentialError("no browser can be opened from here: open the address above in one")
-    return 0
+        raise DifferentialError("no browser can be opened from here: open the address above in one", kind="failed")
+    return DONE
 
 
 def page_file() -> Path:
@@ -39,4 +40,4 @@ def page_file() -> Path:
         if place.is_file():
             return place.resolve()
     raise DifferentialError("the page is not in this package. It comes with a wheel that was built where the page was made: in a "
-                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`")
+                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`", kind="failed")

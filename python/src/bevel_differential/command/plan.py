@@ -2,34 +2,35 @@
 
 import argparse
 
-from .arguments import add_set, add_units, once
+from . import DONE
+from .arguments import add_file, add_set, add_stop, add_units, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
+    add_stop(parser)
     add_units(parser)
-    parser.add_argument("--ssv", metavar="FILE", help="write the start values as a parameter set of SSP 1.0, which hosts read")
-    parser.add_argument("--python", metavar="FILE", help="write a Python script that simulates the scene, with the bits of `run`")
+    add_file(parser, "--ssv", "parameter set", "write the start values as a parameter set of SSP 1.0, which hosts read")
+    add_file(parser, "--python", "Python script", "write a Python script that simulates the scene, with the bits of `run`")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints the plan and writes files. Returns 0."""
+    """Prints the plan and writes files."""
     from ..answers import about, ask
-    from ..output_file import checked
     from ..writing import write_whole
 
     if arguments.scene is None:
         print(listed("plan", arguments))
-        return 0
-    of = about(arguments.scene, once("--set", arguments.set), arguments.unit)
-    files = {kind: checked(file) for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)) if file}
+        return DONE
+    of = about(arguments.scene, changes(arguments), arguments.unit)
     print(ask({"ask": "plan", "of": of})["text"], end="")
-    for kind, file in files.items():
-        write_whole(file, ask({"ask": "export", "of": of, "format": kind})["text"])
-        print(f"written: {file}")
-    return 0
+    for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)):
+        if file:
+            write_whole(file, ask({"ask": "export", "of": of, "format": kind})["text"])
+            print(f"written: {file}")
+    return DONE
 
 
 def listed(command: str, arguments: argparse.Namespace) -> str:

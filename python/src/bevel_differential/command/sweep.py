@@ -3,10 +3,11 @@
 import argparse
 from pathlib import Path
 
-from .arguments import add_farm, add_fmu, add_set, add_units, assignment, farm, once
+from . import DONE, FINDING
+from .arguments import add_farm, add_file, add_fmu, add_set, add_stop, add_units, assignment, farm, once
 
 # keys of a plan file, and the name of each option here
-KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
+KEYS = {"scene": "scene", "stop": "stop", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
 DEFAULTS = {"plan": "random", "seed": 0, "start": 0.0}
 
@@ -18,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), "
                              "triangular(A, PEAK, B), lognormal(MEDIAN, FACTOR) or seed")
     add_set(parser)
+    add_stop(parser)
     parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (default: random)")
     parser.add_argument("--runs", type=int, metavar="N", help="number of designs; not for a grid; Sobol rounds up to a power of two")
     parser.add_argument("--seed", type=int, metavar="N", help="seed of all draws (default: 0)")
@@ -27,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
     parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
-    parser.add_argument("--out", metavar="FILE", help="results as Parquet; --resume goes on from this file")
-    parser.add_argument("--csv", metavar="FILE", help="write all runs: CSV, or Parquet where the file ends in .parquet")
+    add_file(parser, "--out", "Parquet file", "results; --resume goes on from this file")
+    add_file(parser, "--csv", "table", "write all runs as a table")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="overwrite existing results")
     add_units(parser)
@@ -37,18 +39,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    """Sweeps and prints what was found. Runs that fail, and a sweep without a feasible design, are findings. Raises
+    `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.sweep import sweep, text
     from ..scene import Scene
-    from ..output_file import checked
     from ..records import write
     from ..values import DifferentialError
 
     given = _merged(arguments)
-    checked(arguments.csv)
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
-    with Scene.load(given["scene"], fmu=arguments.fmu, display_units=arguments.unit) as scene:
+    with Scene.load(given["scene"], arguments.fmu, given.get("stop"), arguments.unit) as scene:
         scene.set(given["set"])
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
@@ -56,13 +57,13 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.csv:
             columns = result.displayed(scene.fmu)
             print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")
-    return 0
+    return FINDING if result.failures() or not any(result.table["feasible"].to_pylist()) else DONE
 
 
 def _merged(arguments):
     """Values of the plan file, replaced or extended by those of the command line."""
     given = {**DEFAULTS, **(_read(arguments.plan_file) if arguments.plan_file else {})}
-    for name in ("scene", "plan", "runs", "seed", "start"):
+    for name in ("scene", "stop", "plan", "runs", "seed", "start"):
         if getattr(arguments, name) is not None:
             given[name] = getattr(arguments, name)
     for name in ("set", "vary"):

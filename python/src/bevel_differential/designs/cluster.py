@@ -39,7 +39,7 @@ def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iter
     dask, distributed = require("dask", "sweep"), require("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
-                                "if __name__ == \"__main__\":")
+                                "if __name__ == \"__main__\":", kind="failed")
     with _quiet(), dask.config.set(SETTINGS):
         opened = _connected(distributed, scheduler) if scheduler else _started(distributed, workers, processes)
         try:
@@ -67,7 +67,7 @@ def _started(distributed, workers, processes):
                                                memory_limit=0, host="127.0.0.1" if processes else None)
         except RuntimeError as error:
             raise DifferentialError(f"the workers do not start ({error}); a script starts them below "
-                                    "if __name__ == \"__main__\": alone, as each worker reads it") from None
+                                    "if __name__ == \"__main__\": alone, as each worker reads it", kind="failed") from None
     # the cluster opens a port for browsers nevertheless
     cluster.loop.add_callback(cluster.scheduler.http_server.stop)
     return distributed.Client(cluster, set_as_default=False)
@@ -109,10 +109,10 @@ def _connected(distributed, scheduler):
         client = distributed.Client(scheduler, timeout=ANSWER_TIMEOUT, set_as_default=False)
     except (OSError, ValueError, TimeoutError):
         raise DifferentialError(f"scheduler {scheduler}: nothing answers there; start one by dask scheduler, or leave it out to "
-                                "use the cores of this machine") from None
+                                "use the cores of this machine", kind="failed") from None
     try:
         client.wait_for_workers(1, timeout=ANSWER_TIMEOUT)
     except TimeoutError:
         client.close()
-        raise DifferentialError(f"scheduler {scheduler}: it has no workers; start some by dask worker {scheduler}") from None
+        raise DifferentialError(f"scheduler {scheduler}: it has no workers; start some by dask worker {scheduler}", kind="failed") from None
     return client

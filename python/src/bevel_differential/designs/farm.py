@@ -106,7 +106,7 @@ class _TaskRun:
                     rows = self._ended(interrupts)
                 yield from rows
         except (CancelledError, OSError):
-            raise DifferentialError("the scheduler is gone; start it again and go on") from None
+            raise DifferentialError("the scheduler is gone; start it again and go on", kind="failed") from None
         finally:
             self.client.cancel(list(self.under_way))
 
@@ -129,7 +129,8 @@ class _TaskRun:
                 now = time.monotonic()
                 seen = now if self.client.nthreads() else seen
                 if now - seen > NO_WORKER_TIMEOUT:
-                    raise DifferentialError(f"all workers have been gone for {NO_WORKER_TIMEOUT:g} s; start some and go on") from None
+                    raise DifferentialError(f"all workers have been gone for {NO_WORKER_TIMEOUT:g} s; start some and go on",
+                                            kind="failed") from None
 
     def _fill(self):
         """Hands out chunks until all workers have enough."""

@@ -85,10 +85,7 @@ class Store:
         self._rows: list[Row] = []
         self._flushed = time.monotonic()
         self.finished: pa.Table | None = None
-        checked(self.file)
-        if self.file.suffix.lower() == ".csv":
-            raise DifferentialError(f"{file}: results that can be resumed are stored as Parquet; name the file {self.file.stem}.parquet "
-                                    "(--csv writes a table as well)")
+        checked(self.file, "Parquet file")
         if force:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
@@ -199,3 +196,6 @@ class Store:
 
 class StoreError(DifferentialError):
     """Results cannot be written."""
+
+    def __init__(self, message: str):
+        super().__init__(message, kind="failed")

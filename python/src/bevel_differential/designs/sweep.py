@@ -136,7 +136,7 @@ def going_on_later(store: Store) -> Iterator[None]:
         raise
     except DifferentialError as error:
         store.flush()
-        raise DifferentialError(f"{error}; {store.progress()}") from None
+        raise DifferentialError(f"{error}; {store.progress()}", kind=error.kind) from None
 
 
 def describe(task: Task, plan: Plan) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from ..want import Condition, Want
 class Row:
     """A design and its results.
 
-    `figures`: by want, SI; empty where the design failed, and `message` says why. `feasible`: it ran and all conditions hold.
+    `figures`: by want, SI; empty where the design failed, and `message` and `kind` of the error say why. `feasible`: it ran and all conditions hold.
     `seconds`: duration of the run. `warnings` of the FMU; None if the FMU did not run to the end."""
 
     run: int
@@ -24,6 +24,7 @@ class Row:
     message: str = ""
     seconds: float = 0.0
     warnings: tuple[str, ...] | None = None
+    kind: str = "failed"
 
 
 class Task:
@@ -57,7 +58,7 @@ class Task:
             row.figures, row.warnings = self._figures(values), tuple(self.scene.warnings)
             row.feasible = all(one.holds(row.figures[str(one.want)]) for one in self.conditions)
         except DifferentialError as error:
-            row.message = str(error)
+            row.message, row.kind = str(error), error.kind
         row.seconds = time.perf_counter() - begun
         return row
 

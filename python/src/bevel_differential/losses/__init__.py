@@ -11,8 +11,6 @@ import numpy as np
 
 from ..accuracy import accuracy
 from ..designs import Dimension, Farm, Row, Space
-from ..designs.store import Columns, Store
-from ..designs.sweep import going_on_later, hashed
 from ..output_file import checked
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
@@ -89,6 +87,10 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     measure the error, drawn by `seed`. Temperatures share their runs if nothing depends on them; `tell` says so. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
     `designs.store.Store`.
     `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
+    # here, as options can be shown without the packages that store runs
+    from ..designs.store import Columns, Store
+    from ..designs.sweep import going_on_later, hashed
+
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
     lines, model = [starting(levels[name]) for name in VARIABLES], ""
     if lines[2][0] <= 0.0:
@@ -177,7 +179,7 @@ class _Runs:
         if row.message:
             torque, speed, difference, temperature = key
             raise DifferentialError(f"at {torque:g} N.m, {speed:g} rad/s, a difference of {difference:g} rad/s and {temperature:g} K: "
-                                    f"{row.message}")
+                                    f"{row.message}", kind=row.kind)
         self.restless += not row.feasible
         self.found[key] = [row.figures[name] for name in FIGURES]
 

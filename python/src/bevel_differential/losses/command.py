@@ -2,7 +2,8 @@
 
 import argparse
 
-from ..command.arguments import add_farm, add_files, add_fmu, add_scene, add_units, farm, once
+from ..command import DONE, FINDING
+from ..command.arguments import add_farm, add_file, add_files, add_fmu, add_quick, add_scene, add_units, farm, once
 
 # default values of the axes; those of torque and speed are parts of the scene's own values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
@@ -11,6 +12,9 @@ OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SP
            DIFFERENCE: f"difference of the wheel speeds, above 0; both directions run (default: {USUAL[DIFFERENCE]})",
            TEMPERATURE: f"oil temperature (default: {USUAL[TEMPERATURE]})"}
 
+# bound of the error and points that measure it, in a map and in a quick one
+BOUND, UNSEEN, QUICK_BOUND, QUICK_UNSEEN = "2,0.1", 300, "10,0.5", 50
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
@@ -18,24 +22,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, what in OPTIONS.items():
         parser.add_argument(f"--{name}", metavar="VALUES", help=f"{what}; FROM..TO, FROM..TO:COUNT or a list A, B, C")
     parser.add_argument("--within", metavar="PERCENT", help="let `accuracy` choose the cheapest model, such as 1%% (default: the scene's)")
-    parser.add_argument("--bound", metavar="PERCENT,TORQUE", default="2,0.1", help="what an error may be, in %% and N.m (default: 2,0.1)")
-    parser.add_argument("--unseen", metavar="N", type=int, default=300, help="points that measure the error (default: 300)")
+    parser.add_argument("--bound", metavar="PERCENT,TORQUE", help=f"what an error may be, in %% and N.m (default: {BOUND})")
+    parser.add_argument("--unseen", metavar="N", type=int, help=f"points that measure the error (default: {UNSEEN})")
+    add_quick(parser, f"--bound {QUICK_BOUND} --unseen {QUICK_UNSEEN}")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of these points (default: 1)")
     parser.add_argument("--most", metavar="N", type=int, default=20000, help="most points in one direction (default: 20000)")
-    parser.add_argument("--out", metavar="FILE", help="all runs as Parquet; --resume goes on from this file")
+    add_file(parser, "--out", "Parquet file", "all runs; --resume goes on from this file")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the runs")
     parser.add_argument("--force", action="store_true", help="overwrite existing runs")
     add_units(parser)
     add_files(parser, "the map, in SI with any --unit", "bias, loss and measured error")
-    parser.add_argument("--simulink", metavar="FILE", help="write the map for blocks of Simulink (a MATLAB script)")
-    parser.add_argument("--report", metavar="FILE", help="write a page with figures, tables and the measured error (HTML)")
+    add_file(parser, "--simulink", "MATLAB script", "write the map for blocks of Simulink")
+    add_file(parser, "--report", "page", "write a page with figures, tables and the measured error")
     add_farm(parser)
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Makes the map, says how good it is and writes files. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
-    from ..output_file import checked, checked_picture
+    """Makes the map, says how good it is and writes files. A map that is worse than its bound is a finding. Raises
+    `DifferentialError`, `KeyboardInterrupt`."""
     from ..report.write import need
     from ..scene import Scene
     from . import losses
@@ -44,18 +49,19 @@ def run(arguments: argparse.Namespace) -> int:
     from .report import write as write_report
     from .tables import save, save_for_simulink
 
-    for file in (arguments.csv, arguments.simulink, arguments.report):
-        checked(file)
-    checked_picture(arguments.plot)
     if arguments.report:
         need()
-    with Scene.load(arguments.scene, fmu=arguments.fmu, display_units=arguments.unit) as scene:
+    bound = arguments.bound or (QUICK_BOUND if arguments.quick else BOUND)
+    unseen = arguments.unseen if arguments.unseen is not None else QUICK_UNSEEN if arguments.quick else UNSEEN
+    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit) as scene:
         scene.set(once("--set", arguments.set))
         levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
-        made = losses(scene, levels, within=arguments.within, bound=_bound(arguments.bound), unseen=arguments.unseen, seed=arguments.seed,
+        made = losses(scene, levels, within=arguments.within, bound=_bound(bound), unseen=unseen, seed=arguments.seed,
                       most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
                       **farm(arguments))
     print(made.says())
+    if arguments.quick:
+        print(f"quick: --bound {bound} --unseen {unseen}; a map has --bound {BOUND} --unseen {UNSEEN}")
     if made.estimate > GOAL:
         print(f"the map stops at --most {arguments.most} points in one direction: lines that are left out tell of more bends")
     if made.restless:
@@ -65,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
                         (arguments.report, write_report)):
         if file:
             print(f"written: {write(made, file)}")
-    return 0
+    return FINDING if made.estimate > GOAL else DONE
 
 
 def _axes(scene, arguments):

@@ -73,7 +73,7 @@ class PointTask:
             figures, row.feasible = self._stuck(values) if _difference(values) == 0.0 else self._slipping(values)
             row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings()
         except DifferentialError as error:
-            row.message = str(error)
+            row.message, row.kind = str(error), error.kind
         row.seconds = time.perf_counter() - begun
         return row
 

@@ -4,7 +4,8 @@ import argparse
 import math
 from pathlib import Path
 
-from ..command.arguments import add_farm, add_fmu, farm
+from ..command import DONE, FINDING
+from ..command.arguments import add_farm, add_fmu, add_quick, add_stop, farm
 from ..warned import warn
 from ..writing import in_folder, locked, write_whole
 
@@ -20,21 +21,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--generations", type=int, help="how many generations")
     parser.add_argument("--starts", type=int, help="independent searches; with several, a last one starts from the best designs of all")
     parser.add_argument("--seed", type=int, help="seed of all random numbers; the same seed gives the same front")
-    parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
+    add_stop(parser)
+    add_quick(parser, "a small search, and only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     add_farm(parser)
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the optimisation. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    """Runs the optimisation. Interference of a chosen design is a finding. Raises `DifferentialError`, of the kind "finding" if no
+    design is feasible, and `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
     from .search import Store
 
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
-    problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
+    problem = Problem.load(arguments.problem, arguments.fmu, arguments.stop).sized(**{**(QUICK if arguments.quick else {}), **effort})
     if start_warning := problem.start_warning():
         warn([start_warning])
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
@@ -42,14 +45,15 @@ def run(arguments: argparse.Namespace) -> int:
         store = Store(out, problem, arguments.resume)
         try:
             with Farm(**farm(arguments)) as workers:
-                _optimise(arguments, problem, out, store, workers)
+                free = _optimise(arguments, problem, out, store, workers)
         except KeyboardInterrupt:
             raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
                                     f"{out / 'front.csv'}; go on by --resume") from None
-    return 0
+    return DONE if free else FINDING
 
 
 def _optimise(arguments, problem, out, store, workers):
+    """Prints and writes all. Returns True if the gears of all chosen designs turn freely."""
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
     from .report import LETTERS, choice_table, compared_with_front, picture, scene_text, to_csv, write_gears
@@ -75,6 +79,10 @@ def _optimise(arguments, problem, out, store, workers):
     notes = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
     notes += _confirmation(confirmed.values(), problem)
     print("\n".join(["", table, *notes]))
+    if arguments.quick:
+        print(f"quick: {len(rows) - len(chosen)} designs of the front are not confirmed, and {problem.population} designs x {total} "
+              "generations are a small search")
+    all_free = True
     with in_folder(out) as stage:
         to_csv(confirmed.values(), problem, stage / "front.csv")
         write_whole(stage / "choice.md", table + "".join(f"\n{line}\n" for line in notes))
@@ -83,6 +91,8 @@ def _optimise(arguments, problem, out, store, workers):
             write_whole(stage / f"{letter}.toml", scene_text(problem, row, f"design {letter}, {reason}"))
             free = write_gears(problem, row, stage / letter)
             print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
+            all_free = all_free and free
+    return all_free
 
 
 def _confirmation(confirmed, problem):

@@ -109,9 +109,9 @@ class Problem:
     front: int = 64
 
     @classmethod
-    def load(cls, file: FileName, fmu: FileName | Fmu | None = None) -> "Problem":
-        """Of a file. All errors in it are reported at once."""
-        return _Reader(Path(file), Fmu.of(fmu)).problem()
+    def load(cls, file: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None) -> "Problem":
+        """The problem of a file; `stop`: another end of its scene. All errors in it are reported at once."""
+        return _Reader(Path(file), Fmu.of(fmu), stop).problem()
 
     def known(self, values: Mapping[str, Number]) -> dict[str, Number]:
         """All parameters by name, SI: these values, else those of the scene, else those of the FMU."""
@@ -170,8 +170,8 @@ class Problem:
 class _Reader:
     """Reads a file and collects what is wrong with it."""
 
-    def __init__(self, file: Path, fmu):
-        self.file, self.fmu, self.catalogue = file, fmu, Catalogue(fmu)
+    def __init__(self, file: Path, fmu: Fmu, stop: str | None):
+        self.file, self.fmu, self.stop, self.catalogue = file, fmu, stop, Catalogue(fmu)
         self.found = read_toml(file)
         self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(self.found.keys() - KEYS)]
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
@@ -210,7 +210,7 @@ class _Reader:
 
     def scene(self):
         """The scene of the file, which is looked for beside it too, with its changes."""
-        scene = Scene.load(find_beside(self.file, self.found.get("scene", "")), fmu=self.fmu)
+        scene = Scene.load(find_beside(self.file, self.found.get("scene", "")), self.fmu, self.stop)
         return scene.set(flat(self.found.get("set", {})))
 
     def dimension(self, name, given):

@@ -45,7 +45,7 @@ class Store:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out") from None
+            raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out", kind="failed") from None
         write_whole(self.folder / PROBLEM, json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n")
 
     def save(self) -> None:
@@ -113,7 +113,7 @@ def search(problem: Problem, farm: Farm, store: Store,
     if problem.starts > 1 and run.best:
         run.start(run.shares(thinned(run.best, problem.objectives, problem.population)), problem.seed + problem.starts)
     if not run.best:
-        raise DifferentialError(no_design(list(store.rows.values())))
+        raise DifferentialError(no_design(list(store.rows.values())), kind="finding")
     return run.best
 
 

@@ -2,7 +2,8 @@
 
 import argparse
 
-from ..command.arguments import add_progress, add_set, once
+from ..command import DONE
+from ..command.arguments import add_progress, add_quick, add_set, add_stop, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -10,23 +11,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names (default: solid teeth in the study's turn, "
                                                                    "aligned and with one thing out of place at a time)")
     add_set(parser)
+    add_stop(parser)
+    add_quick(parser, "longer steps; without a scene, aligned and with one offset, angle and crowning")
     parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
     add_progress(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulates, writes files and pictures, prints what they show. Returns 0."""
+    """Simulates, writes files and pictures, prints what they show."""
     from ..answers import about, ask
     from ..progress import part, shown
     from ..values import DifferentialError
     from ..writing import in_folder, write_whole
     from .picture import draw, style
 
-    changes = once("--set", arguments.set)
-    if changes and not arguments.scenes:
-        raise DifferentialError("--set changes scenes: name one")
+    changed = changes(arguments)
+    if changed and not arguments.scenes:
+        raise DifferentialError("--set and --stop change scenes: name one")
     with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
-        question = {"ask": "pattern", "of": [about(scene, changes) for scene in arguments.scenes]}
+        question = {"ask": "pattern", "of": [about(scene, changed) for scene in arguments.scenes], "quick": arguments.quick}
         found = ask(question, progress=part(progress, 0.0, 0.9))
         for name, content in {**found["files"], "findings.md": found["document"]}.items():
             write_whole(folder / name, content)
@@ -34,4 +37,4 @@ def run(arguments: argparse.Namespace) -> int:
         style.apply()
         pictures = draw(folder)
     print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")
-    return 0
+    return DONE

@@ -2,7 +2,11 @@
 
 import argparse
 
-from ..command.arguments import add_fmu, add_progress, add_set, add_units, once
+from ..command import DONE
+from ..command.arguments import add_file, add_fmu, add_progress, add_quick, add_set, add_stop, add_units, once
+
+# what needs other runs
+LEFT_OUT = "without the run-up, and without the effects that are off"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -12,16 +16,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
     add_set(parser)
     add_units(parser)
-    parser.add_argument("--out", metavar="FILE", help="the page to write (default: report-NAME.html)")
-    parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are "
-                                                             "off")
+    add_file(parser, "--out", "page", "the page to write; default: report-NAME.html")
+    add_stop(parser)
+    add_quick(parser, LEFT_OUT)
     add_fmu(parser)
     add_progress(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Writes the report and says where. Returns 0."""
-    from ..output_file import checked
+    """Writes the report and says where."""
     from ..progress import shown
     from ..scene import Scene
     from ..values import DifferentialError
@@ -30,11 +33,10 @@ def run(arguments: argparse.Namespace) -> int:
     name = arguments.scene or arguments.named
     if name is None:
         raise DifferentialError("name a scene: a file, or one of those that bevel-differential plan lists", kind="use")
-    with Scene.load(name, fmu=arguments.fmu, display_units=arguments.unit) as scene:
+    with Scene.load(name, arguments.fmu, arguments.stop, arguments.unit) as scene:
         scene.set(once("--set", arguments.set))
         file = arguments.out or f"report-{scene.name}.html"
-        checked(file)
         with shown(arguments.progress) as progress:
             written = write(scene, file, arguments.quick, progress)
-        print(f"written: {written}")
-    return 0
+        print(f"written: {written}" + (f"; quick: {LEFT_OUT}" if arguments.quick else ""))
+    return DONE

@@ -186,5 +186,5 @@ def _simulate(scene: Scene, values, commands, seconds, step, most, progress):
             if point == points // 10 and 10.0 * instance.get("solver.rhs_calls") > most:
                 return None
     if not np.all(np.diff(np.abs(record[ANGLE])) > 0.0):
-        raise DifferentialError("the planets do not roll one way in the run-up")
+        raise DifferentialError("the planets do not roll one way in the run-up", kind="failed")
     return record

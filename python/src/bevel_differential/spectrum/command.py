@@ -2,8 +2,8 @@
 
 import argparse
 
+from ..command import DONE, FINDING
 from ..command.arguments import add_files, add_fmu, assignment, once
-from ..output_file import checked, checked_picture
 from .result import ORDERS, spectrum
 
 
@@ -21,12 +21,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints damage and life, and writes what is asked for."""
-    checked(arguments.csv)
-    checked_picture(arguments.plot)
+    """Prints damage and life, and writes what is asked for. Gears that do not live through the cycle are a finding."""
     result = spectrum(arguments.cycle, once("--set", arguments.set), arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.csv, result.save), (arguments.plot, result.plot)):
         if file:
             print(f"wrote {write(file)}")
-    return 0
+    return FINDING if result.cycles_to_failure < 1.0 else DONE

@@ -224,7 +224,7 @@ def _evaluated(event, differential, teeth):
     try:
         return evaluate(event, differential, teeth)
     except DifferentialError as failure:
-        raise DifferentialError(f"event {event.name!r}: {failure}") from None
+        raise DifferentialError(f"event {event.name!r}: {failure}", kind=failure.kind) from None
 
 
 def _slow_by_event(cycles, strength, events):

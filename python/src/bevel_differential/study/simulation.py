@@ -61,7 +61,7 @@ def simulate_case(differential, request, case, duration, interval):
     try:
         return differential.set(values).run(outputs=OUTPUTS, stop=duration, step=interval)
     except DifferentialError as error:
-        raise DifferentialError(f"the {case} case fails: {error}") from error
+        raise DifferentialError(f"the {case} case fails: {error}", kind=error.kind) from error
 
 
 def cut(record, end):

@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_farm, add_files, add_fmu, add_units, farm
+from ..command import DONE, FINDING
+from ..command.arguments import add_farm, add_files, add_fmu, add_quick, add_stop, add_units, farm
 
 QUICK = 64
 
@@ -13,7 +14,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", help="tolerance file (TOML), such as tolerances.toml of `bevel-differential examples`")
     parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
     parser.add_argument("--seed", type=int, help="another draw")
-    parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
+    add_stop(parser)
+    add_quick(parser, f"{QUICK} draws")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
     add_farm(parser)
     add_units(parser)
@@ -22,22 +24,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the command."""
+    """Runs the command. Draws that fail are a finding."""
     from ..designs import Farm
     from ..fmu import Fmu
-    from ..output_file import checked, checked_picture
     from . import report
     from .plan import Plan
 
-    checked(arguments.csv)
-    checked_picture(arguments.plot)
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
-    plan = Plan.load(arguments.file, fmu=Fmu.of(arguments.fmu).displaying(arguments.unit), runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
+    plan = Plan.load(arguments.file, fmu=Fmu.of(arguments.fmu).displaying(arguments.unit), runs=runs, seed=arguments.seed,
+                     indices=not arguments.no_indices, stop=arguments.stop)
     with Farm(**farm(arguments), progress=True) as workers:
         result = plan.run(workers)
     print(report.text(plan, result))
+    if arguments.quick:
+        print(f"quick: {plan.study.runs} draws; intervals are wider than with the draws of the file")
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.plot:
         print(f"picture: {report.draw(plan, result, arguments.plot)}")
-    return 0
+    return FINDING if any(row.message for row in result.rows) else DONE

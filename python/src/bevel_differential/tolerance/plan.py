@@ -37,8 +37,8 @@ class Plan:
 
     @classmethod
     def load(cls, file: FileName, fmu: FileName | Fmu | None = None, runs: int | None = None, seed: int | None = None,
-             indices: bool = True) -> "Plan":
-        """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
+             indices: bool = True, stop: str | None = None) -> "Plan":
+        """The plan of a file; `runs` and `seed` instead of those in it, `stop` another end of its scene. All errors of the factors are reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
         if not file.is_file():
             raise DifferentialError(f"{file}: there is no such file; `bevel-differential examples` writes one to begin with")
@@ -51,7 +51,7 @@ class Plan:
                      if not all(isinstance(entry, str) for entry in found.get(key, []))]
         if problems:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
-        scene = Scene.load(find_beside(file, str(found["scene"])), fmu=fmu)
+        scene = Scene.load(find_beside(file, str(found["scene"])), fmu, stop)
         try:
             scene.set(flat(found.get("set", {})))
             scene.check_settable(flat(found["factors"]))

@@ -189,7 +189,8 @@ class _Run:
         self.motion.advance(size, line, *(lambda t, of=of: of(time + t) for of in asked))
         end = self.motion.loads(line(size))
         if not all(map(math.isfinite, end)):
-            raise DifferentialError(f"at {time:g} s: the tyres' loads are no numbers; take shorter steps, or look at the parameters")
+            raise DifferentialError(f"at {time:g} s: the tyres' loads are no numbers; take shorter steps, or look at the parameters",
+                                    kind="failed")
         self.instance.set(dict(zip(LOADS, begin)))
         self.instance.set_slopes({name: (b - a) / size for name, a, b in zip(LOADS, begin, end)})
         self.instance.do_step(time, size)

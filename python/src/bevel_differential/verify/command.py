@@ -3,7 +3,8 @@
 import argparse
 from collections.abc import Iterable
 
-from ..command.arguments import add_progress
+from ..command import DONE, FINDING
+from ..command.arguments import add_file, add_progress, add_quick
 from .judged import ASSUMED, Judged
 
 HEAD = ("experiment", "kind", "variable", "deviation by tolerance", "time, s", "verdict")
@@ -13,21 +14,19 @@ TABLE = ("experiment", "kind", "variable", "unit", "time", "value", "expected", 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("fmu", metavar="FMU", nargs="?", help="an FMU that carries evidence by FMI-LS-REF (start value: that of this package)")
-    parser.add_argument("--quick", action="store_true", help="smoke tests alone")
-    parser.add_argument("--csv", metavar="FILE", help="write the largest deviation of each variable")
+    add_quick(parser, "only smoke tests")
+    add_file(parser, "--csv", "table", "write the largest deviation of each variable")
     add_progress(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the experiments, prints a table and writes a file. Returns 1 where an experiment fails or is broken."""
+    """Runs the experiments, prints a table and writes a file. An experiment that fails or is broken is a finding."""
     from ..fmu import usual
-    from ..output_file import checked
     from ..progress import shown
     from ..records import write
     from ..text import aligned
     from . import verify
 
-    checked(arguments.csv)
     with shown(arguments.progress) as progress:
         found, faults = verify(arguments.fmu or usual(), arguments.quick, progress)
     for fault in faults:
@@ -40,10 +39,12 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"no tolerance is stated: {ASSUMED:g} of each variable's largest magnitude is assumed")
     wrong = sum(judged.verdict != "passed" for judged in found)
     print(f"{len(found)} experiments, {len(found) - wrong} passed" + (f", {wrong} not" if wrong else ""))
+    if arguments.quick:
+        print("quick: only smoke tests where there are any")
     if arguments.csv:
         write(arguments.csv, TABLE, _cells(found), "times in s, values in the unit of the variable")
         print(f"written: {arguments.csv}")
-    return 1 if wrong else 0
+    return FINDING if wrong else DONE
 
 
 def _row(judged: Judged) -> tuple[str, ...]:

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
 
+from ..instance import without_calls
 from .files import Broken
 from .parameter_sets import parameter_set
 from .tables import TEXT, UNKNOWN, table, tolerances_of
@@ -110,7 +112,9 @@ class Experiment:
                     stop_time=self.stop, output_interval=self.step, relative_tolerance=self.solver_tolerance, input=self.signals,
                     output=list(self.columns), logger=log, debug_logging=True)
         except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
-            raise Broken(f"the unit fails: {' '.join('; '.join([*said, str(error)]).split())}") from None
+            # the log says why a call failed; fmpy only says which
+            why = said if said and isinstance(error, FMICallException) else [*said, str(error)]
+            raise Broken(f"the unit fails: {' '.join('; '.join(map(without_calls, why)).split())}") from None
 
     def _complete(self, default):
         """Takes times that the evidence does not give from the default experiment, else from the result."""

@@ -20,9 +20,10 @@ pub use tally::Tally;
 
 use std::env;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::Args;
 use fmu_build::command_line::LABORATORY;
+use fmu_build::tools::program::Finding;
 
 use crate::tools::script::{DEFAULTS, Script};
 
@@ -64,7 +65,8 @@ fn work(seed: u64, calls: usize) -> Result<()> {
         let seed = seed.wrapping_add(k as u64);
         println!("round {seed}");
         if let Err(broken) = round::run(seed, CALLS, &mut tally) {
-            bail!("call {}, {}: {}\nagain: {}", broken.at, broken.function, broken.what, again(seed));
+            let found = format!("call {}, {}: {}\nagain: {}", broken.at, broken.function, broken.what, again(seed));
+            return Err(Finding(found).into());
         }
     }
     println!("{}", tally.json());
