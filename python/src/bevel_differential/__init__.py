@@ -14,8 +14,9 @@
 from .accuracy import Accuracy, accuracy
 from .differential import Differential
 from .fmu import Fmu
+from .losses import LossMap
 from .scene import Scene
 from .scene_file import shipped_scenes
 from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Accuracy", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "accuracy", "shipped_scenes"]
+__all__ = ["Accuracy", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "LossMap", "Scene", "accuracy", "shipped_scenes"]

@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
-use crate::scene::{self, Scene, loads, plan, script, ssv};
+use crate::scene::{self, Scene, loads, plan, script, ssv, warnings};
 use crate::text::shown;
 
 /// All scenes of a folder.
@@ -105,6 +105,10 @@ impl SceneQuestion {
             "input_slopes": scene.input_slopes,
             "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
         }))
+    }
+
+    pub(super) fn acting(&self) -> Result<Value> {
+        Ok(json!({"names": warnings::acting(&self.of.scene()?)}))
     }
 
     pub(super) fn plan(&self, progress: &mut Progress) -> Result<Value> {

@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
         made = losses(scene, levels, within=arguments.within, bound=_bound(arguments.bound), unseen=arguments.unseen, seed=arguments.seed,
                       most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
                       **farm(arguments))
-    print(made.says())
+    print(made.error)
     if made.estimate > GOAL:
         print(f"the map stops at --most {arguments.most} points in one direction: lines that are left out tell of more bends")
     if made.restless:

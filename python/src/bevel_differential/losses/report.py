@@ -10,9 +10,10 @@ from ..report import head, words
 from ..report.blocks import Section, Table, Text
 from ..report.write import need, page
 from ..values import FileName
-from . import MAPPED, SIGNS, LossMap, figures, inputs
+from . import MeasuredMap, figures, inputs
 from .figures import celsius, largest
 from .grid import GOAL, share_beyond
+from .loss_map import MAPPED, SIGNS
 from .point import AXES as DRIVEN, PointTask
 from .tables import BETWEEN, MEANINGS, bias
 
@@ -23,7 +24,7 @@ UNITS = ("N.m", "rad/s", "rad/s", "°C")
 ERRED = ("left torque", "right torque", "loss")
 
 
-def write(made: LossMap, file: FileName) -> Path:
+def write(made: MeasuredMap, file: FileName) -> Path:
     """Writes the report of a map whole, or not at all; returns its path. It runs the corners of the map again for the FMU's warnings."""
     need()
     sections = [_head(made), _loss(made), _bias(made), _error(made), _setup(made), _columns()]
@@ -31,9 +32,9 @@ def write(made: LossMap, file: FileName) -> Path:
     return Path(file)
 
 
-def says(made: LossMap) -> str:
+def says(made: MeasuredMap) -> str:
     """What the unseen points measure, as a sentence of the report."""
-    return f"{made.says().replace('N.m', 'N·m')}."
+    return f"{made.error.replace('N.m', 'N·m')}."
 
 
 def _head(made):
