@@ -35,7 +35,7 @@ def test_without_words_all_variables_are_listed(listed, fmu):
 
 
 def test_words_must_all_occur_in_name_or_description(listed, fmu):
-    _, line, count = listed("PLANET", "Count")
+    _, line, count = listed("PLANETS", "Equally")
     number, all_of_them = fmu.variable("geometry.planet_count"), len(fmu.variables)
     assert line.split()[:4] == ["geometry.planet_count", "parameter", str(number.start), f"{number.minimum}..{number.maximum}"]
     assert line.endswith(number.description) and count == f"1 of {all_of_them} variables"

@@ -16,7 +16,7 @@ def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *c
         pa = require("pyarrow", "sweep")
         columns = dict(zip(head, map(list, zip(*rows))))
         table = pa.table({name: [None if cell == "" else cell for cell in cells] for name, cells in columns.items()})
-        require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), file)
+        require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "\n".join(comments)}), file)
         return Path(file)
     with open(file, "w", newline="", encoding="utf-8") as out:
         out.writelines(f"# {comment}\n" for comment in comments)

@@ -102,12 +102,12 @@ pub fn variable(name: &str) -> Result<&'static Variable, String> {
 
 /// Row of the output `name`, or what it might have been.
 pub fn output(name: &str) -> Result<&'static Variable, String> {
-    let all = table();
-    let outputs = all.outputs.iter().map(|&i| &all.rows[i]);
-    match outputs.clone().find(|row| row.name == name) {
-        Some(row) => Ok(row),
-        None if all.rows.iter().any(|row| row.name == name) => Err(format!("{name} is not an output")),
-        None => Err(format!("there is no output \"{name}\"{}", hint(name, outputs))),
+    let is_output = |row: &&Variable| matches!(row.access, Access::Output(_));
+    let rows = &table().rows;
+    match rows.iter().find(|row| row.name == name) {
+        Some(row) if is_output(&row) => Ok(row),
+        Some(_) => Err(format!("{name} is not an output")),
+        None => Err(format!("there is no output \"{name}\"{}", hint(name, rows.iter().filter(is_output)))),
     }
 }
 
@@ -158,9 +158,7 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
             let Value::String(name) = value else { return Err(format!("must be one of {allowed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
                 Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None => {
-                    Err(format!("is none of {allowed}{}", near::hint(name, names())))
-                }
+                None => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
             }
         }
     }

@@ -98,7 +98,8 @@ fn separator(text: &str) -> Result<u8, String> {
     }
     let Some((header, line)) = lines.find(|(line, _)| is_data(line)) else { return Ok(b',') };
     let bare = outside_quotes_and_brackets(header);
-    let found: Vec<_> = SEPARATORS.iter().filter(|(separator, _)| bare.bytes().any(|byte| byte == *separator)).collect();
+    let found: Vec<_> =
+        SEPARATORS.iter().filter(|(separator, _)| bare.bytes().any(|byte| byte == *separator)).collect();
     match found.as_slice() {
         [(separator, _)] => Ok(*separator),
         [] => {
@@ -170,7 +171,8 @@ fn wrong_length(line: u64, record: &StringRecord, header: &StringRecord, separat
             format!("it seems to be separated by {other}, and the header by {own}: use the same in all lines")
         }
         None if separator == b',' && count > expected => {
-            "every line needs all of them; if these are decimal commas, separate the columns by semicolons or tabs".into()
+            "every line needs all of them; if these are decimal commas, separate the columns by semicolons or tabs"
+                .into()
         }
         None => "every line needs all of them".into(),
     };
@@ -210,7 +212,9 @@ impl Form {
         }
         let is_grouped = |groups: &[&str]| {
             let first = groups[0];
-            (1..=3).contains(&first.len()) && !first.starts_with('0') && groups[1..].iter().all(|group| group.len() == 3)
+            (1..=3).contains(&first.len())
+                && !first.starts_with('0')
+                && groups[1..].iter().all(|group| group.len() == 3)
         };
         if let [whole, part] = parts[..] {
             let is_group = exponent.is_none() && is_grouped(&[whole, part]);
@@ -319,16 +323,25 @@ mod tests {
             ("time;x\n0;1.500\n", &["line 2, column x, value \"1.500\"", "decimal point?", "thousands"]),
             ("time\tx\n0\t-100.000\n", &["line 2, column x, value \"-100.000\"", "separate by commas"]),
             ("time,x\n0,\"1,500\"\n", &["line 2, column x, value \"1,500\"", "decimal comma?"]),
-            ("time;x\n0,5;1\n1;2.5\n", &["line 2, column time, value \"0,5\"", "line 3, column x, value \"2.5\"", "same"]),
+            (
+                "time;x\n0,5;1\n1;2.5\n",
+                &["line 2, column time, value \"0,5\"", "line 3, column x, value \"2.5\"", "same"],
+            ),
             ("time,x\n0.5,\"1,500\"\n", &["line 2, column x, value \"1,500\"", "value \"0.5\"", "thousands"]),
             ("time;x\n0,5;1.500\n", &["value \"0,5\"", "value \"1.500\"", "thousands"]),
             ("time;x\n0;1\n1;1.234,5\n", &["line 3, column x, value \"1.234,5\"", "thousands separators"]),
             ("time,x\n0,\"1,234.5\"\n", &["line 2, column x, value \"1,234.5\"", "thousands separators"]),
             ("time;x\n0;1.234.567\n", &["line 2", "thousands separators"]),
-            ("time,x\n0;1\n", &["line 2", "1 cells where the header has 2", "separated by semicolons, and the header by commas"]),
+            (
+                "time,x\n0;1\n",
+                &["line 2", "1 cells where the header has 2", "separated by semicolons, and the header by commas"],
+            ),
             ("time;x\n0\t1\n", &["line 2", "separated by tabs, and the header by semicolons"]),
             ("time;x\n0,1\n", &["line 2", "separated by commas, and the header by semicolons"]),
-            ("time,x\n0,5,1,25\n", &["line 2", "4 cells where the header has 2", "decimal commas", "semicolons or tabs"]),
+            (
+                "time,x\n0,5,1,25\n",
+                &["line 2", "4 cells where the header has 2", "decimal commas", "semicolons or tabs"],
+            ),
             ("time;x\n0;1;2\n", &["line 2", "3 cells where the header has 2", "every line"]),
             ("# c\ntime;x,y\n", &["line 2", "separated by commas and by semicolons", "use one"]),
             ("time|x\n0|1\n", &["line 1", "separated by vertical bars", "commas, semicolons or tabs"]),

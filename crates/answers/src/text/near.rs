@@ -125,7 +125,8 @@ mod tests {
     #[test]
     fn the_nearest_names_are_suggested_if_they_are_near() {
         let literals = ["line", "line_weber", "point"];
-        for (wrong, expected) in [("lin", vec!["line"]), ("webber", vec!["line_weber"]), ("xyz", vec![]), ("", vec![])] {
+        for (wrong, expected) in [("lin", vec!["line"]), ("webber", vec!["line_weber"]), ("xyz", vec![]), ("", vec![])]
+        {
             assert_eq!(near(wrong, literals), expected, "{wrong}");
         }
     }

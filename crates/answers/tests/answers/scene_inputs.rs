@@ -111,6 +111,14 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
         scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
     };
     assert_eq!(tables(&scene), tables(&same));
+    for other in [
+        "time [ms];carrier.speed_command [rpm];left.load_torque [N·m];right.load_torque\r\n0;300;400,00;401\r\n20;6e2;800;802\r\n",
+        "time [ms]\tcarrier.speed_command [rpm]\tleft.load_torque [N·m]\tright.load_torque\n0,0\t300\t400\t401\n20\t600\t800\t802\n",
+        "time [ms];carrier.speed_command [rpm];left.load_torque [N·m];right.load_torque\n0;300;400.0;401\n20;600;800;802\n",
+    ] {
+        let scene = folder.scene(&format!("{INPUTS}period = \"50 ms\"\n"), other)?;
+        assert_eq!(tables(&scene), tables(&same), "{other}");
+    }
     Ok(())
 }
 
@@ -154,7 +162,10 @@ fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<(
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]\n";
     assert!(folder.wrong(&format!("{table}{INPUTS}"), good).contains("another table"));
     let missing = folder.wrong(&INPUTS.replace("cycle", "cycles"), good);
-    assert!(missing.contains("cycles.csv: there is no such file") && missing.contains("relative to the scene"), "{missing}");
+    assert!(
+        missing.contains("cycles.csv: there is no such file") && missing.contains("relative to the scene"),
+        "{missing}"
+    );
     Ok(())
 }
 

@@ -149,7 +149,7 @@ def _from_parquet(file):
     comment = (table.schema.metadata or {}).get(b"comment", b"").decode()
     _need(file, table.column_names)
     rows = table.select([KIND, *AXES, *FIGURES]).to_pydict()
-    return comment.partition("; ")[0], _columns(file, rows, range(1, table.num_rows + 1), "row")
+    return comment.partition("\n")[0], _columns(file, rows, range(1, table.num_rows + 1), "row")
 
 
 def _from_csv(file):
