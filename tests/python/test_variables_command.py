@@ -49,19 +49,18 @@ def test_values_are_in_the_units_that_are_read(listed):
     assert listed("geometry.module")[1].split()[1:6] == ["parameter", "mm", "(m)", "4.5", "0.2..100"]
     assert listed("lock.command")[1].split()[1] == "input" and listed("power.loss")[1].split()[1] == "output"
     line = listed("scene.start")[1]
-    assert "equilibrium | rolling | rest" in line and line.split()[1:3] == ["parameter", "equilibrium"]
+    assert "one of equilibrium, rolling, rest" in line and line.split()[1:3] == ["parameter", "equilibrium"]
     assert any(line.split()[1] == "tunable" for line in listed()[1:-1])
 
 
-@pytest.mark.parametrize("width", [40, 80, 120, 200])
-def test_the_table_fits_the_terminal(listed, monkeypatch, width, fmu):
-    whole = listed("limited_slip")
+@pytest.mark.parametrize("width", [60, 80, 120, 200])
+def test_the_table_fits_the_terminal(listed, monkeypatch, width):
+    whole = listed()
     monkeypatch.setenv("COLUMNS", str(width))
-    lines = listed("limited_slip")
-    heads = max(line.index(fmu.variable(line.split()[0]).description) for line in whole[1:-1])
-    assert all(len(line) <= max(width, heads) for line in lines)
+    lines = listed()
+    assert all(len(line) <= width for line in lines)
     # nothing is lost
-    assert "".join("".join(lines).split()) == "".join("".join(whole).split())
+    assert sorted(" ".join(lines).replace(";", "").split()) == sorted(" ".join(whole).replace(";", "").split())
 
 
 def test_the_file_has_si_values_that_read_back(listed, fmu, tmp_path):

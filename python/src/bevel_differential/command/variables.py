@@ -8,7 +8,7 @@ from ..values import Variable
 from .arguments import add_fmu
 
 HEAD = ("name", "kind", "type", "unit", "start", "min", "max", "display unit", "literals", "description")
-# narrowest column of descriptions; in a narrower terminal each has a line of its own
+# narrowest column of descriptions; in a narrower terminal each variable has a paragraph
 NARROWEST = 30
 
 
@@ -39,11 +39,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _kind(variable: Variable) -> str:
-    return variable.variability if variable.causality == "parameter" and variable.variability == "tunable" else variable.causality
-
-
-def _literal(variable, number):
-    return next((name for name, value in variable.literals.items() if value == number), number)
+    if variable.causality == "parameter" and variable.variability == "tunable":
+        return "tunable"
+    return "calculated" if variable.causality == "calculatedParameter" else variable.causality
 
 
 def _row(variable):
@@ -54,6 +52,10 @@ def _row(variable):
             " | ".join(variable.literals), variable.description or "")
 
 
+def _literal(variable, number):
+    return next((name for name, value in variable.literals.items() if value == number), number)
+
+
 def _table(found):
     """Lines of the table, in the units that are usually shown."""
     from ..text import aligned
@@ -61,24 +63,30 @@ def _table(found):
     if not found:
         return []
     rows = [("name", "kind", "unit", "start", "range"), *map(_cells, found)]
-    texts = ["description", *(variable.description or "" for variable in found)]
+    texts = ["description", *map(_text, found)]
     lines = aligned(rows, len(rows[0]))
     used, terminal = max(map(len, lines)) + 2, shutil.get_terminal_size((0, 0)).columns
     if not terminal or used + max(map(len, texts)) <= terminal:
         return [f"{line:{used}}{text}".rstrip() for line, text in zip(lines, texts)]
     if terminal - used < NARROWEST:
-        return [part for line, text in zip(lines, texts)
-                for part in (line, *textwrap.wrap(text, max(terminal, NARROWEST), initial_indent="    ", subsequent_indent="    "))]
-    wrapped = (textwrap.wrap(text, terminal - used) or [""] for text in texts)
+        return [part for row, text in zip(rows, texts) for part in (row[0], *_indented("; ".join(filter(None, row[1:])), terminal),
+                                                                    *_indented(text, terminal))]
+    wrapped = (textwrap.wrap(text, terminal - used, break_on_hyphens=False) or [""] for text in texts)
     return [f"{head:{used}}{part}".rstrip() for line, parts in zip(lines, wrapped)
             for head, part in zip([line, *[""] * (len(parts) - 1)], parts)]
+
+
+def _indented(text, terminal):
+    return textwrap.wrap(text, max(terminal, NARROWEST), initial_indent="    ", subsequent_indent="    ", break_on_hyphens=False)
 
 
 def _cells(variable):
     """Name, kind, unit, start and range as they are read."""
     unit, _ = variable.shown(0.0)
     shown = unit if unit == variable.unit or not unit else f"{unit} ({variable.unit})"
-    return variable.name, _kind(variable), shown, _number(variable, variable.start), _range(variable)
+    ends = () if variable.literals else (variable.minimum, variable.maximum)
+    span = "..".join(_number(variable, end) for end in ends) if any(end is not None for end in ends) else ""
+    return variable.name, _kind(variable), shown, _number(variable, variable.start), span
 
 
 def _number(variable, value):
@@ -87,8 +95,7 @@ def _number(variable, value):
     return str(value).lower() if variable.kind == "Boolean" else f"{variable.shown(float(value))[1]:.6g}"
 
 
-def _range(variable):
-    if variable.literals:
-        return " | ".join(variable.literals)
-    ends = (variable.minimum, variable.maximum)
-    return "" if ends == (None, None) else "..".join(_number(variable, end) for end in ends)
+def _text(variable):
+    """The description, with the literals of an enumeration."""
+    words = f"one of {', '.join(variable.literals)}" if variable.literals else ""
+    return "; ".join(filter(None, (variable.description, words)))
