@@ -156,7 +156,7 @@ def test_a_map_keeps_its_bound_against_the_closed_form(mapped):
     # only the slip speed bends it
     assert [len(torque), len(speed), len(temperature)] == [3, 3, 3] and len(difference) > 3
     assert np.diff(difference)[0] <= np.diff(difference)[-1]
-    assert mapped.beyond == 0 and "60 unseen points, none beyond 0.2 % + 0.1 N.m: at most 4.9 % are, at 95 %" in mapped.says()
+    assert mapped.beyond == 0 and "60 unseen points, none beyond 0.2 % + 0.1 N.m: at most 4.9 % are, at 95 %" in mapped.error
     points = np.array([[512.0, 11.0, sign * at, 311.0] for at in np.linspace(0.5, 20.0, 57) for sign in (1.0, -1.0)])
     clutch = np.array([PRELOAD * over_kinetic(at) for at in points[:, 2]])
     shift = np.sign(points[:, 2]) * clutch
@@ -310,7 +310,7 @@ def test_accuracy_chooses_the_model(scene, monkeypatch):
     assert within == "1%" and wants == ["left.shaft_torque:mean", "right.shaft_torque:mean"]
     assert values["left.speed_command"] - values["right.speed_command"] == 0.5
     assert made.scene.values["scene.gear_contact"] == scene.fmu.variable("scene.gear_contact").literals["ideal"]
-    assert "not measured" in made.says()
+    assert "not measured" in made.error
 
 
 def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):

@@ -109,7 +109,7 @@ def test_it_is_one_page_whose_figures_show_something(text):
 
 def test_it_has_the_sentence_of_the_bound_and_the_meaning_of_every_column(text, mapped):
     page = ReportPage(text)
-    says = mapped.says().replace("N.m", "N·m")
+    says = mapped.error.replace("N.m", "N·m")
     assert says in page.sections["head"] and says in page.sections["error"] and "40 unseen points" in says
     assert all(f"{name}\n" in page.sections["columns"] for name in HEAD)
     assert str(mapped.slipping[0, ..., 0].size) in page.sections["head"]

@@ -51,8 +51,32 @@ def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle
     assert np.array_equal(cycle(*lines, scene="study_turning").by_event, cycle(*lines).by_event)
 
 
+@pytest.mark.parametrize("separator, comma", [(";", ","), (";", "."), ("\t", ","), ("\t", ".")])
+def test_a_cycle_from_a_spreadsheet_of_any_country_is_the_same(cycle, tmp_path, separator, comma):
+    lines = ["name,count,duration [s],speed [km/h],torque [N.m],wheel_radius [m],history", "1.5,2,0.25,20.5,100,0.3,", "b,1.5,,,100,0.3,history.csv"]
+    history = ["time [s],speed [km/h]", "0,20", "0.125,21.75", "0.2,20"]
+    (tmp_path / "history.csv").write_text("\n".join(history), encoding="utf-8")
+    expected = cycle(*lines)
+    (tmp_path / "history.csv").write_text("\ufeff" + "\r\n".join(_as(history, separator, comma)), encoding="utf-8")
+    found = cycle(*_as(lines, separator, comma))
+    assert np.array_equal(found.by_event, expected.by_event)
+    # a name is no number
+    assert [each.event.name for each in found.events] == [f"1{comma}5", "b"]
+
+
+def _as(lines, separator, comma):
+    """The lines with another separator and decimal sign."""
+    rows = [line.split(",") for line in lines]
+    point = [row if place == 0 else [cell if cell.endswith(".csv") else cell.replace(".", comma) for cell in row] for place, row in enumerate(rows)]
+    return [separator.join(row) for row in point]
+
+
 @pytest.mark.parametrize("lines, parts", [
     (["name,count,duration [s],torqe [N.m]", "a,1,1,1"], ["line 1, column torqe [N.m]", "did you mean torque"]),
+    (["name;count;duration [s];speed [m/s]", "a;1;1;1.500"], ["line 2, column speed [m/s], value \"1.500\"", "thousands"]),
+    (["name;count;duration [s];speed [m/s]", "a;1;0,5;1.5"], ["line 2, column duration [s], value \"0,5\"", "value \"1.5\"", "same decimal sign"]),
+    (["name,count,duration [s]", "a,1,0,5"], ["line 2", "4 cells where the header has 3", "decimal commas", "semicolons or tabs"]),
+    (["name|count|duration [s]", "a|1|0.5"], ["line 1", "separated by vertical bars", "commas, semicolons or tabs"]),
     (["name,count,duration [fortnights]", "a,1,1"], ["line 1, column duration [fortnights]", "'fortnights'", "min"]),
     (["name,count,left.load_torque [lbf.ft]", "a,1,1"], ["line 1", "'lbf.ft'", "N.m"]),
     (["name,count,count", "a,1,1"], ["line 1, column count", "twice"]),
@@ -74,7 +98,7 @@ def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle
     (["name,count,duration [s],torque [N.m],left.load_torque [N.m]", "a,1,1,1,1"], ["line 2", "left.load_torque", "remove one"]),
     (["name,count,duration [s],left.load_torque [N.m]", "a,1,1,"], ["line 2, column left.load_torque [N.m]", "write a value"]),
     (["name,count,distance [m],speed [m/s]", "a,1,10,0"], ["line 2, column distance [m]", "speed other than 0"]),
-    (["name,count,history", "a,1,missing.csv"], ["missing.csv", "No such file"]),
+    (["name,count,history", "a,1,missing.csv"], ["missing.csv: there is no such file"]),
     (["name,count,duration [s],speed [m/s],wheel_radius [m],torque [N.m],lock.command", "a,1,1,5,0.3,100,7"],
      ["event 'a'", "lock.command"]),
 ])

@@ -158,6 +158,16 @@ def test_broken_evidence_is_reported_by_name(unit, capsys, changes, parts):
     assert sum(line.endswith(" passed") for line in lines) >= len(FEW)
 
 
+@pytest.mark.parametrize("separator, comma", [(";", ","), ("\t", ","), (";", ".")])
+def test_tables_of_spreadsheets_are_evidence_too(unit, capsys, separator, comma):
+    def written(text):
+        rows = [line.split(",") for line in text.splitlines()]
+        return "\r\n".join(separator.join(cell if row is rows[0] else cell.replace(".", comma) for cell in row) for row in rows)
+
+    assert main(["verify", unit({"results/hil.csv": written, "inputs/hil.csv": written})]) == 0
+    assert any(re.match(r"hil +validation .* passed$", line) for line in capsys.readouterr().out.splitlines())
+
+
 def test_without_the_file_of_validations_smoke_tests_are_left_and_the_command_fails(unit, capsys):
     assert main(["verify", unit({"validation.exp": None})]) == 3
     lines = capsys.readouterr().out.splitlines()

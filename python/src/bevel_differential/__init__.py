@@ -15,9 +15,10 @@ from .accuracy import Accuracy, accuracy
 from .comparison import Comparison, compare
 from .differential import Differential
 from .fmu import Fmu
+from .losses import LossMap
 from .scene import Scene
 from .scene_file import shipped_scenes
 from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Accuracy", "Comparison", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "accuracy", "compare",
-           "shipped_scenes"]
+__all__ = ["Accuracy", "Comparison", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "LossMap", "Scene", "accuracy",
+           "compare", "shipped_scenes"]

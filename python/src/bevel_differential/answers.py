@@ -2,25 +2,20 @@
 
 Each question is a dict with the key "ask"; crates/answers/src/ask of the repository has all of them."""
 
-import ctypes
-import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from . import machine
 from .interrupts import held_back
+from .library import reply
 from .values import DifferentialError
 from .warned import warn
 
 # told the part of the work that is done, from 0 to 1, and what is being done
 Progress: TypeAlias = Callable[[float, str], None]
-
-_PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
 
 
 def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress: Progress | None = None) -> dict[str, Any]:
@@ -29,9 +24,6 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
 
     Raises `DifferentialError`; its `problems` are dicts with `message` and, where they are known, `variable`, `value`, `unit`,
     `range` and `hint`; its `kind` is "use" if the question makes no sense, otherwise "failed"."""
-    library = _library()
-    values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
-    text = json.dumps(question, default=_plain).encode()
     with held_back() as raised:
 
         def on_progress(_context, done, what):
@@ -42,10 +34,10 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
                 raised.append(stopped)
             return len(raised)
 
-        callback = _PROGRESS(on_progress)
-        reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
-        found = json.loads(ctypes.string_at(reply))
-        library.bd_free(reply)
+        try:
+            found = reply(question, numbers, on_progress)
+        except OSError as missing:
+            raise DifferentialError(str(missing)) from None
     warn(found.get("warnings", ()))
     if "answer" not in found:
         message = "\n".join(problem["message"] for problem in found["problems"])
@@ -75,21 +67,6 @@ def scenes() -> Path:
     return shipped if shipped.is_dir() else shipped.parents[3] / "scenes"
 
 
-@cache
-def _library() -> ctypes.CDLL:
-    platform, shipped = machine.answers(Path(__file__).with_name("answers"))
-    file = Path(os.environ.get("BEVEL_DIFFERENTIAL_ANSWERS") or shipped)
-    if not file.is_file():
-        raise DifferentialError(f"{file} is missing: this package was built without its library of answers for {platform}; install "
-                                "a wheel that has it, or name the library by the environment variable BEVEL_DIFFERENTIAL_ANSWERS", kind="failed")
-    library = ctypes.CDLL(str(file))
-    library.bd_ask.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t, _PROGRESS, ctypes.c_void_p]
-    # as an address, so that it can be freed
-    library.bd_ask.restype = ctypes.c_void_p
-    library.bd_free.argtypes, library.bd_free.restype = [ctypes.c_void_p], None
-    return library
-
-
 def _written(value):
     """A value as a text that the reader of scenes takes: numbers read back to the same bits."""
     if isinstance(value, (bool, np.bool_)):
@@ -97,10 +74,4 @@ def _written(value):
     if isinstance(value, tuple):
         number, unit = value
         return f"{number} {unit or ''}".strip()
-    return value if isinstance(value, str) else repr(_plain(value) if isinstance(value, np.generic) else value)
-
-
-def _plain(value):
-    if isinstance(value, (np.generic, np.ndarray)):
-        return value.tolist()
-    return os.fspath(value)
+    return value if isinstance(value, str) else repr(value.item() if isinstance(value, np.generic) else value)

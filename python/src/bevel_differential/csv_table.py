@@ -1,17 +1,16 @@
 """A CSV file with a header of names and units, whose errors name file, line, column and value."""
 
-import csv
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from .answers import ask
 from .points import PER_SECOND
 from .values import DifferentialError, FileName, Number, Variable
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
-# beginnings of files that spreadsheet programs write: archives (.xlsx, .ods) and the format before them (.xls)
-_SPREADSHEETS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 
 
 class Quantity(Variable):
@@ -62,13 +61,12 @@ class Column:
 class CsvTable:
     """The columns of a file by name, and its rows as pairs (line, {name: value in SI}); empty cells are left out."""
 
-    def __init__(self, file: FileName, known: Callable[[str], Variable | Text], needed: Iterable[str] = ()):
-        """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing."""
+    def __init__(self, file: FileName, known: Callable[[str], Variable | Text], needed: Iterable[str] = (),
+                 texts: Iterable[str] = ()):
+        """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing; `texts`: columns of
+        words in which a number is none."""
         self.file = Path(file)
-        lines = list(_lines(self.file))
-        if not lines:
-            raise DifferentialError(f"{self.file}: it is empty; its first line names the columns")
-        (line, heads), *rows = lines
+        (line, heads), *rows = lines_of(self.file, texts=texts)
         self._need(heads, needed)
         self.columns: dict[str, Column] = {}
         for place, head in enumerate(heads):
@@ -114,12 +112,9 @@ class CsvTable:
         return Column(head.strip(), variable, unit and unit.strip(), place)
 
     def _row(self, line, cells):
-        if len(cells) != len(self.columns):
-            raise self.problem(line, text=f"has {len(cells)} cells where the header has {len(self.columns)}; "
-                                          "every line needs all of them")
         values = {}
         for name, column in self.columns.items():
-            cell = cells[column.place].strip()
+            cell = cells[column.place]
             if cell:
                 try:
                     values[name] = column.value(cell)
@@ -128,19 +123,13 @@ class CsvTable:
         return values
 
 
-def _lines(file):
-    """Numbers and cells of the lines that are neither empty nor comments."""
-    try:
-        content = file.read_bytes()
-        if content.startswith(_SPREADSHEETS):
-            raise DifferentialError(f"{file}: it is a spreadsheet; save it there as CSV, and name that file")
-        text = content.decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as failure:
-        reason = getattr(failure, "strerror", None) or "it is no text in UTF-8"
-        raise DifferentialError(f"{file}: {reason}") from None
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.strip() and not line.lstrip().startswith("#"):
-            yield number, next(csv.reader([line]))
+def lines_of(file: FileName, shown: str | None = None, texts: Iterable[str] = ()) -> list[tuple[int, list[str]]]:
+    """Pairs (line, cells) of a CSV file, the header first, each with as many cells; numbers have decimal points.
+
+    Columns are separated by commas, semicolons or tabs. `shown`: name of the file in errors; `texts`: names of columns that hold
+    words. Raises `DifferentialError` with file and line if the file is ambiguous."""
+    found = ask({"ask": "table", "file": os.fspath(file), "shown": shown or os.fspath(file), "texts": list(texts)})
+    return [tuple(row) for row in (found["header"], *found["rows"])]
 
 
 def _reason(failure):

@@ -9,13 +9,15 @@ import threading
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 from zipfile import BadZipFile
 
 from fmpy import extract, read_model_description
 
+from .answers import about, ask
 from .former_names import present
 from .instance import Instance
-from .values import DifferentialError, FileName, Number, Value, Variable, spelled, suggestion
+from .values import DifferentialError, FileName, Number, Value, Variable, spelled, variable_suggestion
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
@@ -139,7 +141,14 @@ class Fmu:
         try:
             return self.variables[name]
         except KeyError:
-            raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
+            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, self.variables)}") from None
+
+    def find(self, *words: str, acting: Any = None) -> list[Variable]:
+        """The variables with all `words` in name or description, in small letters or capitals. `acting`: a scene file, the name of a
+        shipped scene or a `Scene`; only variables that take effect in it are listed."""
+        names = None if acting is None else set(ask({"ask": "acting", "of": about(acting)})["names"])
+        found = self.variables.values() if names is None else (self.variables[name] for name in self.variables if name in names)
+        return [each for each in found if all(word.lower() in f"{each.name}\n{each.description}".lower() for word in words)]
 
     def named(self, names: Iterable[str]) -> tuple[Variable, ...]:
         """The variables of these names, in their order."""

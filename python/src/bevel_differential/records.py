@@ -19,7 +19,7 @@ def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *c
         columns = dict(zip(head, map(list, zip(*rows))))
         table = pa.table({name: [None if cell == "" else cell for cell in cells] for name, cells in columns.items()})
         with whole(file) as part:
-            require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), part)
+            require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "\n".join(comments)}), part)
         return Path(file)
     with whole(file) as part, open(part, "w", newline="", encoding="utf-8") as out:
         out.writelines(f"# {comment}\n" for comment in comments)

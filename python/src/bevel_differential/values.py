@@ -1,7 +1,6 @@
 """Values as a user writes them, and as the FMU takes them."""
 
 import copy
-import difflib
 import math
 import os
 import re
@@ -9,6 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
+
+from .library import reply
 
 if TYPE_CHECKING:
     from fmpy.model_description import ScalarVariable, Unit
@@ -259,5 +260,20 @@ class Variables(Protocol):
 
 def suggestion(word: str, known: Iterable[str]) -> str:
     """" (did you mean …?)", or nothing."""
-    near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
-    return f" (did you mean {' or '.join(near)}?)" if near else ""
+    return _near(word, known)[0]
+
+
+def variable_suggestion(name: str, known: Iterable[str]) -> str:
+    """The same for the name of a variable. If no name is near, it says how to find one."""
+    near, find = _near(name, known)
+    return near or find
+
+
+def _near(word, known):
+    """What was probably meant, or nothing, and how to find a variable."""
+    try:
+        found = reply({"ask": "near", "word": word, "known": list(known)})["answer"]
+    except OSError:
+        # the message is right without a suggestion
+        return "", ""
+    return f" (did you mean {' or '.join(found['near'])}?)" if found["near"] else "", f"; {found['find']}"

@@ -96,8 +96,7 @@ impl Statistic {
             };
         }
         let words = WORDS.iter().map(|(word, _)| *word).chain(["mesh_order_1", "shaft_order_1"]);
-        let hint = crate::scene::set::closest(plain, words);
-        let hint = hint.map_or(String::new(), |word| format!("; did you mean {word}?"));
+        let hint = crate::text::near::hint(plain, words);
         Err(format!("there is no statistic \"{text}\"{hint} Known: {KNOWN}").replace("\" Known", "\"; known"))
     }
 

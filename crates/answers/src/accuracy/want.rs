@@ -1,11 +1,11 @@
 //! What is wanted: outputs of a scene, each by a statistic, and how large 100 % of it is.
 
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::Variable;
 
 use super::record::Record;
 use super::statistic::{Statistic, USUAL};
 use crate::scene::Scene;
-use crate::scene::set::{closest, variable};
+use crate::scene::set::output;
 
 /// Units of what balances or adds up within its kind.
 const SHARED: [&str; 6] = ["rad", "rad/s", "rad/s2", "N.m", "N", "m"];
@@ -57,24 +57,6 @@ pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), Stri
 /// The name of the output in `OUTPUT:STATISTIC`.
 pub fn name(text: &str) -> &str {
     text.split_once(':').map_or(text, |(name, _)| name).trim()
-}
-
-/// The output of this name, or what it might have been.
-fn output(name: &str) -> Result<&'static Variable, String> {
-    match variable(name) {
-        Ok(row) if matches!(row.access, Access::Output(_)) => Ok(row),
-        Ok(_) => Err(format!("{name} is not an output")),
-        Err(_) => {
-            let all = table();
-            let names = all.outputs.iter().map(|&i| all.rows[i].name);
-            let last = names.clone().find(|known| known.rsplit('.').next() == Some(name));
-            let hint = last.or_else(|| closest(name, names));
-            Err(format!(
-                "there is no output \"{name}\"{}",
-                hint.map_or(String::new(), |n| format!("; did you mean {n}?"))
-            ))
-        }
-    }
 }
 
 impl Want {

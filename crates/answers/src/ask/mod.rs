@@ -14,6 +14,7 @@ mod gears;
 mod scenes;
 mod source;
 mod study;
+mod text;
 
 use anyhow::Result;
 use serde::Deserialize;
@@ -32,6 +33,8 @@ pub enum Question {
     FormerNames,
     /// A scene as values: what it sets, later and over time, and its outputs.
     Scene(scenes::SceneQuestion),
+    /// The variables that act in a scene.
+    Acting(scenes::SceneQuestion),
     /// What a scene will simulate, in words.
     Plan(scenes::SceneQuestion),
     /// A run of a scene by this library itself, recorded in a file.
@@ -52,6 +55,10 @@ pub enum Question {
     Word(accuracy_and_statistics::StatisticNameQuestion),
     /// Figures of series over time.
     Statistics(accuracy_and_statistics::StatisticsQuestion),
+    /// The cells of a CSV file.
+    Table(text::TableQuestion),
+    /// Names that a wrong one may mean.
+    Near(text::NearQuestion),
 }
 
 /// Answers a question, with the `numbers` that come beside it. `progress` reports to the caller, who may stop the work.
@@ -60,6 +67,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Scenes(question) => question.answer(),
         Question::FormerNames => Ok(scenes::former_names()),
         Question::Scene(question) => question.values(progress),
+        Question::Acting(question) => question.acting(progress),
         Question::Plan(question) => question.plan(progress),
         Question::Run(question) => question.answer(progress),
         Question::Export(question) => question.answer(progress),
@@ -70,6 +78,8 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Study(question) => question.answer(),
         Question::Word(question) => question.answer(),
         Question::Statistics(question) => question.answer(numbers),
+        Question::Table(question) => question.answer(),
+        Question::Near(question) => Ok(question.answer()),
     };
     // what fails because it was stopped tells nothing else
     answer.map_err(|why| progress.check_stopped().err().map_or(why, Into::into))

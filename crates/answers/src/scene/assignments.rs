@@ -1,9 +1,10 @@
 //! Changes of a scene on the command line, each `name=value`: checked as the values in a file are.
 
-use super::set::{Setting, closest, value, variable};
+use super::set::{Setting, value, variable};
 use super::times::{check_step, duration, span};
 use super::{Scene, former_names};
 use crate::problem::{Problem, Problems};
+use crate::text::near;
 
 /// What can be set besides the variables of the FMU.
 const TIMES: [&str; 2] = ["stop_time", "step"];
@@ -44,8 +45,9 @@ fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problem> {
         "stop_time" => scene.stop_time = duration(name, &value)?,
         "step" => scene.step = span(name, &value)?,
         _ => {
-            if let (Err(_), Some(time)) = (variable(name), closest(name, TIMES.into_iter())) {
-                return Err(format!("there is no variable \"{name}\"; did you mean {time}?").into());
+            let time = near::hint(name, TIMES);
+            if variable(name).is_err() && !time.is_empty() {
+                return Err(format!("there is no variable \"{name}\"{time}").into());
             }
             let setting = Setting::new(name, &value)?;
             if scene.input_tables.iter().any(|table| table.row.name == name) {

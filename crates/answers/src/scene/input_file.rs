@@ -1,4 +1,5 @@
 //! Inputs over time from a CSV file: a column of times and a column for each input, with their units in the header.
+//! `text::csv_input` says how the file may be written.
 //!
 //! ```csv
 //! # anything after a hash is a comment
@@ -8,22 +9,18 @@
 //! ```
 
 use std::path::Path;
-use std::{fs, io};
 
 use bevel_differential::variables::{Access, Variable};
-use csv::{ErrorKind, Position, ReaderBuilder, StringRecord, Trim};
+use csv::StringRecord;
 use toml::Value;
 
 use super::set::{real, variable};
 use super::{InputTable, former_names, units};
 use crate::text;
+use crate::text::csv_input::{self, CsvInput};
 
 /// Name of the column of times.
 const TIME: &str = "time";
-/// Begins comments.
-const COMMENT: u8 = b'#';
-/// Byte order mark, with which some programs begin UTF-8 files.
-const MARK: char = '\u{feff}';
 
 /// A column of an input.
 struct Column {
@@ -42,27 +39,21 @@ struct Column {
 /// failure all problems of the file.
 pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let shown = text::shown(file);
-    let text = fs::read_to_string(file).map_err(|error| {
-        vec![match error.kind() {
-            io::ErrorKind::InvalidData => format!("{shown} {}", text::not_text(file, "CSV")),
-            _ => format!("{shown} cannot be read ({error}); the path in file = is relative to the scene's own file"),
-        }]
-    })?;
-    parse(text.trim_start_matches(MARK), period)
-        .map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
+    let found = match csv_input::read(file, &[]) {
+        Ok(found) => tables(found, period),
+        Err(problem) if file.is_file() => Err(vec![problem]),
+        Err(problem) => Err(vec![format!("{problem}; the path in file = is relative to the scene's own file")]),
+    };
+    found.map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
 }
 
-/// The inputs in `text`, and what to tell; problems begin with their place in it.
-fn parse(text: &str, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
-    let mut reader = ReaderBuilder::new().comment(Some(COMMENT)).trim(Trim::All).from_reader(text.as_bytes());
-    let csv_problems = |error: csv::Error| vec![csv_problem(text, &error)];
-    let header = reader.headers().map_err(csv_problems)?.clone();
+/// The inputs in a file, and what to tell; problems begin with their place in it.
+fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
+    let header = found.header;
     let (time_place, time_unit, mut columns) = columns(&header)?;
     let mut times = Vec::new();
     let mut problems = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(csv_problems)?;
-        let line = line(text, record.position());
+    for (line, record) in found.rows {
         match time(&record[time_place], &time_unit, times.last().copied()) {
             Ok(time) => times.push(time),
             Err(problem) => {
@@ -122,11 +113,11 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
         }
         Some((_, Ok(_))) => {}
         Some((_, Err(problem))) => problems.push(problem),
-        // the other columns are misread if anything but a comma separates them
+        // the other columns may be misread
         None => {
             problems = vec![format!(
-                ", header \"{}\": has no column time; the first line names the columns, separated by commas: \
-                 time [s],left.load_torque [N.m]",
+                ", header \"{}\": has no column time; the first line names the columns, separated by commas, semicolons or \
+                 tabs: time [s],left.load_torque [N.m]",
                 header.iter().collect::<Vec<_>>().join(",")
             )];
         }
@@ -202,23 +193,4 @@ impl Column {
             more => format!("{first} (and {more} more in this column)"),
         })
     }
-}
-
-fn csv_problem(text: &str, error: &csv::Error) -> String {
-    match error.kind() {
-        ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            let line = line(text, error.position());
-            format!(", line {line}: has {len} cells where the header has {expected_len}; every line needs all of them")
-        }
-        _ => format!(": {error}"),
-    }
-}
-
-/// Line of the record at `position`. The crate csv gives the position before the comments and blank lines that it
-/// skips.
-fn line(text: &str, position: Option<&Position>) -> u64 {
-    let Some(position) = position else { return 0 };
-    let rest = usize::try_from(position.byte()).ok().and_then(|from| text.get(from..)).unwrap_or_default();
-    let skipped = rest.lines().take_while(|line| line.is_empty() || line.as_bytes().starts_with(&[COMMENT])).count();
-    position.line() + skipped as u64
 }

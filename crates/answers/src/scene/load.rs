@@ -36,7 +36,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::display_units::DisplayUnits;
-use super::set::{Setting, closest, real, variable, written};
+use super::set::{Setting, output, real, variable, written};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::{Event, InputTable, Scene, former_names, input_file};
@@ -311,16 +311,9 @@ fn add_input_file(
 fn outputs(names: &[String], problems: &mut Problems) -> Vec<&'static Variable> {
     let mut rows = Vec::new();
     for name in names {
-        match variable(name) {
-            Ok(row) if matches!(row.access, Access::Output(_)) => rows.push(row),
-            Ok(_) => problems.push(format!("outputs: {name} is not an output")),
-            Err(problem) => {
-                let all = bevel_differential::variables::table();
-                let names = all.outputs.iter().map(|&i| all.rows[i].name);
-                let hint = closest(name, names)
-                    .map_or(problem, |n| format!("there is no output \"{name}\"; did you mean {n}?"));
-                problems.push(format!("outputs: {hint}"));
-            }
+        match output(name) {
+            Ok(row) => rows.push(row),
+            Err(problem) => problems.push(format!("outputs: {problem}")),
         }
     }
     rows

@@ -23,6 +23,7 @@ use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::Variable;
 
 use crate::problem::{Problem, Problems};
+use crate::text::near::near;
 use crate::text::shown;
 use display_units::DisplayUnits;
 pub use input_table::{InputTable, Jumps};
@@ -82,12 +83,13 @@ pub fn find(what: &str, folder: &Path) -> Result<Scene> {
     }
     let files = files(folder)?;
     let names: Vec<&str> = files.iter().filter_map(|file| file.file_stem()?.to_str()).collect();
-    let hint = set::closest(what, names.iter().copied());
-    let message = match hint {
-        Some(name) => format!("no scene is named '{what}'; did you mean '{name}'?"),
-        None => format!("no scene is named '{what}', and there is no such file; scenes: {}", names.join(", ")),
+    let near = near(what, names.iter().copied());
+    let message = match near.as_slice() {
+        [] => format!("no scene is named '{what}', and there is no such file; scenes: {}", names.join(", ")),
+        found => format!("no scene is named '{what}'; did you mean '{}'?", found.join("' or '")),
     };
-    Err(Problems::from(Problem { hint: hint.map(str::to_owned), ..Problem::of("scene", what, message) }).into())
+    let hint = near.first().map(|&name| name.to_owned());
+    Err(Problems::from(Problem { hint, ..Problem::of("scene", what, message) }).into())
 }
 
 /// Files of all scenes in `folder`, by name.

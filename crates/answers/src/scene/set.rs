@@ -7,6 +7,7 @@ use toml::Value;
 use super::display_units::DisplayUnits;
 use super::{Scene, former_names, units};
 use crate::problem::Problem;
+use crate::text::near;
 
 /// A variable with its value.
 #[derive(Clone, Copy)]
@@ -102,12 +103,42 @@ impl Setting {
 pub fn variable(name: &str) -> Result<&'static Variable, String> {
     let name = former_names::present(name);
     let rows = &table().rows;
-    rows.iter().find(|row| row.name == name).ok_or_else(|| {
-        // its last part alone is a likely slip too
-        let last = rows.iter().find(|row| row.name.rsplit('.').next() == Some(name)).map(|row| row.name);
-        let hint = last.or_else(|| closest(name, rows.iter().map(|row| row.name)));
-        format!("there is no variable \"{name}\"{}", hint.map_or(String::new(), |n| format!("; did you mean {n}?")))
-    })
+    let found = rows.iter().find(|row| row.name == name);
+    found.ok_or_else(|| format!("there is no variable \"{name}\"{}", hint(name, rows.iter())))
+}
+
+/// Row of the output `name`, or what it might have been.
+pub fn output(name: &str) -> Result<&'static Variable, String> {
+    let is_output = |row: &&Variable| matches!(row.access, Access::Output(_));
+    let rows = &table().rows;
+    match rows.iter().find(|row| row.name == name) {
+        Some(row) if is_output(&row) => Ok(row),
+        Some(_) => Err(format!("{name} is not an output")),
+        None => Err(format!("there is no output \"{name}\"{}", hint(name, rows.iter().filter(is_output)))),
+    }
+}
+
+/// What a wrong name might have been, or how to find it.
+fn hint<'a>(name: &str, rows: impl Iterator<Item = &'a Variable>) -> String {
+    let near = near::hint(name, rows.map(|row| row.name));
+    if near.is_empty() { format!("; {}", how_to_find(name)) } else { near }
+}
+
+/// How to find the variable that a wrong name means: by those of its words that a variable has, the last one first.
+pub fn how_to_find(name: &str) -> String {
+    let has = |row: &Variable, word: &str| row.name.contains(word) || row.description.to_lowercase().contains(word);
+    let mut kept: Vec<String> = Vec::new();
+    for word in near::words(name).into_iter().rev().filter(|word| word.len() > 2) {
+        let is_there = |row: &&Variable| has(row, &word) && kept.iter().all(|known| has(row, known));
+        if table().rows.iter().any(|row| is_there(&row)) {
+            kept.insert(0, word);
+        }
+    }
+    let (words, which) = match kept.len() {
+        0 => (String::new(), "all variables"),
+        _ => (format!(" {}", kept.join(" ")), "those that may be meant"),
+    };
+    format!("`bevel-differential variables{words}` lists {which}")
 }
 
 /// Name and meaning of literal `value` of an enumeration.
@@ -134,10 +165,7 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
             let Value::String(name) = value else { return Err(format!("must be one of {allowed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
                 Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None => {
-                    let hint = closest(name, names()).map_or(String::new(), |n| format!("; did you mean {n}?"));
-                    Err(format!("is none of {allowed}{hint}"))
-                }
+                None => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
             }
         }
     }
@@ -190,12 +218,6 @@ pub fn written(value: &Value) -> String {
     }
 }
 
-/// The name nearest to `name`, if one is near: half of its letters right.
-pub fn closest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let near = names.map(|candidate| (strsim::levenshtein(name, candidate), candidate)).min_by_key(|(edits, _)| *edits);
-    near.filter(|(edits, _)| 2 * edits <= name.chars().count()).map(|(_, candidate)| candidate)
-}
-
 /// Start values of `scene` in the order of the FMU's variables: parameters that it names or that differ from the FMU's own,
 /// then all inputs.
 pub fn start_values(scene: &Scene) -> Vec<Setting> {
@@ -220,12 +242,6 @@ fn is_of_scene(scene: &Scene, row: &'static Variable) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_nearest_name_is_offered_if_it_is_near() {
-        assert_eq!(closest("geometry.modul", table().rows.iter().map(|r| r.name)), Some("geometry.module"));
-        assert_eq!(closest("xyz", ["geometry.module"].into_iter()), None);
-    }
 
     #[test]
     fn every_variable_that_can_be_set_takes_its_own_start_value() {

@@ -8,6 +8,7 @@ mod pattern;
 mod refusals;
 mod scene_inputs;
 mod scenes;
+mod suggestions;
 
 use std::path::{Path, PathBuf};
 

@@ -129,6 +129,14 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
         scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
     };
     assert_eq!(tables(&scene), tables(&same));
+    for other in [
+        "time [ms];carrier.speed_command [rpm];left.load_torque [N·m];right.load_torque\r\n0;300;400,00;401\r\n20;6e2;800;802\r\n",
+        "time [ms]\tcarrier.speed_command [rpm]\tleft.load_torque [N·m]\tright.load_torque\n0,0\t300\t400\t401\n20\t600\t800\t802\n",
+        "time [ms];carrier.speed_command [rpm];left.load_torque [N·m];right.load_torque\n0;300;400.0;401\n20;600;800;802\n",
+    ] {
+        let scene = folder.scene(&format!("{INPUTS}period = \"50 ms\"\n"), other)?;
+        assert_eq!(tables(&scene), tables(&same), "{other}");
+    }
     Ok(())
 }
 
@@ -142,7 +150,11 @@ fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<(
         ("time,geometry.module [mm]\n0,1\n", &["geometry.module is not an input", "[set]"]),
         ("time [m],left.load_torque\n0,1\n", &["column time [m]", "s, ms, us, min"]),
         ("t,left.load_torque\n0,1\n", &["has no column time", "time [s],left.load_torque [N.m]"]),
-        ("time;left.load_torque\n0;1\n", &["has no column time", "separated by commas"]),
+        ("t;left.load_torque\n0;1\n", &["has no column time", "separated by commas, semicolons or tabs"]),
+        ("time;left.load_torque\n0;1,500\n", &["line 2, column left.load_torque, value \"1,500\"", "thousands"]),
+        ("time;left.load_torque\n0;1\n0,5;x\n", &["line 3, column left.load_torque, value \"x\"", "decimal"]),
+        ("time,left.load_torque\n0;1\n", &["line 2", "separated by semicolons, and the header by commas"]),
+        ("time,left.load_torque\n0,5,1,5\n", &["line 2", "4 cells where the header has 2", "semicolons or tabs"]),
         ("time\n0\n", &["no inputs"]),
         ("time,left.load_torque\n", &["no values"]),
         ("time,left.load_torque,left.load_torque [N.m]\n0,1,2\n", &["twice"]),
@@ -168,7 +180,10 @@ fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<(
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]\n";
     assert!(folder.wrong(&format!("{table}{INPUTS}"), good).contains("another table"));
     let missing = folder.wrong(&INPUTS.replace("cycle", "cycles"), good);
-    assert!(missing.contains("cycles.csv cannot be read") && missing.contains("relative to the scene"), "{missing}");
+    assert!(
+        missing.contains("cycles.csv: there is no such file") && missing.contains("relative to the scene"),
+        "{missing}"
+    );
     Ok(())
 }
 

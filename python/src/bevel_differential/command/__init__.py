@@ -21,6 +21,7 @@ NAME = "bevel-differential"
 COMMANDS = {
     "run": (".command.run", None, "simulate a scene, or compare several"),
     "plan": (".command.plan", None, "say what a scene simulates, or list the scenes; write a scene for other hosts"),
+    "variables": (".command.variables", None, "list all variables, or those with given words, with kind, unit, start, range and description"),
     "accuracy": (".accuracy.command", "plot", "find the cheapest model that gives wanted quantities to an accuracy, and say why"),
     "report": (".report.command", "report", "write a report of a scene: one HTML file with figures, tables and what they say"),
     "loads": (".command.loads", None, "record the force on each loaded tooth pair of a scene, for FEA"),

@@ -16,35 +16,28 @@ from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
 from ..warned import silenced
 from ..writing import locked
-from .grid import Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting, torques_of
+from .grid import Bound, estimates, places, refined, share_beyond, starting, torques_of
+from .loss_map import MAPPED, SIGNS, LossMap
 from .point import AXES, FIGURES, PointTask, benched
 
 # variables that give the axes their units: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
-SIGNS = (1.0, -1.0)
 ZERO_CELSIUS = 273.15
 # switch of corner contact, and level of gear contact
 CORNERS, LEVEL = "effects.corner_contact", "scene.gear_contact"
-# figures that the map holds where the differential slips: torques left and right, loss
-MAPPED = 3
 
 
-@dataclass(frozen=True)
-class LossMap:
-    """The map, in SI.
+@dataclass(frozen=True, kw_only=True)
+class MeasuredMap(LossMap):
+    """A map with all that its measurement found, in SI.
 
-    `lines`: values of torque, speed, magnitude of the difference of speeds, and temperature. `slipping`: FIGURES with the left wheel
-    faster and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, so the
-    third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `unseen`: random points
-    that measure the error, with signed difference, shape (points, 4). `found`: T_left, T_right and loss of the runs there, shape
-    (points, 3). `errors`: error of the map there over the bound, same shape. `estimate`: error over the bound, estimated by leaving
-    lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this call, and the
-    time that they took, start of workers included. `model`: the choice of `accuracy` in words; empty with the scene's own."""
+    `unseen`: random points that measure the error, with signed difference, shape (points, 4). `found`: T_left, T_right and loss of the
+    runs there, shape (points, 3). `errors`: error of the map there over the bound, same shape. `estimate`: error over the bound,
+    estimated by leaving lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this
+    call, and the time that they took, start of workers included. `model`: the choice of `accuracy` in words; empty with the scene's
+    own."""
 
     scene: Scene
-    lines: tuple[np.ndarray, ...]
-    slipping: np.ndarray
-    stuck: np.ndarray
     unseen: np.ndarray
     found: np.ndarray
     errors: np.ndarray
@@ -55,31 +48,15 @@ class LossMap:
     new: int
     model: str = ""
 
-    def at(self, points: np.ndarray) -> np.ndarray:
-        """Torques left and right and loss at points of slip, shape (points, 3)."""
-        points = np.array(points, float)
-        at, sizes = places(self.lines), points * np.where(points < 0.0, [1.0, 1.0, -1.0, 1.0], 1.0)
-        both = [interpolated(self.lines, torques_of(values[..., :MAPPED], at * [1.0, 1.0, sign, 1.0]), sizes)
-                for sign, values in zip(SIGNS, self.slipping)]
-        return figures_of(np.where(points[:, 2:3] > 0.0, *both), points)
-
     @property
     def beyond(self) -> int:
         """How many unseen points have an error beyond the bound."""
-        return int(np.sum(np.any(self.errors > 1.0, axis=1)))
-
-    def says(self) -> str:
-        """The measured error, in a sentence."""
-        count = len(self.unseen)
-        if not count:
-            return "no unseen points: the error of the map is not measured"
-        return (f"{count} unseen points, {self.beyond or 'none'} beyond {self.bound}: at most "
-                f"{100.0 * share_beyond(count, self.beyond):.2g} % are, at 95 %; the largest error is {self.errors.max():.2g} of it")
+        return _beyond(self.errors)
 
 
 def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, within: str | None = None, bound: Bound = Bound(),
            unseen: int = 300, seed: int = 1, most: int = 4000, out: FileName | None = None, resume: bool = False, force: bool = False,
-           tell: Callable[[str], object] = lambda text: None, **farm: Any) -> LossMap:
+           tell: Callable[[str], object] = lambda text: None, **farm: Any) -> MeasuredMap:
     """The map of a scene; changes of the scene over time are ignored.
 
     `levels`: first values of each axis, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`: accuracy
@@ -87,7 +64,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     measure the error, drawn by `seed`. Temperatures share their runs if nothing depends on them; `tell` says so. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
     `designs.store.Store`.
     `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
-    # here, as options can be shown without the packages that store runs
+    # not for options that are shown, or a map that is only read
     from ..designs.store import Columns, Store
     from ..designs.sweep import going_on_later, hashed
 
@@ -138,10 +115,23 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
         found = runs.at(drawn)[..., :MAPPED]
         if store is not None and store.finished is None:
             store.finish()
-    made = LossMap(scene, tuple(lines), slipping, stuck, drawn, found, np.empty((0, MAPPED)), bound, estimate, runs.restless,
-                   time.perf_counter() - begin, runs.new, model)
-    errors = np.abs(made.at(drawn) - found) / bound.of_figures(found, drawn)
-    return LossMap(**{**made.__dict__, "errors": errors})
+    grid: dict[str, Any] = {"lines": tuple(lines), "slipping": slipping, "stuck": stuck}
+    errors = np.abs(LossMap(**grid, error="").at(drawn) - found) / bound.of_figures(found, drawn)
+    return MeasuredMap(**grid, error=_measured(errors, bound), scene=scene, unseen=drawn, found=found, errors=errors, bound=bound,
+                       estimate=estimate, restless=runs.restless, seconds=time.perf_counter() - begin, new=runs.new, model=model)
+
+
+def _beyond(errors):
+    return int(np.sum(np.any(errors > 1.0, axis=1)))
+
+
+def _measured(errors, bound):
+    """The measured error, in a sentence."""
+    count, beyond = len(errors), _beyond(errors)
+    if not count:
+        return "no unseen points: the error of the map is not measured"
+    return (f"{count} unseen points, {beyond or 'none'} beyond {bound}: at most {100.0 * share_beyond(count, beyond):.2g} % are, at 95 %; "
+            f"the largest error is {errors.max():.2g} of it")
 
 
 class _Runs:

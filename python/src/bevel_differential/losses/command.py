@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
         made = losses(scene, levels, within=arguments.within, bound=_bound(bound), unseen=unseen, seed=arguments.seed,
                       most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
                       **farm(arguments))
-    print(made.says())
+    print(made.error)
     if arguments.quick:
         print(f"quick: --bound {bound} --unseen {unseen}; a map has --bound {BOUND} --unseen {UNSEEN}")
     if made.estimate > GOAL:

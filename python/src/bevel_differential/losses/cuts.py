@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from . import MAPPED, LossMap
-from .grid import figures_of, interpolated, places, torques_of
+from .loss_map import LossMap
 
 # points of a curve
 POINTS = 60
@@ -22,9 +21,3 @@ def along(made: LossMap, axis: int, fixed: np.ndarray, sign: float) -> tuple[np.
     points[:, axis] = at
     points[:, 2] *= sign
     return at, made.at(points)
-
-
-def stuck_at(made: LossMap, points: np.ndarray) -> np.ndarray:
-    """Torques left and right and loss at points without a difference, shape (points, 3)."""
-    lines = [*made.lines[:2], np.zeros(1), made.lines[3]]
-    return figures_of(interpolated(lines, torques_of(made.stuck[..., :MAPPED], places(lines)), points), points)

@@ -6,9 +6,10 @@ import numpy as np
 
 from ..report import svg_style, words
 from ..report.blocks import Picture
-from . import MAPPED, SIGNS, LossMap
+from . import MeasuredMap
 from .axes import SLIP_AXIS, SPEED_AXIS, TEMPERATURE_AXIS, TORQUE_AXIS, axes as axes_of
-from .cuts import POINTS, along, some, stuck_at
+from .cuts import POINTS, along, some
+from .loss_map import MAPPED, SIGNS
 from .tables import bias
 
 # most temperatures, and most panels of other axes
@@ -22,12 +23,12 @@ DECADE = 4.0
 SIDES = ("left wheel faster", "right wheel faster")
 
 
-def warmth_text(made: LossMap, temperature: float) -> str:
+def warmth_text(made: MeasuredMap, temperature: float) -> str:
     """A temperature, K, as it is read."""
     return axes_of(made.scene)[TEMPERATURE_AXIS].text(temperature, 3)
 
 
-def label(made: LossMap, place: int) -> str:
+def label(made: MeasuredMap, place: int) -> str:
     """The temperature of a line; both ends where all lines are alike."""
     line = made.lines[TEMPERATURE_AXIS]
     if len(line) == 1 or not alike(made):
@@ -36,7 +37,7 @@ def label(made: LossMap, place: int) -> str:
     return f"{words.number(first, 3)} to {warmth_text(made, line[-1])}"
 
 
-def alike(made: LossMap) -> bool:
+def alike(made: MeasuredMap) -> bool:
     """Whether temperature changes nothing."""
     return all(np.all(np.ptp(values, axis=-2) <= SAME * np.abs(values).max(axis=tuple(range(values.ndim - 1))))
                for values in (made.slipping[..., :MAPPED], made.stuck))
@@ -47,12 +48,12 @@ def largest(line: np.ndarray) -> int:
     return int(np.argmax(np.abs(line)))
 
 
-def temperatures(made: LossMap) -> np.ndarray:
+def temperatures(made: MeasuredMap) -> np.ndarray:
     """Positions of the temperatures that are shown: the first where all are alike."""
     return np.zeros(1, int) if alike(made) else some(made.lines[TEMPERATURE_AXIS], TEMPERATURES)
 
 
-def loss_map(made: LossMap) -> Picture | None:
+def loss_map(made: MeasuredMap) -> Picture | None:
     """Loss over torque and speed at each temperature; None where one of the two has a single value."""
     if min(len(made.lines[TORQUE_AXIS]), len(made.lines[SPEED_AXIS])) < 2:
         return None
@@ -77,7 +78,7 @@ def _sheets(made) -> Iterator[tuple[str, list[np.ndarray]]]:
     for temperature in made.lines[TEMPERATURE_AXIS][temperatures(made)]:
         points = np.stack(np.broadcast_arrays(torque, speed[:, None], slip, temperature), axis=-1).reshape(-1, 4)
         slipping.append(made.at(points)[:, 2].reshape(POINTS, POINTS))
-        stuck.append(stuck_at(made, points * [1.0, 1.0, 0.0, 1.0])[:, 2].reshape(POINTS, POINTS))
+        stuck.append(made.at(points * [1.0, 1.0, 0.0, 1.0])[:, 2].reshape(POINTS, POINTS))
     yield f"difference {axes_of(made.scene)[SLIP_AXIS].text(slip)}", slipping
     if np.max(stuck) > NOTHING * np.max(slipping):
         yield "no difference", stuck
@@ -132,7 +133,7 @@ def _label_places(curves, speed, torque):
             yield points[np.argmin(off)]
 
 
-def over_difference(made: LossMap) -> Picture:
+def over_difference(made: MeasuredMap) -> Picture:
     """Loss and locking torque over the signed difference, with the stuck interval at 0."""
     slip = made.lines[SLIP_AXIS]
     at = [_level(made, place) for place in range(4)]
@@ -190,7 +191,7 @@ def _over_difference(picture, made):
     rows[0][-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def ratio(made: LossMap) -> Picture:
+def ratio(made: MeasuredMap) -> Picture:
     """Torque bias ratio over torque for both signs of the difference, sliding and where it breaks loose."""
     slip, speed = made.lines[SLIP_AXIS], made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)]
     _, of_speed, of_slip, _ = axes_of(made.scene)
@@ -242,7 +243,7 @@ def _drawn_ratio(picture, made):
     panels[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def stuck(made: LossMap) -> Picture:
+def stuck(made: MeasuredMap) -> Picture:
     """The interval in which the differential stays stuck, over torque or speed."""
     at = [_level(made, axis) for axis in range(4)]
     of_torque, _, of_slip, _ = axes_of(made.scene)
@@ -276,7 +277,7 @@ def _drawn_stuck(picture, made):
     picture.legend(handles, labels, loc="outside upper center", ncols=len(labels))
 
 
-def error(made: LossMap) -> Picture:
+def error(made: MeasuredMap) -> Picture:
     """The error of the unseen points: how many have how much, and where."""
     worst = made.errors.max(axis=1)
     place, half = int(np.argmax(worst)), float(np.median(worst))

@@ -67,6 +67,18 @@ def figures_of(torques: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.stack([0.5 * (total + locking), 0.5 * (total - locking), lost * _speed(points) - 0.5 * locking * points[..., 2]], axis=-1)
 
 
+def efficiency(points: np.ndarray, figures: np.ndarray) -> np.ndarray:
+    """Power that leaves over power that enters, in the direction in which the power flows; 1 if nothing enters.
+
+    `points` and `figures` (T_L, T_R and P) are along the last axis. If the torque is against the speed, the wheels feed, so that the
+    carrier delivers |T ω| of |T ω| + P."""
+    left, right, loss = np.moveaxis(figures, -1, 0)
+    torque, speed, difference, _ = np.moveaxis(points, -1, 0)
+    powers = (torque * speed, -left * (speed + 0.5 * difference), -right * (speed - 0.5 * difference))
+    fed = sum(np.maximum(power, 0.0) for power in powers)
+    return 1.0 - np.divide(np.maximum(loss, 0.0), fed, out=np.zeros_like(fed), where=fed > 0.0)
+
+
 def _speed(points):
     return np.abs(points[..., 1]) + 0.5 * np.abs(points[..., 2])
 

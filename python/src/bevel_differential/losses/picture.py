@@ -6,9 +6,10 @@ import numpy as np
 
 from ..extras import require
 from ..values import FileName
-from . import SIGNS, LossMap
+from . import MeasuredMap
 from .axes import axes as axes_of
 from .cuts import along, some
+from .loss_map import SIGNS
 from .tables import bias
 
 # curves for at most so many temperatures
@@ -16,7 +17,7 @@ MOST_CURVES = 4
 NAMES = ["left torque", "right torque", "loss"]
 
 
-def draw(made: LossMap, file: FileName) -> Path:
+def draw(made: MeasuredMap, file: FileName) -> Path:
     """Draws a map into `file`; returns its path."""
     require("matplotlib", "plot")
     from .. import style
@@ -45,6 +46,6 @@ def draw(made: LossMap, file: FileName) -> Path:
         for axes in (ratio, loss, error):
             axes.legend()
         style.caption(figure, "Left: solid with the left wheel faster, dashed with the right wheel faster; where both meet, the differential "
-                      f"is symmetric. Middle: the loss is lowest where nothing slips. Right: {made.says()}.")
+                      f"is symmetric. Middle: the loss is lowest where nothing slips. Right: {made.error}.")
         style.save(figure, file)
     return Path(file)

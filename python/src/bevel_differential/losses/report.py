@@ -10,10 +10,11 @@ from ..report.blocks import Section, Table, Text
 from ..report.write import need, page
 from ..values import FileName
 from ..writing import write_whole
-from . import MAPPED, SIGNS, LossMap, figures, inputs
+from . import MeasuredMap, figures, inputs
 from .axes import axes as axes_of
 from .figures import largest, warmth_text
 from .grid import GOAL, share_beyond
+from .loss_map import MAPPED, SIGNS
 from .point import AXES as DRIVEN, PointTask
 from .tables import BETWEEN, MEANINGS, bias
 
@@ -23,7 +24,7 @@ AXES = ("carrier torque", "carrier speed", "difference of the wheels' speeds", "
 ERRED = ("left torque", "right torque", "loss")
 
 
-def write(made: LossMap, file: FileName) -> Path:
+def write(made: MeasuredMap, file: FileName) -> Path:
     """Writes the report of a map whole, or not at all; returns its path. It runs the corners of the map again for the FMU's warnings."""
     need()
     sections = [_head(made), _loss(made), _bias(made), _error(made), _setup(made), _columns()]
@@ -31,9 +32,9 @@ def write(made: LossMap, file: FileName) -> Path:
     return Path(file)
 
 
-def says(made: LossMap) -> str:
+def says(made: MeasuredMap) -> str:
     """What the unseen points measure, as a sentence of the report."""
-    return f"{made.says().replace('N.m', 'N·m')}."
+    return f"{made.error.replace('N.m', 'N·m')}."
 
 
 def _head(made):

@@ -8,8 +8,9 @@ import numpy as np
 from ..records import write
 from ..values import FileName
 from ..writing import write_whole
-from . import MAPPED, SIGNS, LossMap
-from .grid import places, torques_of
+from . import MeasuredMap
+from .grid import efficiency, places, torques_of
+from .loss_map import MAPPED, SIGNS
 
 MEANINGS = {
     "kind": "map: a point of the map, which slips; stuck: a point without a difference of speeds; unseen: a random point that "
@@ -53,24 +54,13 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
     return high / low, 100.0 * (high - low) / (high + low)
 
 
-def efficiency(torque: np.ndarray, speed: np.ndarray, figures: np.ndarray) -> np.ndarray:
-    """Power that leaves over power that enters, in the direction in which the power flows, without a difference of speeds; 1 if nothing
-    enters.
-
-    `torque`, `speed`: of the carrier; `figures`: T_left, T_right and loss along the last axis. With the torque against the speed the
-    wheels feed, so that the carrier delivers |T w| of |T w| + loss."""
-    left, right, loss = np.moveaxis(figures, -1, 0)
-    fed = sum(np.maximum(power, 0.0) for power in (torque * speed, -left * speed, -right * speed))
-    return 1.0 - np.divide(np.maximum(loss, 0.0), fed, out=np.zeros_like(loss), where=fed > 0.0)
-
-
-def save(made: LossMap, file: FileName) -> Path:
+def save(made: MeasuredMap, file: FileName) -> Path:
     """Writes points of the map, stuck points and unseen points. Where it is stuck, ratio and effect are those at which it breaks
     loose."""
-    return write(file, HEAD, _rows(made), made.says(), made.scene.name, BETWEEN)
+    return write(file, HEAD, _rows(made), made.error, made.scene.name, BETWEEN)
 
 
-def _rows(made: LossMap) -> Iterator[list[object]]:
+def _rows(made: MeasuredMap) -> Iterator[list[object]]:
     at = places(made.lines)
     for sign, values in zip(SIGNS, made.slipping):
         for point, figures in zip((at * [1.0, 1.0, sign, 1.0]).reshape(-1, 4), values.reshape(-1, values.shape[-1])):
@@ -87,10 +77,10 @@ def _row(kind, point, figures, torques):
     return [kind, *point.tolist(), *figures, *("" if one is None else float(one) for one in bias(*torques))]
 
 
-def save_for_simulink(made: LossMap, file: FileName) -> Path:
+def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
     """Writes a MATLAB script with the arrays that the blocks' masks and n-D Lookup Tables take."""
     torque, speed, slip, temperature = made.lines
-    share = efficiency(torque[:, None, None], speed[None, :, None], made.stuck[:, :, 0, :, :MAPPED])
+    share = efficiency(places([torque, speed, np.zeros(1), temperature]), made.stuck[..., :MAPPED])[:, :, 0]
     # over a signed difference, through the stuck means at 0
     slips = np.concatenate([-slip[::-1], [0.0], slip])
     whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
@@ -98,7 +88,7 @@ def save_for_simulink(made: LossMap, file: FileName) -> Path:
     middle = [len(line) // 2 for line in made.lines]
     coupling = 0.5 * np.abs(torques[:, :, len(slip) + 1:, :, 0])
     text = [
-        f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.says()}.",
+        f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.error}.",
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
         "% Blocks Open Differential and Limited Slip Differential, Efficiency factors = Driveshaft torque, temperature and speed:",
         *CONVENTION,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import cos, pi, sin
 
 from ..fmu import Fmu
-from ..values import DifferentialError, Number, Variable, suggestion
+from ..values import DifferentialError, Number, Variable, variable_suggestion
 from .pair import Pair, tool_room
 
 
@@ -96,5 +96,5 @@ class Catalogue:
             found.name, found.causality = name, "output"
             return found
         if name not in self.fmu.variables:
-            raise DifferentialError(f"{name}: there is no such variable{suggestion(name, [*self.fmu.variables, *QUANTITIES])}")
+            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, [*self.fmu.variables, *QUANTITIES])}")
         return self.fmu.variables[name]

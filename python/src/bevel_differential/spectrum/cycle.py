@@ -22,7 +22,7 @@ import numpy as np
 
 from ..csv_table import CsvTable, Quantity, Text, Time
 from ..fmu import Fmu
-from ..values import DifferentialError, FileName, Variable, suggestion
+from ..values import DifferentialError, FileName, Variable, variable_suggestion
 from .damage import Event
 from .driven import LOADS, drives_of, missing, wanted
 
@@ -58,7 +58,7 @@ def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tu
     def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
 
-    table = CsvTable(file, known, needed=["name", "count"])
+    table = CsvTable(file, known, ["name", "count"], [name for name, column in OWN.items() if isinstance(column, Text)])
     return [_event(table, line, row, fmu, vehicle, (teeth, drives_of(row, drives, fmu)), given) for line, row in table.rows]
 
 
@@ -164,7 +164,7 @@ def _variable(name, fmu, causalities):
     if name in QUANTITIES:
         return QUANTITIES[name]
     if name not in fmu.variables:
-        raise DifferentialError(f"{name}: there is no such column{suggestion(name, [*OWN, *QUANTITIES, *fmu.variables])}")
+        raise DifferentialError(f"{name}: there is no such column{variable_suggestion(name, [*OWN, *QUANTITIES, *fmu.variables])}")
     variable = fmu.variables[name]
     if variable.causality not in causalities:
         raise DifferentialError(f"{name}: it is not an {' or '.join(causalities)} of the FMU")

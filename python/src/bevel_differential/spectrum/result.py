@@ -14,7 +14,7 @@ from ..former_names import by_present_names
 from ..records import write
 from ..scene import Scene
 from ..text import aligned
-from ..values import DifferentialError, FileName, Value, suggestion
+from ..values import DifferentialError, FileName, Value, variable_suggestion
 from ..warned import by_owner, silenced, warn
 from .cycle import QUANTITIES, read_cycle
 from .damage import MODES, Event, EventDamage, evaluate
@@ -195,7 +195,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
     variables = Fmu.of(fmu).variables
     for name in values.keys() - variables.keys():
-        raise DifferentialError(f"{name}: there is no such variable or quantity{suggestion(name, [*QUANTITIES, *variables])}")
+        raise DifferentialError(f"{name}: there is no such variable or quantity{variable_suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
         # no event has the loads of this run
         with silenced():

@@ -10,7 +10,7 @@ from ..fmu import Fmu
 from ..instance import Instance
 from ..plot import plot
 from ..points import Steps, TimeValue, duration, span
-from ..values import DifferentialError, FileName, Number, Value, suggestion
+from ..values import DifferentialError, FileName, Number, Value, variable_suggestion
 from ..warned import warn
 from .equations import motor_torque
 from .motion import Motion
@@ -140,7 +140,7 @@ class Car:
         for name in names:
             if name not in UNITS and name not in self.fmu.variables:
                 raise DifferentialError(f"{name}: neither the differential nor the car has it"
-                                        f"{suggestion(name, [*self.fmu.variables, *UNITS])}")
+                                        f"{variable_suggestion(name, [*self.fmu.variables, *UNITS])}")
         twice = next((name for name in names if names.count(name) > 1), None)
         if twice:
             raise DifferentialError(f"{twice}: it is recorded twice; name each output once")

@@ -1,13 +1,13 @@
 """Tables of the evidence in CSV: inputs and results over time, and tolerances. Errors name file, line, column and value."""
 
-import csv
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..values import suggestion
+from ..csv_table import lines_of
+from ..values import DifferentialError, suggestion
 from .files import Broken, number
 
 # reasons to leave a column out
@@ -20,7 +20,8 @@ def table(name: str, file: Path, variables: Mapping[str, Any], faults: list[str]
     """A table over time as a structured array; its first field is "time". A cell of an array has its elements between blanks.
 
     `left_out`: for which reasons a column is left out with a fault; without them it is an error."""
-    (line, head), *rows = _lines(name, file)
+    texts = [of for of, variable in variables.items() if variable.type in _TEXTS]
+    (line, head), *rows = _lines(name, file, texts)
     heads = ["time", *(cell.strip() for cell in head[1:])]
     if head[0] != "time":
         if head[0].strip().lower() != "time":
@@ -31,7 +32,7 @@ def table(name: str, file: Path, variables: Mapping[str, Any], faults: list[str]
     places = [place for place, of in enumerate(heads) if place > 0 and _is_kept(f"{name}, line {line}", of, variables, faults, left_out)]
     if not places or not rows:
         raise Broken(f"{name}: it has no {'values' if places else 'column that can be read beside the time'}")
-    columns = {"time": [_cell(name, line, "time", cells[0]) for line, cells in rows if _same_length(name, line, cells, head)]}
+    columns = {"time": [_cell(name, line, "time", cells[0]) for line, cells in rows]}
     for place in places:
         of = heads[place]
         columns[of] = _elements(name, of, [(line, cells[place]) for line, cells in rows]) if variables[of].dimensions else [
@@ -68,13 +69,12 @@ def _elements(name, of, cells):
 
 def tolerances_of(name: str, file: Path, experiment: str, columns: Iterable[str]) -> dict[str, float]:
     """The tolerance of each column in an experiment, in the unit of the variable."""
-    (_, head), *rows = _lines(name, file)
+    (_, head), *rows = _lines(name, file, ("experiment", "variable"))
     missing = {"experiment", "variable", "tolerance"} - set(head)
     if missing:
         raise Broken(f"{name}: it has no column {', '.join(sorted(missing))}")
     allowed = {}
     for line, cells in rows:
-        _same_length(name, line, cells, head)
         given = dict(zip(head, cells))
         if given["experiment"] == experiment:
             value = allowed[given["variable"]] = _cell(name, line, "tolerance", given["tolerance"])
@@ -85,23 +85,12 @@ def tolerances_of(name: str, file: Path, experiment: str, columns: Iterable[str]
     return allowed
 
 
-def _lines(name, file):
+def _lines(name, file, texts=()):
     """Numbers and cells of the lines that are neither empty nor comments, the header first."""
     try:
-        text = file.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise Broken(f"{name}: it is no text in UTF-8") from None
-    lines = [(place, next(csv.reader([line]))) for place, line in enumerate(text.splitlines(), 1)
-             if line.strip() and not line.startswith("#")]
-    if not lines:
-        raise Broken(f"{name}: it is empty")
-    return lines
-
-
-def _same_length(name, line, cells, head):
-    if len(cells) != len(head):
-        raise Broken(f"{name}, line {line}: it has {len(cells)} cells where the header has {len(head)}")
-    return True
+        return lines_of(file, name, texts)
+    except DifferentialError as error:
+        raise Broken(str(error)) from None
 
 
 def _cell(name, line, column, cell):

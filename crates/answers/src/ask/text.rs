@@ -1,0 +1,50 @@
+//! Questions about what users write: CSV files, and names with slips.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, anyhow};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::scene::set::how_to_find;
+use crate::text::csv_input;
+use crate::text::near::near;
+
+/// A CSV file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TableQuestion {
+    file: PathBuf,
+    /// Name of the file in problems.
+    shown: String,
+    /// Names of columns that hold words.
+    #[serde(default)]
+    texts: Vec<String>,
+}
+
+/// A wrong name.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NearQuestion {
+    word: String,
+    /// The right names.
+    known: Vec<String>,
+}
+
+impl TableQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let texts: Vec<&str> = self.texts.iter().map(String::as_str).collect();
+        let found = csv_input::read(&self.file, &texts).map_err(|problem| anyhow!("{}{problem}", self.shown))?;
+        let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
+        let rows: Vec<_> = found.rows.iter().map(|(line, record)| (line, cells(record))).collect();
+        Ok(json!({"header": [found.header_line, cells(&found.header)], "rows": rows}))
+    }
+}
+
+impl NearQuestion {
+    /// The nearest names, and how to find a variable that is none of them.
+    pub(super) fn answer(&self) -> Value {
+        let near = near(&self.word, self.known.iter().map(String::as_str));
+        json!({"near": near, "find": how_to_find(&self.word)})
+    }
+}

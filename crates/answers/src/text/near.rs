@@ -1,0 +1,142 @@
+//! Names that were probably meant by a wrong one, compared word by word.
+
+use std::collections::HashMap;
+
+use strsim::{jaro_winkler, normalized_damerau_levenshtein};
+
+/// Maximum number of names that are suggested. If more are equally near, none is.
+const MOST: usize = 3;
+/// Similarity from which two words are the same word with a slip, an abbreviation or another plural.
+const SAME_WORD: f64 = 0.79;
+/// Similarity of all letters from which two names are near without equal words.
+const SAME_LETTERS: f64 = 0.7;
+/// Share of the wrong name, by the weight of its words, that a near name must have.
+const SHARE: f64 = 0.65;
+/// Names whose scores are below the best one by less than this are equally near.
+const TIE: f64 = 0.03;
+/// Weight of the words before the last point, which name the group: a wrong group is a likely slip.
+const GROUP: f64 = 0.5;
+/// What is taken from the score if no word of a name was meant; in proportion if some were.
+const EXTRA_WORDS: f64 = 0.3;
+
+/// The names that `wrong` probably means, nearest first, at most three.
+///
+/// Rare words weigh more than frequent ones, as in a search: `module` says more than `planet`.
+pub fn near<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let names: Vec<(&str, Vec<String>)> = names.into_iter().map(|name| (name, words(name))).collect();
+    let weights = Weights::of(&names);
+    let quantity = words(wrong.rsplit('.').next().unwrap_or_default()).len();
+    let meant = words(wrong);
+    let letters = meant.concat();
+    let group = meant.len() - quantity;
+    let mut scored: Vec<(f64, &str)> = names
+        .iter()
+        .filter_map(|(name, words)| {
+            let by_letters = normalized_damerau_levenshtein(&letters, &words.concat());
+            let by_letters = if by_letters >= SAME_LETTERS { by_letters } else { 0.0 };
+            let score = by_words((&meant[..group], &meant[group..]), words, &weights).max(by_letters);
+            (score > 0.0).then_some((score, *name))
+        })
+        .collect();
+    scored.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let best = scored.first().map_or(0.0, |(score, _)| *score);
+    let tied: Vec<&str> = scored.iter().take_while(|(score, _)| best - score < TIE).map(|(_, name)| *name).collect();
+    if tied.len() > MOST { Vec::new() } else { tied }
+}
+
+/// `; did you mean …?` with the names that `wrong` probably means; empty if there are none.
+pub fn hint<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    let found = near(wrong, names);
+    if found.is_empty() { String::new() } else { format!("; did you mean {}?", found.join(" or ")) }
+}
+
+/// Words of a name in small letters, without its signs.
+pub fn words(name: &str) -> Vec<String> {
+    let parts = name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+    parts.map(str::to_lowercase).collect()
+}
+
+/// How much a word says, by the number of names that have it.
+struct Weights {
+    by_word: HashMap<String, f64>,
+    /// Weight of a word that no name has.
+    unknown: f64,
+}
+
+impl Weights {
+    fn of(names: &[(&str, Vec<String>)]) -> Self {
+        let mut counts = HashMap::<String, usize>::new();
+        for (_, words) in names {
+            let mut words: Vec<&String> = words.iter().collect();
+            words.sort_unstable();
+            words.dedup();
+            words.into_iter().for_each(|word| *counts.entry(word.clone()).or_default() += 1);
+        }
+        let all = names.len() as f64;
+        let by_word: HashMap<_, _> =
+            counts.into_iter().map(|(word, count)| (word, ((all + 1.0) / count as f64).ln())).collect();
+        let unknown = by_word.values().sum::<f64>() / (by_word.len() as f64).max(1.0);
+        Self { by_word, unknown }
+    }
+
+    fn of_word(&self, word: &str) -> f64 {
+        self.by_word.get(word).copied().unwrap_or(self.unknown)
+    }
+}
+
+/// How well the words meant, of group and quantity, are those of a name, from 0 to 1; 0 if they are too different. The order
+/// does not count.
+fn by_words((group, quantity): (&[String], &[String]), words: &[String], weights: &Weights) -> f64 {
+    let mut left: Vec<&String> = words.iter().collect();
+    let (mut found, mut all) = (0.0, 0.0);
+    for (word, factor) in group.iter().map(|word| (word, GROUP)).chain(quantity.iter().map(|word| (word, 1.0))) {
+        let alike = left.iter().map(|other| alike(word, other)).enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        match alike {
+            Some((place, likeness)) if likeness >= SAME_WORD => {
+                let other = left.swap_remove(place);
+                let weight = factor * weights.of_word(if weights.by_word.contains_key(word) { word } else { other });
+                found += weight * likeness;
+                all += weight;
+            }
+            _ => all += factor * weights.of_word(word),
+        }
+    }
+    if found < SHARE * all || all == 0.0 {
+        return 0.0;
+    }
+    found / all * (1.0 - EXTRA_WORDS * left.len() as f64 / words.len() as f64)
+}
+
+/// Similarity of two words from 0 to 1.
+fn alike(a: &str, b: &str) -> f64 {
+    // one letter is no abbreviation, and 1 is not 11
+    if a.len() < 3 || b.len() < 3 || a.bytes().chain(b.bytes()).any(|letter| letter.is_ascii_digit()) {
+        return f64::from(u8::from(a == b));
+    }
+    // a long word is no slip of a short one unless it begins so
+    let letters = normalized_damerau_levenshtein(a, b);
+    if letters >= 0.5 || a.starts_with(b) || b.starts_with(a) { jaro_winkler(a, b) } else { letters }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_names_are_suggested_if_they_are_near() {
+        let literals = ["line", "line_weber", "point"];
+        for (wrong, expected) in [("lin", vec!["line"]), ("webber", vec!["line_weber"]), ("xyz", vec![]), ("", vec![])]
+        {
+            assert_eq!(near(wrong, literals), expected, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn more_equally_near_names_than_are_suggested_are_none() {
+        let names = ["a.torque", "b.torque", "c.torque", "d.torque", "e.speed"];
+        assert_eq!(near("torque", names), Vec::<&str>::new());
+        assert_eq!(near("torque", names[1..4].iter().copied()), names[1..4]);
+        assert_eq!(hint("torque", names[2..4].iter().copied()), "; did you mean c.torque or d.torque?");
+        assert_eq!(hint("speed", names), "; did you mean e.speed?");
+    }
+}

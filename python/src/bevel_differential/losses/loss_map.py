@@ -1,0 +1,191 @@
+"""The map of losses as it is used: torques, loss and efficiency at any point within its axes, also from a file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..csv_table import lines_of
+from ..extras import require
+from ..output_file import is_parquet
+from ..values import DifferentialError, FileName
+from .grid import efficiency, figures_of, interpolated, places, torques_of
+
+# figures that the map holds where the differential slips: torques left and right, loss
+MAPPED = 3
+SIGNS = (1.0, -1.0)
+# columns of the file: kind of a row, axes, and figures; then others that follow from them
+KIND = "kind"
+AXES = ("carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]")
+FIGURES = ("left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
+           "left.shaft_torque_max [N.m]")
+# names of the axes in errors; the one whose two signs share lines
+NAMES, DIFFERENCE = ("torque", "speed", "difference", "temperature"), 2
+# a point beyond an end by less than this part of the value there is at the end
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class LossMap:
+    """A map of power loss and wheel torques over carrier torque, carrier speed, difference of wheel speeds and oil temperature, in SI.
+
+    `LossMap.load(file)` reads what the command `losses --csv` wrote. Between its lines the map interpolates as `losses` does when it
+    measures the error.
+
+    `lines`: values of torque, speed, magnitude of the difference of speeds, and temperature. `slipping`: FIGURES with the left wheel
+    faster and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, so the
+    third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `error`: the measured
+    error in a sentence."""
+
+    lines: tuple[np.ndarray, ...]
+    slipping: np.ndarray
+    stuck: np.ndarray
+    error: str
+
+    @classmethod
+    def load(cls, file: FileName) -> "LossMap":
+        """The map in a file of the command `losses --csv`, CSV or Parquet. Raises `DifferentialError` if the file is no such map."""
+        file = Path(file)
+        error, columns = _from_parquet(file) if is_parquet(file) else _from_csv(file)
+        kinds, points, figures = columns[KIND], *(np.stack([columns[name] for name in names], axis=-1) for names in (AXES, FIGURES))
+        slips = kinds == "map"
+        lines = tuple(map(np.unique, _unsigned(points[slips]).T))
+        slipping = [_filled(file, lines, _unsigned(points[at]), figures[at])
+                    for sign in SIGNS for at in [slips & (sign * points[:, DIFFERENCE] > 0.0)]]
+        still = kinds == "stuck"
+        stuck = _filled(file, _still(lines), points[still], figures[still])
+        return LossMap(lines=lines, slipping=np.stack(slipping), stuck=stuck, error=error)
+
+    def torques(self, torque: Any, speed: Any, difference: Any, temperature: Any) -> tuple[Any, Any]:
+        """Torques of the left and the right half-shaft [N·m].
+
+        `torque` [N·m] and `speed` [rad/s] of the carrier, `difference` [rad/s] of the wheel speeds, left less right, and `temperature`
+        of the oil [K] are numbers or arrays that numpy broadcasts; arrays give arrays. Raises `DifferentialError` outside the map."""
+        _, figures = self._figures(torque, speed, difference, temperature)
+        return figures[..., 0][()], figures[..., 1][()]
+
+    def loss(self, torque: Any, speed: Any, difference: Any, temperature: Any) -> Any:
+        """Power loss [W]; arguments as for `torques`."""
+        return self._figures(torque, speed, difference, temperature)[1][..., 2][()]
+
+    def efficiency(self, torque: Any, speed: Any, difference: Any, temperature: Any) -> Any:
+        """Power that leaves over power that enters, from 0 to 1; arguments as for `torques`."""
+        return efficiency(*self._figures(torque, speed, difference, temperature))[()]
+
+    def at(self, points: np.ndarray) -> np.ndarray:
+        """Torques left and right and loss, shape (points, 3), at points of torque, speed, signed difference and temperature."""
+        points = self._within(np.array(points, float))
+        unsigned = _unsigned(points)
+        sheets = [(_still(self.lines), self.stuck, 0.0), *((self.lines, values, sign) for sign, values in zip(SIGNS, self.slipping))]
+        torques = np.zeros((len(points), MAPPED))
+        for lines, values, sign in sheets:
+            here = np.sign(points[:, DIFFERENCE]) == sign
+            if np.any(here):
+                grid = torques_of(values[..., :MAPPED], places(lines) * [1.0, 1.0, sign or 1.0, 1.0])
+                torques[here] = interpolated(lines, grid, unsigned[here])
+        return figures_of(torques, points)
+
+    def _figures(self, *axes):
+        """Points and what the map has there, both along the last axis."""
+        try:
+            points = np.stack(np.broadcast_arrays(*(np.asarray(axis, float) for axis in axes)), axis=-1)
+        except ValueError as error:
+            raise DifferentialError(f"torque, speed, difference and temperature are numbers in SI, or arrays of one shape: {error}") from None
+        return points, self.at(points.reshape(-1, len(NAMES))).reshape(*points.shape[:-1], MAPPED)
+
+    def _within(self, points):
+        """Points, those that rounding has put beyond an end moved to it. Raises `DifferentialError` for others beyond."""
+        unsigned = _unsigned(points)
+        for axis, (name, head, line) in enumerate(zip(NAMES, AXES, self.lines)):
+            near = np.clip(unsigned[:, axis], line[0], line[-1])
+            beyond = ~(np.abs(unsigned[:, axis] - near) <= ROUNDING * np.abs(near))
+            if axis == DIFFERENCE:
+                stands = points[:, axis] == 0.0
+                near, beyond = np.where(stands, 0.0, near * np.sign(points[:, axis])), beyond & ~stands
+            if np.any(beyond):
+                unit = head.rpartition("[")[2].rstrip("]")
+                span = f"{line[0]:g} to {line[-1]:g} {unit}" if len(line) > 1 else f"only {line[0]:g} {unit}"
+                span = f"0, and {span} in both directions" if axis == DIFFERENCE else span
+                others = f" (and {np.sum(beyond) - 1} more)" if np.sum(beyond) > 1 else ""
+                raise DifferentialError(f"{name} = {points[beyond, axis][0]:g} {unit} is outside the map{others}: it covers {span}; "
+                                        f"measure a map with more by `losses --{name}`")
+            points[:, axis] = near
+        return points
+
+
+def _unsigned(points):
+    """Points with the magnitude of the difference."""
+    found = points.copy()
+    found[..., DIFFERENCE] = np.abs(found[..., DIFFERENCE])
+    return found
+
+
+def _still(lines):
+    """Lines of the map without a difference."""
+    return (*lines[:DIFFERENCE], np.zeros(1), *lines[DIFFERENCE + 1:])
+
+
+def _filled(file, lines, points, figures):
+    """Figures in the places of their points, shape (lines of each axis, figures)."""
+    shape = tuple(map(len, lines))
+    at = [np.minimum(np.searchsorted(line, points[:, axis]), len(line) - 1) for axis, line in enumerate(lines)]
+    on_lines = all(np.array_equal(line[place], points[:, axis]) for axis, (line, place) in enumerate(zip(lines, at)))
+    place = np.ravel_multi_index(at, shape)
+    if not on_lines or not np.array_equal(np.sort(place), np.arange(np.prod(shape))):
+        raise DifferentialError(f"{file}: it has {len(points)} rows for a grid of {' x '.join(map(str, shape))} points; rows of the map are "
+                                "missing, changed or doubled: write it again by `losses --csv`")
+    found = np.empty((len(points), figures.shape[-1]))
+    found[place] = figures
+    return found.reshape(*shape, -1)
+
+
+def _from_parquet(file):
+    parquet = require("pyarrow.parquet", "sweep")
+    try:
+        table = parquet.read_table(file)
+    except (OSError, ValueError) as error:
+        raise DifferentialError(f"{file}: it cannot be read ({error})") from None
+    comment = (table.schema.metadata or {}).get(b"comment", b"").decode()
+    _need(file, table.column_names)
+    rows = table.select([KIND, *AXES, *FIGURES]).to_pydict()
+    return comment.partition("\n")[0], _columns(file, rows, range(1, table.num_rows + 1), "row")
+
+
+def _from_csv(file):
+    (_, head), *rows = lines_of(file, texts=[KIND])
+    _need(file, head)
+    with open(file, encoding="utf-8-sig") as text:
+        # a spreadsheet that saves the file may have added separators
+        comment = text.readline().strip().strip("\",;").removeprefix("#").strip()
+    cells = {name: [cells[head.index(name)] for _, cells in rows] for name in (KIND, *AXES, *FIGURES)}
+    return comment, _columns(file, cells, [line for line, _ in rows], "line")
+
+
+def _need(file, names):
+    missing = [name for name in (KIND, *AXES, *FIGURES) if name not in names]
+    if missing:
+        raise DifferentialError(f"{file}: it has no column {missing[0]}, so it is no map; `losses --csv` writes one")
+
+
+def _columns(file, cells, lines, what):
+    """Columns of the rows that make the map, numbers as such."""
+    kept = [place for place, kind in enumerate(cells[KIND]) if kind in ("map", "stuck")]
+    found = {KIND: np.array([cells[KIND][place] for place in kept])}
+    for name in (*AXES, *FIGURES):
+        try:
+            found[name] = np.array([cells[name][place] for place in kept], float)
+        except (TypeError, ValueError):
+            place = next(place for place in kept if not _is_number(cells[name][place]))
+            raise DifferentialError(f"{file}, {what} {lines[place]}, column {name}, value \"{cells[name][place]}\": it is a number") from None
+    if not kept:
+        raise DifferentialError(f"{file}: it has no rows of the kinds map and stuck; `losses --csv` writes them")
+    return found
+
+
+def _is_number(cell):
+    try:
+        float(cell)
+    except (TypeError, ValueError):
+        return False
+    return True

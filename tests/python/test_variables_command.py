@@ -1,0 +1,146 @@
+"""The command `variables` and `Fmu.find`: all variables, by words and by what acts in a scene."""
+
+import csv
+import subprocess
+import sys
+
+import pytest
+from bevel_differential import DifferentialError
+from bevel_differential.command import main
+
+# packages of extras
+EXTRAS = ("matplotlib", "dask", "pandas", "pyarrow", "scipy", "jinja2")
+
+
+@pytest.fixture
+def listed(fmu_file, capsys, monkeypatch):
+    """listed(arguments...): the lines that the command prints."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+    def run(*arguments):
+        assert main(["variables", *arguments, "--fmu", fmu_file]) == 0
+        return capsys.readouterr().out.splitlines()
+
+    return run
+
+
+def test_without_words_all_variables_are_listed(listed, fmu):
+    head, *lines, count = listed()
+    assert head.split() == ["name", "kind", "unit", "start", "range", "description"]
+    assert [line.split()[0] for line in lines] == list(fmu.variables)
+    assert count == f"{len(fmu.variables)} of {len(fmu.variables)} variables"
+    # columns begin at the same place in all lines
+    place = head.index("description")
+    assert all(line[place - 1] == " " and line[place] != " " for line in lines)
+
+
+def test_words_must_all_occur_in_name_or_description(listed, fmu):
+    _, line, count = listed("PLANETS", "Equally")
+    number, all_of_them = fmu.variable("geometry.planet_count"), len(fmu.variables)
+    assert line.split()[:4] == ["geometry.planet_count", "parameter", str(number.start), f"{number.minimum}..{number.maximum}"]
+    assert line.endswith(number.description) and count == f"1 of {all_of_them} variables"
+    # a word of descriptions only
+    expected = [name for name, each in fmu.variables.items() if "hertz" in f"{name} {each.description}".lower()]
+    assert [line.split()[0] for line in listed("hertz")[1:-1]] == expected and len(expected) > 1
+    assert listed("no", "such", "quantity")[-1].startswith(f"0 of {all_of_them} variables")
+
+
+def test_values_are_in_the_units_that_are_read(listed):
+    assert listed("geometry.module")[1].split()[1:6] == ["parameter", "mm", "(m)", "4.5", "0.2..100"]
+    assert listed("lock.command")[1].split()[1] == "input" and listed("power.loss")[1].split()[1] == "output"
+    line = listed("scene.start")[1]
+    assert "one of equilibrium, rolling, rest" in line and line.split()[1:3] == ["parameter", "equilibrium"]
+    assert any(line.split()[1] == "tunable" for line in listed()[1:-1])
+
+
+@pytest.mark.parametrize("width", [60, 80, 120, 200])
+def test_the_table_fits_the_terminal(listed, monkeypatch, width):
+    whole = listed()
+    monkeypatch.setenv("COLUMNS", str(width))
+    lines = listed()
+    assert all(len(line) <= width for line in lines)
+    # nothing is lost
+    assert sorted(" ".join(lines).replace(";", "").split()) == sorted(" ".join(whole).replace(";", "").split())
+
+
+def test_the_file_has_si_values_that_read_back(listed, fmu, tmp_path):
+    file = tmp_path / "variables.csv"
+    assert listed("geometry", "--csv", str(file))[-1] == f"written: {file}"
+    rows = list(csv.DictReader(line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#")))
+    assert len(rows) > 20
+    for row in rows:
+        of = fmu.variable(row["name"])
+        assert (row["unit"], row["description"]) == (of.unit or "", of.description)
+        if of.kind == "Real":
+            ends = [float(row[key]) if row[key] else None for key in ("start", "min", "max")]
+            assert ends == [of.start, of.minimum, of.maximum]
+    assert {row["name"]: row["display unit"] for row in rows}["geometry.module"] == "mm"
+
+
+def test_what_acts_in_a_scene_is_what_the_fmu_says(listed, fmu, tmp_path):
+    """The FMU warns of values that change nothing; they are those that are left out."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text('description = ""\nstop_time = "1 ms"\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\neffects.bearing_drag = true\n'
+                     'scene.gear_contact = "lumped"\n')
+    names = {line.split()[0] for line in listed("--acting", str(scene))[1:-1]}
+    assert {"bearing_drag.carrier_torque", "scene.gear_contact", "left.speed"} <= names
+    assert not names & {"limited_slip.preload", "tooth_friction.coefficient", "solid.facets"}
+    assert [each.name for each in fmu.find("drag", acting=str(scene))] == [line.split()[0] for line in listed("drag", "--acting", str(scene))[1:-1]]
+    silent, wrong = 0, []
+    for each in fmu.variables.values():
+        if each.causality == "parameter" and each.kind == "Real" and each.name.partition(".")[0] in ("limited_slip", "bearing_drag"):
+            with fmu.open() as instance:
+                other = each.start * 1.01 if each.start else 0.5 * (each.maximum or 1.0)
+                try:
+                    instance.initialise({"effects.bearing_drag": True, "scene.gear_contact": "lumped", each.name: other})
+                except DifferentialError:
+                    continue
+                if (each.name in instance.unfelt) == (each.name in names):
+                    wrong.append(each.name)
+                silent += each.name in instance.unfelt
+    assert not wrong and silent > 10
+
+
+def test_a_scene_that_is_none_is_said(fmu_file, capsys):
+    assert main(["variables", "--acting", "study_strait", "--fmu", fmu_file]) != 0
+    assert "did you mean 'study_straight'" in capsys.readouterr().err
+
+
+def test_the_smallest_installation_is_enough(fmu_file):
+    code = (f"import sys; sys.modules.update(dict.fromkeys({EXTRAS!r})); from bevel_differential.command import main; "
+            f"sys.exit(main(['variables', 'planet_count', '--acting', 'study_straight', '--fmu', {fmu_file!r}]))")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0 and "geometry.planet_count" in done.stdout, done.stderr
+
+
+# suggestions
+
+def test_wrong_names_of_all_kinds_are_suggested(fmu, fmu_file, capsys):
+    for call, words in [
+        (lambda: fmu.variable("planet.count"), "(did you mean geometry.planet_count?)"),
+        (lambda: fmu.variable("carier.speed"), "(did you mean carrier.speed?)"),
+        (lambda: fmu.variable("wheel.speed"), "(did you mean left.wheel_speed or right.wheel_speed?)"),
+        (lambda: fmu.variable("axle.torque"), "; `bevel-differential variables torque` lists those that may be meant"),
+        (lambda: fmu.variable("xyzzy"), "; `bevel-differential variables` lists all variables"),
+        (lambda: fmu.variable("effects.half_shaft").number("ture"), "it is true or false"),
+        (lambda: fmu.variable("scene.start").number("roling"), "(did you mean rolling?)"),
+        (lambda: fmu.variable("contact.law").number("webber_line"), "(did you mean line_weber?)"),
+    ]:
+        with pytest.raises(DifferentialError) as error:
+            call()
+        assert words in str(error.value)
+    for arguments, words in [(["optimize"], "did you mean optimise"), (["variable"], "did you mean variables"),
+                             (["run", "study_strait"], "did you mean study_straight"),
+                             (["run", "clunk", "--set", "planet.count=3", "--fmu", fmu_file], "did you mean geometry.planet_count"),
+                             (["run", "clunk", "--output", "wheel.speed", "--fmu", fmu_file], "left.wheel_speed")]:
+        assert main(arguments) != 0
+        assert words in capsys.readouterr().err
+
+
+def test_each_word_of_the_hint_finds_something(fmu):
+    for name in ("axle.torque", "gear.ratio_of_axle", "stiffness", "clutch.torque", "force.axial"):
+        with pytest.raises(DifferentialError) as error:
+            fmu.variable(name)
+        command = str(error.value).partition("`bevel-differential variables")[2].partition("`")[0]
+        if command:
+            assert fmu.find(*command.split()), name
