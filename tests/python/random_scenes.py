@@ -37,7 +37,7 @@ LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"
          "thrust_friction.pv_limit", "thrust_friction.beyond_limit", "limited_slip.friction_area",
          "limited_slip.plate_coefficient", "limited_slip.pv_limit", "limited_slip.beyond_limit", "wheel_brake.friction_area",
          "wheel_brake.lining_coefficient", "wheel_brake.pv_limit", "wheel_brake.beyond_limit", "warm_up.ambient_change",
-         "warm_up.sump_change", "inertia.side_gear_mass"]
+         "warm_up.sump_change", "inertia.side_gear_mass", "tooth_fault.at_onset"]
 STEADY_HEAT = 4
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03

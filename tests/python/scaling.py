@@ -14,7 +14,7 @@ SYMBOLS = {"1": (0, 0, 0), "rad": (0, 0, 0), "m": (1, 0, 0), "kg": (0, 1, 0), "s
 FACTOR = re.compile(r"([A-Za-z]+|1)(?:\^?(\d+(?:\.\d+)?))?")
 # its unit is N/m^e with the exponent of the law
 STIFFNESS, EXPONENT = "contact.stiffness", "contact.exponent"
-PAIR = re.compile(r"(.*_pair)\[\d\]\.(.*)")
+PAIR = re.compile(r"(mesh\.pair)\[\d\]\.(.*)")
 # what is the small difference of large things is judged by these: accelerations by the forces, slow turning by the speeds, energy by
 # the power between two points
 NATURAL = {"rad/s2": lambda of, _: of["N"] * of["m"] / of["kg.m2"], "m/s2": lambda of, _: of["N"] / of["kg"],

@@ -99,7 +99,7 @@ class Image:
 
     def has(self, name):
         """Whether the image has the output: single tooth pairs are read of planet 1's left mesh alone."""
-        return self.way == "reversed" or "_pair[" not in name
+        return self.way == "reversed" or "mesh.pair[" not in name
 
     def expected(self, outputs):
         """Outputs of the image, given those of the scene."""
