@@ -1,5 +1,6 @@
-"""Exit statuses: each command ends with the same status for the same kind of end."""
+"""Each command ends with the same status for the same kind of end, and has the same options for less work."""
 
+import argparse
 import dataclasses
 import importlib
 import shutil
@@ -10,7 +11,7 @@ import pytest
 
 import stand_in
 from bevel_differential import answers, cad
-from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, STATUSES, WRONG, main
+from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
 from bevel_differential.command import page as page_command
 from bevel_differential.instance import Instance
 from bevel_differential.verify import experiment
@@ -160,3 +161,51 @@ def test_the_verdict_of_geometry_is_its_last_line(prepared, capsys):
     assert "INTERFERENCE" in last and "2 above" in last and (Path("gears") / "dimensions.txt").is_file()
     main(["geometry", "--out", "gears"])
     assert capsys.readouterr().out.splitlines()[-1] == "verdict: no interference, the gears turn freely"
+
+
+def having(option):
+    """Commands that have an option."""
+    found = set()
+    for name, (place, *_) in COMMANDS.items():
+        parser = argparse.ArgumentParser()
+        importlib.import_module(place, PACKAGE).add_arguments(parser)
+        found |= {name for action in parser._actions if option in action.option_strings}
+    return found
+
+
+QUICK = {"optimise": " --quick --population 8 --generations 1", "tolerance": " --quick --no-indices"}
+
+
+@pytest.mark.parametrize("name", sorted(having("--quick")))
+def test_a_quick_answer_says_what_it_left_out(name, prepared, capsys):
+    prepared(DONE)
+    line = CASES[name][DONE]
+    assert main((line if "--quick" in line else line + QUICK.get(name, " --quick")).split()) == DONE
+    assert "quick: " in capsys.readouterr().out
+
+
+def test_commands_that_simulate_a_scene_or_leave_something_out_have_the_options():
+    assert having("--stop") == {"run", "plan", "loads", "accuracy", "report", "pattern", "sweep", "losses", "optimise", "tolerance"}
+    assert having("--quick") == {"accuracy", "report", "pattern", "losses", "optimise", "tolerance", "study", "verify"}
+
+
+@pytest.mark.parametrize("name", sorted(having("--stop")))
+def test_every_command_with_another_end_reads_it(name, prepared, capsys):
+    prepared(DONE)
+    words = CASES[name][DONE].split()
+    if "--stop" in words:
+        place = words.index("--stop")
+        del words[place:place + 2]
+    assert main([*words, "--stop", "soon"]) == WRONG
+    assert "stop_time" in (said := capsys.readouterr().err) and "soon" in said
+
+
+def test_a_run_and_loads_end_there_and_a_plan_says_so(prepared, capsys):
+    prepared(DONE)
+    assert main(["run", "study_turning", "--stop", "3 ms", "--csv", "run.csv"]) == DONE
+    assert main(["loads", "study_turning", "--stop", "3 ms", "--out", "loads.csv"]) == DONE
+    for file in ("run.csv", "loads.csv"):
+        assert float(Path(file).read_text(encoding="utf-8").splitlines()[-1].split(",")[0]) == pytest.approx(3e-3, rel=1e-9)
+    capsys.readouterr()
+    assert main(["plan", "study_turning", "--stop", "3 ms"]) == DONE
+    assert "0.003 s, communication step 0.001 s" in capsys.readouterr().out
