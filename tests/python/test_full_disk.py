@@ -146,7 +146,7 @@ def judged(case, folder, before, line, cause):
     new = after.keys() - before.keys()
     assert new <= set(CASES[case][3]) and {name: after[name] for name in before} == before, (new, line)
     assert all(after[name].endswith((b"\n", b"PAR1")) for name in new)
-    assert re.match(r"bevel-differential: (a\.\w+|out[/\w.]*|design/\w+\.\w+|\.)( cannot be written)?: ", line) and cause in line, line
+    assert re.match(r"bevel-differential: (a[.\w]+|out[/\w.]*|design/\w+\.\w+|\.)( cannot be written)?: ", line) and cause in line, line
     assert not [path for path in folder.rglob("*") if path.name.endswith((".part", ".lock"))]
 
 
