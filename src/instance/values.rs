@@ -3,7 +3,7 @@
 use super::instance::is_tolerance;
 use super::{CallError, CallResult, InputArray, Instance, Output, Phase};
 use crate::model::{LedgerReadings, Motion};
-use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
+use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
 /// FMI type of a variable, as FMI's functions name it.
 fn type_name(row: &Variable) -> &'static str {
@@ -58,6 +58,14 @@ fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
 fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
     let choices: Vec<_> = kind.choices.iter().map(|c| format!("{} = {}", c.value, c.name)).collect();
     CallError::error(format!("{}: {value} is not one of {}", row.name, choices.join(", ")))
+}
+
+/// Outcome of a call that sets `count` values, all or none: an error says that none was set.
+pub fn all_or_none(count: usize, outcome: CallResult) -> CallResult {
+    outcome.map_err(|error| match count {
+        0 | 1 => error,
+        _ => CallError { message: format!("{}; none of the {count} values of this call was set", error.message), ..error },
+    })
 }
 
 impl Instance {
@@ -122,12 +130,13 @@ impl Instance {
     /// Sets real variables.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
-            self.check_real(row(reference)?, value)?;
+            self.accepted_real(row(reference)?, value, false)?;
         }
-        let now = &mut self.now;
         let mut tuned = false;
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
+            let value = self.accepted_real(row, value, true)?;
+            let now = &mut self.now;
             now.set.insert(reference as usize);
             match row.access {
                 Access::Real(slot) => {
@@ -188,20 +197,26 @@ impl Instance {
         Ok(())
     }
 
-    /// Inputs are checked against their range at once. Parameters are so only in a running simulation: before, they must
-    /// be finite, and initialisation checks all their ranges together.
-    fn check_real(&self, row: &Variable, value: f64) -> CallResult {
-        let at_once = match row.access {
-            Access::Input(_) => true,
-            Access::Real(_) | Access::Output(_) => {
+    /// Value that a variable takes if it is set to `value`. Ranges of inputs are checked immediately, those of parameters only in a
+    /// running simulation. Before that, parameters must be finite, and initialisation checks all their ranges together. A value that
+    /// `is_checked` already is at most rounding away from its range, however often its variable is set in one call.
+    fn accepted_real(&mut self, row: &Variable, value: f64, is_checked: bool) -> CallResult<f64> {
+        let (last, at_once) = match row.access {
+            Access::Input(slot) => (*slot(&mut self.now.inputs), true),
+            Access::Real(slot) => {
                 self.check_settable(row)?;
-                self.now.phase.is_running() || !value.is_finite()
+                (*slot(&mut self.now.parameters), self.now.phase.is_running() || !value.is_finite())
+            }
+            Access::Output(_) => {
+                self.check_settable(row)?;
+                return Ok(value);
             }
             _ => return Err(wrong_type(row)),
         };
-        match check_value(row, value) {
+        let last = if is_checked && at_once { f64::INFINITY } else { last };
+        match accepted(row, value, last) {
             Err(problem) if at_once => Err(value_error(row, value, problem.to_string())),
-            _ => Ok(()),
+            taken => Ok(taken.unwrap_or(value)),
         }
     }
 

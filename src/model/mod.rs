@@ -37,7 +37,7 @@ pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
-    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StencilReadings,
+    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, Simulation, StencilReadings,
     StepFailure, Update, six_digits,
 };
 pub use scene::attached::ATTACHED;

@@ -63,6 +63,6 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.output("value", values, count) }?;
-        instance.get_output_derivatives(references, orders, values)
+        instance.get_output_derivatives(references.iter().zip(orders.iter()), values.iter())
     })
 }

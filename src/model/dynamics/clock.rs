@@ -31,6 +31,7 @@ impl Clock {
 
     /// Whether no time is missing; the end and what is expected may never come.
     pub fn is_valid(&self) -> bool {
-        self.time.is_finite() && self.now.is_finite() && self.now >= self.time && !(self.end + self.expected).is_nan()
+        let Self { time, now, end, expected } = *self;
+        time.is_finite() && now.is_finite() && now >= time && !(end + expected).is_nan()
     }
 }

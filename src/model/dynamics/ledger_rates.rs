@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::integrate::{Imbalance, Step};
 use crate::model::scene::FRICTION_BODIES;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
+use crate::numeric::finite;
 
 /// Rates of the ledger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,6 +25,8 @@ pub struct LedgerRates {
 /// Part of the kinetic energy that rounding may take from the balance of a step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
+finite!(LedgerRates { input, heat, shaft, drive, limit });
+
 impl LedgerRates {
     /// Halfway between two.
     pub fn mean(&self, other: &Self) -> Self {
@@ -35,12 +38,6 @@ impl LedgerRates {
             drive: mean(self.drive, other.drive),
             limit: std::array::from_fn(|i| mean(self.limit[i], other.limit[i])),
         }
-    }
-
-    /// Whether all rates are finite numbers.
-    pub fn is_finite(&self) -> bool {
-        let rest = [self.input, self.drive, self.shaft[0], self.shaft[1]];
-        self.heat.iter().chain(&rest).all(|x| x.is_finite())
     }
 
     /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored, worked and turned
