@@ -26,7 +26,7 @@ pub struct Control {
     pub after_kink: f64,
 }
 
-finite!(Control { next, last, last_error, after_kink; on_kink });
+finite!(Control { next, last, last_error; on_kink, after_kink });
 
 impl Control {
     /// A controller whose first step is tried with `first` [s].
@@ -34,7 +34,8 @@ impl Control {
         Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX }
     }
 
-    /// True if all numbers are finite and no step size is negative; those of steps to come are positive.
+    /// True if all numbers are finite and no step size is negative; those of steps to come are positive. The size after a kink may be
+    /// without bound.
     pub fn is_valid(&self) -> bool {
         self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }

@@ -1,14 +1,17 @@
 //! Check that all numbers of a value are finite. Structs name all their fields, so that none can be forgotten.
 
+/// Largest magnitude: the product of two such numbers is finite.
+const LARGEST: f64 = 1e150;
+
 /// A value whose numbers can be checked.
 pub trait Finite {
-    /// True if all numbers are finite.
+    /// True if all numbers are finite, and so small that their products are finite too.
     fn is_finite(&self) -> bool;
 }
 
 impl Finite for f64 {
     fn is_finite(&self) -> bool {
-        f64::is_finite(*self)
+        self.abs() <= LARGEST
     }
 }
 
@@ -66,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_number_that_is_not_finite_is_found_wherever_it_is() {
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200, -1e200] {
             for place in 0..6 {
                 let at = |k: usize| if k == place { bad } else { 1.0 };
                 let inner = |k: usize| Inner { number: at(k), count: 1 };

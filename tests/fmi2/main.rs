@@ -11,6 +11,7 @@ mod directional_derivatives;
 mod exchange;
 mod exchange_errors;
 mod exchange_events;
+mod hostile_states;
 mod instances;
 mod logging;
 mod solver;

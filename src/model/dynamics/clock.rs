@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::Finite;
+
 /// Times on the integrator's clock [s].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
@@ -32,6 +34,6 @@ impl Clock {
     /// Whether no time is missing; the end and what is expected may never come.
     pub fn is_valid(&self) -> bool {
         let Self { time, now, end, expected } = *self;
-        time.is_finite() && now.is_finite() && now >= time && !(end + expected).is_nan()
+        [time, now].is_finite() && now >= time && !(end + expected).is_nan()
     }
 }

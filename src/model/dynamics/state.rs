@@ -256,7 +256,7 @@ impl State {
             && (0.0..=1.0).contains(lock)
             && control.is_valid()
             && *held_before >= 0.0
-            && held_since.is_finite()
+            && Finite::is_finite(held_since)
     }
 }
 
