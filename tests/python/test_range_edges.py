@@ -145,8 +145,8 @@ def test_tables_and_controllers_may_exceed_a_range_by_rounding(fmu_file):
     commands = np.linspace(0.0, 1.0, 11) * (1.0 + 4e-16)
     commands[0] = -1e-15
     with Differential(CLUTCHES, fmu=fmu_file) as differential:
-        differential.run(["left.speed"], stop=0.01, step=1e-3, inputs={"lock.command": (times, commands)})
-        differential.run(["left.speed"], stop=0.01, step=1e-3, inputs={"lock.command": (times, commands)}, input_slopes=False)
+        differential.run(outputs=["left.speed"], stop=0.01, step=1e-3, inputs={"lock.command": (times, commands)})
+        differential.run(outputs=["left.speed"], stop=0.01, step=1e-3, inputs={"lock.command": (times, commands)}, input_slopes=False)
 
 
 def test_a_controller_of_a_car_sets_all_or_none_and_may_round(fmu_file):
