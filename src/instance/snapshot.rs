@@ -158,7 +158,9 @@ impl Snapshot {
         if !start_time.is_finite()
             || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
             || state.as_ref().is_some_and(|both| !both.0.is_valid() || !both.1.is_valid())
-            || !(accepted.as_deref().is_none_or(Finite::is_finite) && input_derivatives.is_finite() && discrete.is_finite())
+            || !(accepted.as_deref().is_none_or(Finite::is_finite)
+                && input_derivatives.is_finite()
+                && discrete.is_finite())
         {
             return Err("the state has values that are not finite or out of range".into());
         }

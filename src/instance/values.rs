@@ -64,7 +64,10 @@ fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
 pub fn all_or_none(count: usize, outcome: CallResult) -> CallResult {
     outcome.map_err(|error| match count {
         0 | 1 => error,
-        _ => CallError { message: format!("{}; none of the {count} values of this call was set", error.message), ..error },
+        _ => CallError {
+            message: format!("{}; none of the {count} values of this call was set", error.message),
+            ..error
+        },
     })
 }
 

@@ -47,7 +47,11 @@ fn run(host: &Host, bytes: &[u8], time: f64) -> Result<bool, String> {
     host.clear_log();
     let refused = || {
         let said = host.last_message();
-        if said.is_empty() || said.contains("internal error") { Err(format!("refused with \"{said}\"")) } else { Ok(false) }
+        if said.is_empty() || said.contains("internal error") {
+            Err(format!("refused with \"{said}\""))
+        } else {
+            Ok(false)
+        }
     };
     let (status, state) = host.deserialize(bytes);
     if status != Status::Ok {
@@ -63,7 +67,9 @@ fn run(host: &Host, bytes: &[u8], time: f64) -> Result<bool, String> {
         if host.step(time + f64::from(k) * h, h) != Status::Ok {
             return refused();
         }
-        for name in ["left.speed", "left.normal_force", "temperature.oil", "heat.contact", "damage.planet", "torque_bias_ratio"] {
+        for name in
+            ["left.speed", "left.normal_force", "temperature.oil", "heat.contact", "damage.planet", "torque_bias_ratio"]
+        {
             let (status, value) = host.try_get(name);
             if status != Status::Ok || !value.is_finite() {
                 return Err(format!("{name} = {value}: {}", host.last_message()));

@@ -257,7 +257,9 @@ impl Simulation {
             to.rates[0] = from.rates[0].plus(factor, &direction.rates);
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
-        for (to, (from, change)) in state.thermal.rises.iter_mut().zip(from.thermal.rises.iter().zip(&direction.temperatures)) {
+        for (to, (from, change)) in
+            state.thermal.rises.iter_mut().zip(from.thermal.rises.iter().zip(&direction.temperatures))
+        {
             *to = from + factor * change;
         }
     }

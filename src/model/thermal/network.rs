@@ -103,13 +103,7 @@ impl<const H: usize> Network<H> {
 
     /// Rates of `thermal` while heat arises at the rates `heat` [W], with the carrier at `speed`, without its sign [rad/s]. A given
     /// sump changes by `sump` [K/s].
-    pub fn rates(
-        &self,
-        thermal: &Thermal,
-        heat: &[f64; H],
-        speed: f64,
-        (around, sump): (Around, f64),
-    ) -> Rates {
+    pub fn rates(&self, thermal: &Thermal, heat: &[f64; H], speed: f64, (around, sump): (Around, f64)) -> Rates {
         let (at, power) = (thermal.temperatures(), self.entering(heat));
         let mut given_off = self.to_ambient.at(speed) * (at[CASE] - around.ambient);
         let mut into_oil = power[OIL];
