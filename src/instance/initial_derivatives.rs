@@ -33,6 +33,8 @@ const LEAST_SIZE: f64 = 1e-3;
 const LEAST_ROOM: f64 = 0.1;
 /// Factors of the step, tried in turn until the differences of both orders agree: a long step may pass a kink.
 const REDUCTIONS: [f64; 4] = [1.0, 0.125, 0.015625, 0.001953125];
+/// Factor by which the differences of a shorter step must agree better.
+const BETTER: f64 = 0.5;
 /// Relative difference of the orders below which they agree.
 const AGREEMENT: f64 = 1e-4;
 
@@ -53,7 +55,8 @@ pub fn initial_derivatives(
         }
         let shorter = estimate(*reduction);
         let is_better = match (&shorter, &best) {
-            (Ok(shorter), Ok(best)) => shorter.disagreement < best.disagreement,
+            // of steps that agree no better, the longest has the least noise
+            (Ok(shorter), Ok(best)) => shorter.disagreement < BETTER * best.disagreement,
             (shorter, _) => shorter.is_ok(),
         };
         if is_better {
@@ -130,6 +133,7 @@ fn differences(
 ) -> CallResult<Estimate> {
     let count = unknowns.0.len();
     let (mut second, mut fourth, mut largest) = (vec![0.0; count], vec![0.0; count], vec![0.0f64; count]);
+    let mut first = vec![None; count];
     for &(place, [of_second, of_fourth]) in points {
         let mut moved = now.clone();
         for (reference, change) in known.clone() {
@@ -151,8 +155,10 @@ fn differences(
         })?;
         for (k, (_, source)) in unknowns.0.iter().enumerate() {
             let value = source.read(&mut simulation);
-            second[k] += of_second * value / step;
-            fourth[k] += of_fourth * value / step;
+            // the slope of a constant is exactly 0
+            let change = value - *first[k].get_or_insert(value);
+            second[k] += of_second * change / step;
+            fourth[k] += of_fourth * change / step;
             largest[k] = largest[k].max(value.abs());
         }
     }

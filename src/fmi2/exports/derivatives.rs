@@ -1,6 +1,7 @@
 //! Derivatives of inputs, of outputs, and along directions.
 
 use super::*;
+use crate::instance::values::all_or_none;
 
 /// fmi2GetDirectionalDerivative.
 #[unsafe(no_mangle)]
@@ -44,7 +45,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.input("value", values, count) }?;
-        instance.set_input_derivatives(references, orders, values)
+        all_or_none(count, instance.set_input_derivatives(references, orders, values))
     })
 }
 

@@ -69,3 +69,17 @@ pub fn add_to_ledger<const N: usize>(step: &Step<N, LedgerRates>, work: &mut f64
         heat[i] += simpson(step, |p| p.heat[i]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::Finite;
+
+    #[test]
+    fn rates_whose_limit_torques_are_no_numbers_are_not_finite() {
+        let mut rates = LedgerRates::default();
+        assert!(rates.is_finite());
+        rates.limit[FRICTION_BODIES - 1] = f64::NAN;
+        assert!(!rates.is_finite());
+    }
+}

@@ -290,6 +290,19 @@ mod tests {
     }
 
     #[test]
+    fn a_state_whose_friction_or_mean_torques_contain_no_number_is_not_valid() {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut states = [State::at_rest(0.0, 1e-3); 5];
+            states[0].friction[2].stiffness = bad;
+            states[1].friction[2].stiffness = -1.0;
+            states[2].friction[0].anchor = bad;
+            states[3].torque_means.sum[1] = bad;
+            states[4].torque_means.last = Some(([0.0, bad], 1.0));
+            assert!(states.iter().all(|state| !state.is_valid()), "{bad}");
+        }
+    }
+
+    #[test]
     fn a_state_whose_events_or_pause_contain_no_number_is_not_valid() {
         let mut good = State::at_rest(0.0, 1e-3);
         good.pause = Some(Pause { now: 0.0, time: 0.0, inputs: Inputs::ZERO });

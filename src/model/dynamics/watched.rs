@@ -39,3 +39,20 @@ impl Watched {
         fatigue.is_finite() && mesh_history.is_valid()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damage_that_is_no_number_is_not_valid() {
+        assert!(Watched::default().is_valid());
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut all = [Watched::default(); 3];
+            all[0].fatigue.from = bad;
+            all[1].fatigue.planets[1].flanks[0].root.sum = bad;
+            all[2].fatigue.utilisation.flank.share = bad;
+            assert!(all.iter().all(|watched| !watched.is_valid()), "{bad}");
+        }
+    }
+}
