@@ -237,14 +237,18 @@ fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u
     let mut rows = Vec::with_capacity(references.len());
     for reference in references.iter() {
         let item = known(reference)?;
-        let shown = item.rows(&instance.now.parameters);
-        if shown.is_empty() {
-            let name = name(reference);
-            return Err(CallError::error(format!("{name} has no derivatives")));
-        }
-        rows.extend(shown.iter().map(|&index| index as u32));
+        rows.extend(rows_with_derivatives(instance, reference, &item)?.iter().map(|&index| index as u32));
     }
     Ok(rows)
+}
+
+/// Rows of the table that a variable shows.
+#[cfg(feature = "full")]
+fn rows_with_derivatives<'a>(instance: &Instance, reference: u32, item: &'a Item) -> CallResult<&'a [usize]> {
+    match item.rows(&instance.now.parameters) {
+        [] => Err(CallError::error(format!("{} has no derivatives", name(reference)))),
+        shown => Ok(shown),
+    }
 }
 
 /// Rows of unknowns and knowns, in whose numbers there must be `[of unknowns, of knowns]` values.
@@ -258,6 +262,33 @@ fn rows_of_both(
     check_count(rows[1].len(), values[1])?;
     check_count(rows[0].len(), values[0])?;
     Ok(rows)
+}
+
+/// fmi3GetOutputDerivatives: of arrays element by element. The time of the last event jumps, so that its derivative is 0.
+#[cfg(feature = "full")]
+pub fn output_derivatives(
+    instance: &mut Instance,
+    references: InputArray<u32>,
+    orders: InputArray<i32>,
+    values: OutputArray<f64>,
+) -> CallResult {
+    let (mut wanted, mut room) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
+    let mut places = values.iter();
+    let mut needed = 0;
+    for (reference, order) in references.iter().zip(orders.iter()) {
+        let item = known(reference)?;
+        if matches!(item, Item::EventTime) {
+            needed += 1;
+            places.next().into_iter().for_each(|value| value.write(0.0));
+            continue;
+        }
+        let rows = rows_with_derivatives(instance, reference, &item)?;
+        needed += rows.len();
+        wanted.extend(rows.iter().map(|&index| (index as u32, order)));
+        room.extend(places.by_ref().take(rows.len()));
+    }
+    check_count(needed, values.len())?;
+    instance.get_output_derivatives(wanted.into_iter(), room.into_iter())
 }
 
 /// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.

@@ -2,12 +2,29 @@
 
 use super::sensitivity::{Slopes, check_built, finite_slope, output_source};
 use super::values::row;
-use super::{CallError, CallResult, InputArray, Instance, Kind, OutputArray, Phase};
-use crate::model::{InputDerivatives, ORDERS};
-use crate::variables::{Access, OutputSource, Variable, check_value, table};
+use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
+use crate::model::{InputDerivatives, LedgerReadings, ORDERS};
+use crate::variables::{Access, OutputSource, Variable, accepted, table};
 
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
+
+impl Snapshot {
+    /// Takes over the inputs that their derivatives have reached in a step. An input that has passed a limit by rounding gets the
+    /// limit.
+    pub fn take_reached_inputs(&mut self) {
+        let Some(simulation) = &mut self.simulation else { return };
+        (self.inputs, self.input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
+        for &index in &table().inputs {
+            let row = &table().rows[index];
+            if let Access::Input(slot) = row.access {
+                let reached = slot(&mut self.inputs);
+                *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
+            }
+        }
+        simulation.set_inputs(&self.inputs);
+    }
+}
 
 /// Bit of an input in `Snapshot::derivatives_set`.
 fn input_bit(reference: u32) -> u32 {
@@ -87,7 +104,8 @@ impl Instance {
             let peak = -*slot(&mut first) / *slot(&mut second);
             for time in [h, peak].into_iter().filter(|&time| time > 0.0 && time <= h) {
                 let (mut inputs, _) = input_derivatives.after(time, &self.now.inputs);
-                check_value(row, *slot(&mut inputs)).map_err(|problem| {
+                let (reached, last) = (*slot(&mut inputs), *slot(&mut { self.now.inputs }));
+                accepted(row, reached, last).map_err(|problem| {
                     CallError::error(format!(
                         "with its derivatives, an input leaves its range within the step: {problem}"
                     ))
@@ -98,14 +116,14 @@ impl Instance {
     }
 
     /// Derivatives of outputs by time.
-    pub fn get_output_derivatives(
+    pub fn get_output_derivatives<'a>(
         &mut self,
-        references: InputArray<u32>,
-        orders: InputArray<i32>,
-        values: OutputArray<f64>,
+        wanted: impl Iterator<Item = (u32, i32)> + Clone,
+        values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
         check_built()?;
-        for (reference, order) in references.iter().zip(orders.iter()) {
+        let (mut is_any, mut reads_temperatures) = (false, false);
+        for (reference, order) in wanted.clone() {
             let row = row(reference)?;
             if order != OUTPUT_ORDER {
                 return Err(CallError::error(format!(
@@ -113,21 +131,30 @@ impl Instance {
                     row.name
                 )));
             }
-            output_source(row)?;
+            is_any = true;
+            reads_temperatures |= matches!(output_source(row)?, OutputSource::Reading(_));
         }
-        if references.is_empty() {
+        if !is_any {
             return Ok(());
         }
         let simulation = self.simulation()?;
-        let present = simulation.with_inputs_applied();
+        let present = simulation.shown();
         let simulation = present.as_ref().unwrap_or(simulation);
-        let direction = simulation.time_direction();
+        let mut direction = simulation.time_direction();
+        if reads_temperatures {
+            direction.temperatures = simulation.temperature_rates();
+        }
         let mut slopes = Slopes::new(simulation, &direction);
-        for (reference, value) in references.iter().zip(values.iter()) {
+        let mut ledger: Option<LedgerReadings> = None;
+        for ((reference, _), value) in wanted.zip(values) {
             let row = row(reference)?;
             let source = output_source(row)?;
             let slope = match source {
-                OutputSource::Ledger(of) => of(&simulation.ledger_rates()),
+                OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger_rates())),
+                OutputSource::LedgerReading(place) => {
+                    ledger.get_or_insert_with(|| simulation.ledger_rates()).readings[place]
+                }
+                OutputSource::Heat(place) => ledger.get_or_insert_with(|| simulation.ledger_rates()).heat[place],
                 _ => slopes.of(source),
             };
             value.write(finite_slope(row, slope)?);

@@ -247,10 +247,10 @@ impl Instance {
             simulation.set_input_derivatives(now.input_derivatives);
         }
         let outcome = simulation.advance(until);
-        if now.input_derivatives.is_some() {
-            (now.inputs, now.input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
-        }
         now.derivatives_set = 0;
+        if now.input_derivatives.is_some() {
+            now.take_reached_inputs();
+        }
         if let Err(failure) = outcome {
             return Err(self.step_failed(&failure));
         }

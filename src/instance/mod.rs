@@ -18,6 +18,7 @@ mod derivatives;
 mod exchange;
 mod exports;
 mod host_memory;
+mod initial_derivatives;
 #[allow(clippy::module_inception)]
 mod instance;
 mod log;

@@ -2,17 +2,11 @@
 
 use crate::FULL;
 
+use super::initial_derivatives::initial_derivatives;
 use super::values::{finite, row, wrong_type};
 use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
-use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, STENCIL, Simulation, StencilReadings};
-use crate::variables::{Access, OutputSource, Variable, check_value, table};
-
-/// One-sided differences of order 4: positions and weights.
-const FORWARD: [(f64, f64); 5] = [(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)];
-const BACKWARD: [(f64, f64); 5] = [(0.0, 25.0 / 12.0), (-1.0, -4.0), (-2.0, 3.0), (-3.0, -4.0 / 3.0), (-4.0, 0.25)];
-/// Step of the differences of initial values, relative to the changed value: the initial equilibrium is found to about
-/// 1e-9.
-const RELATIVE_STEP: f64 = 3e-3;
+use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, Simulation, StencilReadings};
+use crate::variables::{Access, OutputSource, Variable, table};
 
 impl Instance {
     /// Derivatives of unknowns along a direction of knowns.
@@ -70,7 +64,7 @@ impl Instance {
             return act(&Columns::Initial(&self.now, &self.cache));
         }
         let simulation = self.simulation()?;
-        let present = simulation.with_inputs_applied();
+        let present = simulation.shown();
         act(&Columns::Running(present.as_ref().unwrap_or(simulation)))
     }
 }
@@ -119,6 +113,8 @@ impl Columns<'_> {
             changes |= change != 0.0;
         }
         if changes {
+            let braked = simulation.with_brakes_put_on(&inputs);
+            let simulation = braked.as_ref().unwrap_or(simulation);
             let direction = simulation.direction(&states, &inputs);
             let mut along = Slopes::new(simulation, &direction);
             for (&(row, source), slope) in unknowns.0.iter().zip(slopes) {
@@ -130,7 +126,7 @@ impl Columns<'_> {
 }
 
 /// Variables whose derivatives are asked for.
-struct Unknowns(Vec<(&'static Variable, OutputSource)>);
+pub struct Unknowns(pub Vec<(&'static Variable, OutputSource)>);
 
 impl Unknowns {
     fn of(references: impl Iterator<Item = u32>) -> CallResult<Self> {
@@ -200,64 +196,4 @@ impl<'a> Slopes<'a> {
             })[k],
         }
     }
-}
-
-/// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
-/// equilibrium.
-fn initial_derivatives(
-    (now, cache): (&Snapshot, &GearCache),
-    unknowns: &Unknowns,
-    known: impl Iterator<Item = (u32, f64)> + Clone,
-    slopes: &mut [f64],
-) -> CallResult {
-    let mut size = 0.0f64;
-    for (reference, change) in known.clone() {
-        let row = row(reference)?;
-        let mut origin = now.clone();
-        let value = match row.access {
-            Access::Input(slot) => *slot(&mut origin.inputs),
-            Access::Real(slot) => *slot(&mut origin.parameters),
-            _ => {
-                return Err(CallError::error(format!(
-                    "{} is neither an input nor a real parameter, so there is no derivative with respect to it",
-                    row.name
-                )));
-            }
-        };
-        size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
-    }
-    let step = if size > 0.0 { RELATIVE_STEP / size } else { 1.0 };
-    let moved = |offset: f64| {
-        let mut moved = now.clone();
-        for (reference, change) in known.clone() {
-            let row = row(reference)?;
-            let value = match row.access {
-                Access::Input(slot) => slot(&mut moved.inputs),
-                Access::Real(slot) => slot(&mut moved.parameters),
-                _ => continue,
-            };
-            *value += offset * step * change;
-            check_value(row, *value).map_err(|problem| CallError::error(problem.to_string()))?;
-        }
-        Ok(moved)
-    };
-    // one-sided where the other side leaves the range
-    let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
-    let sides: [&[(f64, f64)]; 3] = [&STENCIL, &FORWARD, &BACKWARD];
-    let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
-    for &(offset, weight) in offsets {
-        let mut simulation = moved(offset)?.start(cache).map_err(|problems| {
-            CallError::error(format!(
-                "there is no derivative, because initialisation fails close to these values:\n{}",
-                crate::problem::list(&problems)
-            ))
-        })?;
-        for (slope, (_, source)) in slopes.iter_mut().zip(&unknowns.0) {
-            *slope += weight * source.read(&mut simulation);
-        }
-    }
-    for (slope, (row, _)) in slopes.iter_mut().zip(&unknowns.0) {
-        *slope = finite_slope(row, *slope / step)?;
-    }
-    Ok(())
 }

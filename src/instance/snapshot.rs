@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::instance::tolerance_row;
 use super::{CallError, CallResult, Discrete, Experiment, Interface, Kind, Phase};
 use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
+use crate::numeric::Finite;
 use crate::problem::{self, Problem};
 use crate::variables::unset::SetValues;
 use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, table};
@@ -169,37 +170,51 @@ impl Snapshot {
 
     /// Checks that the values are valid; the checksum cannot show that.
     fn check(&self, (state, accepted): &Running) -> Result<(), String> {
+        let Self {
+            version,
+            kind,
+            phase,
+            parameters,
+            inputs,
+            input_derivatives,
+            derivatives_set: _,
+            start_time,
+            stop_time,
+            discrete,
+            tolerance_chosen: _,
+            set: _,
+            simulation: _,
+        } = self;
         let needs_state =
-            !matches!(self.phase, Phase::Instantiated | Phase::Configuration | Phase::Initialization | Phase::Error);
+            !matches!(phase, Phase::Instantiated | Phase::Configuration | Phase::Initialization | Phase::Error);
         if needs_state && state.is_none() {
-            return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
+            return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", phase.name()));
         }
-        if !self.start_time.is_finite()
+        if !start_time.is_finite()
+            || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
             || state.as_ref().is_some_and(|both| !both.0.is_valid() || !both.1.is_valid())
-            || accepted.as_ref().is_some_and(|a| !a.is_valid())
-            || self.input_derivatives.is_some_and(|c| !c.is_finite())
-            || self.discrete.is_some_and(|d| !d.is_finite())
+            || !(accepted.as_deref().is_none_or(Finite::is_finite)
+                && input_derivatives.is_finite()
+                && discrete.is_finite())
         {
-            return Err("the state has values that are not finite".into());
+            return Err("the state has values that are not finite or out of range".into());
         }
-        if accepted.is_some() && self.kind != Kind::ModelExchange {
+        if accepted.is_some() && *kind != Kind::ModelExchange {
             return Err("a step completed by the host's solver does not belong to an instance for co-simulation".into());
         }
-        let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed | Phase::IntermediateUpdate);
-        let events_of_steps = self.phase == Phase::Event && self.kind == Kind::CoSimulation && self.version > 2;
-        let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime) && !events_of_steps;
-        if exchanges && (self.kind != Kind::ModelExchange || accepted.is_none())
-            || steps && self.kind != Kind::CoSimulation
-        {
-            return Err(format!("the state \"{}\" does not belong to this kind of instance", self.phase.name()));
+        let steps = matches!(phase, Phase::StepComplete | Phase::StepFailed | Phase::IntermediateUpdate);
+        let events_of_steps = *phase == Phase::Event && *kind == Kind::CoSimulation && *version > 2;
+        let exchanges = matches!(phase, Phase::Event | Phase::ContinuousTime) && !events_of_steps;
+        if exchanges && (*kind != Kind::ModelExchange || accepted.is_none()) || steps && *kind != Kind::CoSimulation {
+            return Err(format!("the state \"{}\" does not belong to this kind of instance", phase.name()));
         }
-        let mut inputs = self.inputs;
+        let mut inputs = *inputs;
         for row in &table().rows {
             if let Access::Input(slot) = row.access {
                 check_value(row, *slot(&mut inputs)).map_err(|p| p.to_string())?;
             }
         }
-        let problems = if state.is_some() { check_ranges(&self.parameters) } else { Vec::new() };
+        let problems = if state.is_some() { check_ranges(parameters) } else { Vec::new() };
         if problems.is_empty() { Ok(()) } else { Err(problem::list(&problems)) }
     }
 }

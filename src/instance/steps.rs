@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{CallError, CallResult, Instance, Kind, Phase};
 use crate::model::{Event, StepFailure, Update, Way, six_digits};
+use crate::numeric::finite;
 
 /// What the host of a co-simulation allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,12 +26,7 @@ pub struct Discrete {
     pub held: [f64; 3],
 }
 
-impl Discrete {
-    /// True if all numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.event.time.is_finite() && self.held.iter().all(|held| held.is_finite())
-    }
-}
+finite!(Discrete { event, held });
 
 /// Result of an event iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]

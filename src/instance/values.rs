@@ -4,7 +4,7 @@ use super::exchange::check_state;
 use super::instance::is_tolerance;
 use super::{CallError, CallResult, InputArray, Instance, Output, Phase};
 use crate::model::{LedgerReadings, Motion, STATES};
-use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
+use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
 /// FMI type of a variable, as FMI's functions name it.
 fn type_name(row: &Variable) -> &'static str {
@@ -75,6 +75,17 @@ fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
     CallError::error(format!("{}: {value} is not one of {}", row.name, choices.join(", ")))
 }
 
+/// Outcome of a call that sets `count` values, all or none: an error says that none was set.
+pub fn all_or_none(count: usize, outcome: CallResult) -> CallResult {
+    outcome.map_err(|error| match count {
+        0 | 1 => error,
+        _ => CallError {
+            message: format!("{}; none of the {count} values of this call was set", error.message),
+            ..error
+        },
+    })
+}
+
 impl Instance {
     /// Reads real variables. Computes only what the requested variables need, and what they share only once.
     pub fn get_real<'a>(
@@ -137,13 +148,14 @@ impl Instance {
     /// Sets real variables, and continuous states where the host integrates them.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
         for (reference, value) in references.iter().zip(values.iter()) {
-            self.check_real(reference, value)?;
+            self.accepted_real(reference, value, false)?;
         }
         let states = self.with_states_set(references, values)?;
-        let now = &mut self.now;
         let mut tuned = false;
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
+            let value = self.accepted_real(reference, value, true)?;
+            let now = &mut self.now;
             match row.access {
                 Access::Real(slot) => {
                     *slot(&mut now.parameters) = value;
@@ -226,23 +238,28 @@ impl Instance {
         Ok(())
     }
 
-    /// Inputs are checked against their range at once. Parameters are so only in a running simulation: before, they must
-    /// be finite, and initialisation checks all their ranges together.
-    fn check_real(&self, reference: u32, value: f64) -> CallResult {
+    /// Value that a variable takes if it is set to `value`. Ranges of inputs are checked immediately, those of parameters only in a
+    /// running simulation. Before that, parameters must be finite, and initialisation checks all their ranges together. A value that
+    /// `is_checked` already is at most rounding away from its range, however often its variable is set in one call.
+    fn accepted_real(&mut self, reference: u32, value: f64, is_checked: bool) -> CallResult<f64> {
         let row = row(reference)?;
-        let at_once = match row.access {
-            Access::Input(_) => true,
-            Access::Real(_) => {
+        let (last, at_once) = match row.access {
+            Access::Input(slot) => (*slot(&mut self.now.inputs), true),
+            Access::Real(slot) => {
                 self.check_settable(row)?;
-                self.now.phase.is_running() || !value.is_finite()
+                (*slot(&mut self.now.parameters), self.now.phase.is_running() || !value.is_finite())
             }
-            Access::Output(_) if self.may_set_state(reference) => return check_state(row, value),
+            Access::Output(_) if self.may_set_state(reference) => {
+                check_state(row, value)?;
+                return Ok(value);
+            }
             Access::Output(_) => return Err(output_error(reference, row)),
             _ => return Err(wrong_type(row)),
         };
-        match check_value(row, value) {
+        let last = if is_checked && at_once { f64::INFINITY } else { last };
+        match accepted(row, value, last) {
             Err(problem) if at_once => Err(value_error(row, value, problem.to_string())),
-            _ => Ok(()),
+            taken => Ok(taken.unwrap_or(value)),
         }
     }
 

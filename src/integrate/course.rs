@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Point;
+use crate::numeric::{Finite, finite};
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
 /// ends and coefficients b. A component that does not change in the step keeps its bits.
@@ -80,6 +81,15 @@ pub struct Attempt {
     pub whole: f64,
     /// Number of consecutive steps up to this one that were cut at a switch but ended before it.
     pub short: u32,
+}
+
+finite!(Attempt { h, error, whole; cut, to_kink, after_rejection, unbalanced, short });
+
+impl Attempt {
+    /// True if all numbers are finite and the step size is positive.
+    pub fn is_valid(&self) -> bool {
+        self.is_finite() && self.h > 0.0
+    }
 }
 
 /// A step of small enough error that is not completed yet.

@@ -9,6 +9,7 @@ use super::{
     Attempt, Course, ErrorNorm, Extension, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder,
     Statistics, Trial,
 };
+use crate::numeric::{Finite, finite};
 
 /// State of the step-size controller between calls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,10 +26,18 @@ pub struct Control {
     pub after_kink: f64,
 }
 
+finite!(Control { next, last, last_error; on_kink, after_kink });
+
 impl Control {
     /// A controller whose first step is tried with `first` [s].
     pub fn new(first: f64) -> Self {
         Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX }
+    }
+
+    /// True if all numbers are finite and no step size is negative; those of steps to come are positive. The size after a kink may be
+    /// without bound.
+    pub fn is_valid(&self) -> bool {
+        self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 }
 

@@ -37,8 +37,8 @@ pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
-    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StencilReadings,
-    StepFailure, Update, six_digits,
+    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, Simulation, StencilReadings, StepFailure, Update,
+    six_digits,
 };
 pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;

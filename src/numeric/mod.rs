@@ -2,6 +2,7 @@
 //! search for roots and minima.
 
 mod elementary;
+mod finite;
 mod jet;
 pub mod lanes;
 mod minimum;
@@ -9,6 +10,8 @@ mod root;
 mod scalar;
 
 pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sin_cos, sqrt, tan};
+pub use finite::Finite;
+pub(crate) use finite::finite;
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
 pub use root::rising_root;

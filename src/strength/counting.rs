@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::TAU;
+use crate::numeric::{TAU, finite};
 
 /// Rolling of a gear with a dead band of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
 ///
@@ -16,6 +16,8 @@ pub struct Rolling {
     /// Place of the gear in its window [rad], −½ to ½ pitch.
     pub place: f64,
 }
+
+finite!(Rolling { place });
 
 impl Rolling {
     /// Turns the gear relative to the carrier by `step` [rad], of either sign, with teeth `pitch` [rad] apart; returns

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Damage, Rolling};
+use crate::numeric::finite;
 
 /// Damage by load on one flank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -31,6 +32,11 @@ pub struct ToothDamage {
     pub rolling: Rolling,
     /// Both flanks.
     pub flanks: [FlankDamage; 2],
+}
+
+finite! {
+    FlankDamage { root, pitting }
+    ToothDamage { rolling, flanks }
 }
 
 impl ToothDamage {

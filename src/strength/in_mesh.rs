@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::interval::{Three, at, extremum};
 use super::passage::RootSums;
 use super::{MeshPlace, Passage, Rating, ToothSums, loaded_flank};
+use crate::numeric::finite;
 
 /// Teeth of planets and side gears: `Copy`, no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -22,6 +23,8 @@ pub struct TeethInMesh {
     /// Teeth of the side gears, after their passages.
     sides: [ToothSums; 2],
 }
+
+finite!(TeethInMesh { place, passages, planets, sides });
 
 impl TeethInMesh {
     /// Lets the planets roll by `angle` [rad] without counting.

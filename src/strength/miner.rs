@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::SnCurve;
+use crate::numeric::finite;
 
 /// Damage of one flank or one root, grown cycle by cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -12,6 +13,8 @@ pub struct Damage {
     /// Cycles counted, loaded ones only.
     pub cycles: f64,
 }
+
+finite!(Damage { sum, cycles });
 
 impl Damage {
     /// Counts `cycles` (parts of a cycle too) at `stress` [Pa]; nothing without stress or cycles.

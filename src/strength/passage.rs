@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::mean_stress::pulsating_range;
 use super::{Damage, LoadCycle, Rainflow, Rating};
+use crate::numeric::finite;
 
 /// Reversals of stress up to this part of the strength are not counted.
 const GATE: f64 = 0.01;
@@ -29,6 +30,8 @@ pub struct Passage {
     /// Damage of closed cycles.
     roots: [[Damage; 2]; 2],
 }
+
+finite!(Passage { history, roots });
 
 impl Passage {
     /// A tooth that comes into mesh as the gears roll on.

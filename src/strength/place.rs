@@ -6,6 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::finite;
+
 /// Way back from a change of teeth that brings the tooth before into mesh again, as a part of the pitch.
 const SLACK: f64 = 0.25;
 
@@ -31,6 +33,8 @@ pub struct Change {
     /// roll a pitch until passages count.
     pub rolls_on: bool,
 }
+
+finite!(MeshPlace { place, entry; tooth });
 
 impl MeshPlace {
     /// Moves on by `step` pitches, of either sign.

@@ -7,6 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::finite;
+
 /// Capacity for turning points, one of it for the newest; 32 is the longest array for which serde has an implementation.
 pub const CAPACITY: usize = 32;
 
@@ -44,6 +46,8 @@ pub struct Rainflow {
     /// True if the history ends where it begins, so that every cycle closes.
     returns: bool,
 }
+
+finite!(Rainflow { points, candidate, gate; length, direction, returns });
 
 impl Rainflow {
     /// Empty history in which reversals up to `gate` (unit of the history) are ignored; 0 counts all.

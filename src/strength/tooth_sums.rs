@@ -6,6 +6,8 @@
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::numeric::Finite;
+
 /// Most sums of a gear.
 pub const MOST_SUMS: usize = 64;
 
@@ -16,6 +18,13 @@ pub struct ToothSums([[f64; 2]; MOST_SUMS]);
 impl Default for ToothSums {
     fn default() -> Self {
         Self([[0.0; 2]; MOST_SUMS])
+    }
+}
+
+impl Finite for ToothSums {
+    fn is_finite(&self) -> bool {
+        let Self(sums) = self;
+        sums.is_finite()
     }
 }
 

@@ -16,7 +16,7 @@ pub mod unset;
 pub use crate::declaration::{Causality, Choice, EnumType, Range, Variability, units};
 pub use access::{Access, OutputSource, Variable};
 pub use named::{assign, index_of, named, number, number_of, value_of};
-pub use table::{Table, check_ranges, check_value, fnv1a, guid, real_start, table, tuned};
+pub use table::{Table, accepted, check_ranges, check_value, fnv1a, guid, real_start, table, tuned};
 
 /// FMI model identifier and model name.
 pub const MODEL_NAME: &str = "BevelDifferential";

@@ -1,6 +1,6 @@
 //! Variables by their names, and values put where they belong.
 
-use super::table::{check_value, table};
+use super::table::{accepted, check_value, table};
 use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
@@ -17,6 +17,7 @@ pub fn named(name: &str) -> Option<&'static Variable> {
 
 /// Sets a parameter or an input: to a number in the unit of the interface, true and false as 1 and 0, and a choice by its number.
 pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &mut Inputs) -> Result<(), Problem> {
+    let mut value = value;
     let wrong = |what: &str| Err(problem!(row.name, "{value} {what}"));
     let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
     match row.access {
@@ -27,7 +28,9 @@ pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &
             return wrong(&format!("is none of the choices {}", choices(row)));
         }
         Access::Enumeration(..) | Access::Boolean(_) => {}
-        Access::Real(_) | Access::Input(_) | Access::Integer(_) => check_value(row, value)?,
+        Access::Integer(_) => check_value(row, value)?,
+        Access::Real(slot) => value = accepted(row, value, *slot(parameters))?,
+        Access::Input(slot) => value = accepted(row, value, *slot(inputs))?,
     }
     match row.access {
         Access::Real(slot) => *slot(parameters) = value,

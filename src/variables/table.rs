@@ -82,6 +82,20 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     Err(Problem::new(row.name, text.replace("  ", " ").replace(" ;", ";").trim_end()))
 }
 
+/// Part of the larger of 1 SI unit and the last value by which a controller's rounding may exceed a range.
+const ROUNDING: f64 = 1e-9;
+
+/// Returns the value that a variable takes if it is set to `value` after it was `last`: the limit of its range if an input or a
+/// tunable parameter exceeds the range only by rounding. Fails for all other values that are out of range or not finite.
+pub fn accepted(row: &Variable, value: f64, last: f64) -> Result<f64, Problem> {
+    let rounded = match row.range {
+        Some(Range { min, max }) if row.variability != Variability::Fixed => value.clamp(min, max),
+        _ => value,
+    };
+    let value = if (value - rounded).abs() <= ROUNDING * last.abs().max(1.0) { rounded } else { value };
+    check_value(row, value).map(|()| value)
+}
+
 /// Every parameter that is not finite or out of range.
 pub fn check_ranges(parameters: &Parameters) -> Vec<Problem> {
     let mut p = *parameters;

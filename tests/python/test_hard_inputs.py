@@ -77,7 +77,7 @@ def test_a_value_out_of_its_range_is_refused_by_name_value_unit_and_range(fmu, c
     with fmu.open() as opened:
         for variable in of(fmu, causality, "Real"):
             low, high = variable.minimum, variable.maximum
-            outside = [low - max(abs(low), 1e-9 * high), 2.0 * high] if low is not None else []
+            outside = [low - max(abs(low), 2e-9 * max(1.0, high)), 2.0 * high] if low is not None else []
             for value in [*outside, NONE, *ENDLESS]:
                 assert_message(refusal(opened, variable.name, value), variable, value)
                 assert_usable_after_reset(opened)

@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from . import machine
-from .batches import Batches
+from .batches import CALLS, Batches
 from .values import DifferentialError, Number, Value, Variable
 
 # what the log is to have
@@ -132,8 +132,25 @@ class Instance(Closing):
         self.check(failure.status, doing)
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
-        """Sets parameters and inputs, given as to `Differential.set`."""
-        self._write(self.fmu.numbers(values, **keywords))
+        """Sets parameters and inputs, given as to `Differential.set`: all of them, or none if the FMU refuses one."""
+        pairs = self.fmu.numbers(values, **keywords)
+        # each kind has a call of its own
+        kinds = [[pair for pair in pairs if CALLS[pair[0].kind] == call] for call in self._set]
+        kinds = [kind for kind in kinds if kind]
+        before: list[list[tuple[Variable, Number]]] = []
+        for kind in kinds:
+            variables = tuple(variable for variable, _ in kind)
+            try:
+                present = Batches.of(variables).get(self) if len(kinds) > 1 else []
+                self._write(kind)
+            except DifferentialError as refused:
+                for earlier in before:
+                    self._write(earlier)
+                if len(kinds) == 1:
+                    raise
+                why = str(refused).partition("; none of the ")[0]
+                raise DifferentialError(f"{why}; none of the {len(pairs)} values was set", refused.status) from refused
+            before.append(list(zip(variables, present)))
         return self
 
     def _write(self, pairs):

@@ -1,6 +1,7 @@
 //! Derivatives of inputs, of outputs, and along directions.
 
 use super::*;
+use crate::instance::values::all_or_none;
 
 /// fmi2GetDirectionalDerivative.
 #[unsafe(no_mangle)]
@@ -44,7 +45,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.input("value", values, count) }?;
-        instance.set_input_derivatives(references, orders, values)
+        all_or_none(count, instance.set_input_derivatives(references, orders, values))
     })
 }
 
@@ -63,6 +64,6 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.output("value", values, count) }?;
-        instance.get_output_derivatives(references, orders, values)
+        instance.get_output_derivatives(references.iter().zip(orders.iter()), values.iter())
     })
 }

@@ -1,7 +1,7 @@
 //! Getting and setting variables.
 
 use super::*;
-use crate::instance::values::string_error;
+use crate::instance::values::{all_or_none, string_error};
 
 macro_rules! accesses {
     ($($function:ident $call:ident *$way:tt $type:ty, $pass:ident, |$instance:ident, $references:ident, $values:ident| $body:expr;)+) => {$(
@@ -37,12 +37,14 @@ accesses! {
         }
         Ok(())
     };
-    fmi2SetReal SetReal *const f64, input, |instance, vr, values| instance.set_real(vr, values);
+    fmi2SetReal SetReal *const f64, input, |instance, vr, values| {
+        all_or_none(vr.len(), instance.set_real(vr, values))
+    };
     fmi2SetInteger SetInteger *const c_int, input, |instance, vr, values| {
-        instance.set_integer(vr.iter().zip(values.iter()))
+        all_or_none(vr.len(), instance.set_integer(vr.iter().zip(values.iter())))
     };
     fmi2SetBoolean SetBoolean *const Boolean, input, |instance, vr, values| {
-        instance.set_boolean(vr.iter().zip(values.iter().map(|value| value != 0)))
+        all_or_none(vr.len(), instance.set_boolean(vr.iter().zip(values.iter().map(|value| value != 0))))
     };
 }
 

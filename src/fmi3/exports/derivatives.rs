@@ -16,10 +16,9 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
         // SAFETY: the host's promise, see the module
         let (references, orders) =
             unsafe { (host.input("valueReferences", references, count)?, host.input("orders", orders, count)?) };
-        values::check_count(count, value_count)?;
         // SAFETY: as above
         let values = unsafe { host.output("values", values, value_count) }?;
-        instance.get_output_derivatives(references, orders, values)
+        values::output_derivatives(instance, references, orders, values)
     })
 }
 

@@ -1,6 +1,17 @@
 //! Getting and setting variables of the types that the FMU has.
 
 use super::*;
+use crate::instance::values::all_or_none;
+
+/// Outcome of a call that gets values, or sets all or none.
+macro_rules! outcome {
+    (output, $count:expr, $outcome:expr) => {
+        $outcome
+    };
+    (input, $count:expr, $outcome:expr) => {
+        all_or_none($count, $outcome)
+    };
+}
 
 macro_rules! accesses {
     ($($function:ident $call:ident $method:ident *$way:tt $type:ty, $pass:ident;)+) => {$(
@@ -21,7 +32,7 @@ macro_rules! accesses {
                         host.$pass("values", values, value_count)?,
                     )
                 };
-                values::$method(instance, references, values)
+                outcome!($pass, count, values::$method(instance, references, values))
             })
         }
     )+};

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::State;
 use crate::model::scene::{Inputs, MAX_DOF};
+use crate::numeric::finite;
 
 /// End of the last step that the host's solver completed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,15 +21,11 @@ pub struct Accepted {
     pub followed: Inputs,
 }
 
+finite!(Accepted { time, q, v, inputs, followed });
+
 impl Accepted {
     /// `state` moved to the end of that step.
     pub fn applied_to(&self, state: &State) -> State {
         state.elsewhere(self.time, self.q, self.v)
-    }
-
-    /// Whether all numbers are finite.
-    pub fn is_valid(&self) -> bool {
-        let motion = self.q.iter().chain(&self.v).chain([&self.time]);
-        motion.copied().all(f64::is_finite) && self.inputs.is_finite() && self.followed.is_finite()
     }
 }

@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::Finite;
+
 /// Times on the integrator's clock [s].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
@@ -31,6 +33,7 @@ impl Clock {
 
     /// Whether no time is missing; the end and what is expected may never come.
     pub fn is_valid(&self) -> bool {
-        self.time.is_finite() && self.now.is_finite() && self.now >= self.time && !(self.end + self.expected).is_nan()
+        let Self { time, now, end, expected } = *self;
+        [time, now].is_finite() && now >= time && !(end + expected).is_nan()
     }
 }

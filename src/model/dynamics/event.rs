@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs};
+use crate::numeric::finite;
 
 /// What happens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -58,11 +59,10 @@ pub struct Pause {
     pub inputs: Inputs,
 }
 
-impl Pause {
-    /// Whether all numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.now.is_finite() && self.time.is_finite() && self.inputs.is_finite()
-    }
+finite! {
+    Event { time; what, place, count }
+    Events { recent }
+    Pause { now, time, inputs }
 }
 
 /// How far the motion goes in one call.
@@ -104,11 +104,6 @@ impl Events {
         let new = self.count().wrapping_sub(count);
         let is_new = |event: &&Event| self.count().wrapping_sub(event.count) < new;
         self.recent.iter().rev().find(is_new)
-    }
-
-    /// True if all times are finite.
-    pub fn is_finite(&self) -> bool {
-        self.recent.iter().all(|event| event.time.is_finite())
     }
 
     /// Records what happens at `time` [s].

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::integrate::{Imbalance, Step};
 use crate::model::scene::FRICTION_BODIES;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
+use crate::numeric::finite;
 
 /// Rates of the ledger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,6 +25,8 @@ pub struct LedgerRates {
 /// Part of the kinetic energy that rounding may take from the balance of a step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
+finite!(LedgerRates { input, heat, shaft, drive, limit });
+
 impl LedgerRates {
     /// Halfway between two.
     pub fn mean(&self, other: &Self) -> Self {
@@ -35,12 +38,6 @@ impl LedgerRates {
             drive: mean(self.drive, other.drive),
             limit: std::array::from_fn(|i| mean(self.limit[i], other.limit[i])),
         }
-    }
-
-    /// Whether all rates are finite numbers.
-    pub fn is_finite(&self) -> bool {
-        let rest = [self.input, self.drive, self.shaft[0], self.shaft[1]];
-        self.heat.iter().chain(&rest).all(|x| x.is_finite())
     }
 
     /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored, worked and turned
@@ -70,5 +67,19 @@ pub fn add_to_ledger<const N: usize>(step: &Step<N, LedgerRates>, work: &mut f64
     *work += simpson(step, |p| p.input);
     for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {
         heat[i] += simpson(step, |p| p.heat[i]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::Finite;
+
+    #[test]
+    fn rates_whose_limit_torques_are_no_numbers_are_not_finite() {
+        let mut rates = LedgerRates::default();
+        assert!(rates.is_finite());
+        rates.limit[FRICTION_BODIES - 1] = f64::NAN;
+        assert!(!rates.is_finite());
     }
 }

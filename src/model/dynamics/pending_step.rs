@@ -6,6 +6,7 @@ use super::Clock;
 use super::ledger_rates::LedgerRates;
 use crate::integrate::{Attempt, Course, Extension, Pending, Point, extended};
 use crate::model::scene::{Inputs, MAX_DOF};
+use crate::numeric::Finite;
 
 /// Positions and velocities of all degrees of freedom.
 type Motion = [[f64; MAX_DOF]; 2];
@@ -84,15 +85,15 @@ impl PendingStep {
 
     /// Whether a simulation can continue from this step: all numbers are finite, and the step size is positive.
     pub fn is_valid(&self) -> bool {
-        let Attempt { h, error, .. } = self.attempt;
-        let motions = [&self.start, &self.end, &self.coefficients[0], &self.coefficients[1], &self.coefficients[2]];
-        motions.into_iter().flatten().flatten().chain(&self.energy).all(|x| x.is_finite())
-            && self.ledger_rates.iter().all(LedgerRates::is_finite)
-            && self.inputs.is_finite()
-            && self.clock.is_valid()
-            && error.is_finite()
-            && h.is_finite()
-            && h > 0.0
+        let Self { inputs, clock, attempt, start, end, coefficients, ledger_rates, energy } = self;
+        start.is_finite()
+            && end.is_finite()
+            && coefficients.is_finite()
+            && energy.is_finite()
+            && ledger_rates.is_finite()
+            && inputs.is_finite()
+            && clock.is_valid()
+            && attempt.is_valid()
     }
 }
 

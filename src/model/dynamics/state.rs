@@ -15,6 +15,7 @@ use crate::model::scene::{
 };
 use crate::model::setup::HEATS;
 use crate::model::thermal::Thermal;
+use crate::numeric::Finite;
 
 /// Number of periods above which a double no longer resolves a single period.
 const MOST_PERIODS: u64 = 1 << 53;
@@ -213,36 +214,49 @@ impl State {
         self.is_valid_without_pending_step()
             && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
             && self.events.is_finite()
-            && self.pause.as_ref().is_none_or(Pause::is_finite)
+            && self.pause.is_finite()
     }
 
     /// Checks all but the pending step, the events and the pause, for the end of an integration. There the pending step is
     /// finite, because it has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
-        let numbers = [
-            self.time,
-            self.work,
-            self.energy_at_start,
-            self.control.last_error,
-            self.torque_means.elapsed,
-            self.torque_means.since,
-            self.carrier_command,
-        ];
-        // a sum is not finite if a term is not
-        let sum = |numbers: &[f64]| numbers.iter().sum::<f64>();
-        let anchors: f64 = self.friction.iter().map(|f| f.anchor).sum();
-        let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
-        (sum(&self.q) + sum(&self.v) + sum(&numbers) + sum(&self.heat) + anchors).is_finite()
-            && self.thermal.is_finite()
-            && input_derivatives
-            && self.whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
-            && (0.0..=1.0).contains(&self.lock)
-            && self.control.next > 0.0
-            && self.control.next.is_finite()
-            && self.control.last >= 0.0
-            && self.control.after_kink > 0.0
-            && self.held_before >= 0.0
-            && self.held_since.is_none_or(f64::is_finite)
+        let Self {
+            time,
+            q,
+            v,
+            whole_periods,
+            control,
+            statistics: _,
+            rattle: _,
+            work,
+            heat,
+            thermal,
+            friction,
+            torque_means,
+            is_tooth_broken: _,
+            lock,
+            carrier_command,
+            input_derivatives,
+            energy_at_start,
+            held_since,
+            held_before,
+            pending_step: _,
+            events: _,
+            pause: _,
+        } = self;
+        [*time, *work, *carrier_command, *energy_at_start].is_finite()
+            && [q, v].into_iter().all(Finite::is_finite)
+            && heat.is_finite()
+            && thermal.is_valid()
+            && friction.is_finite()
+            && friction.iter().all(|body| body.stiffness >= 0.0)
+            && torque_means.is_finite()
+            && input_derivatives.is_finite()
+            && whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
+            && (0.0..=1.0).contains(lock)
+            && control.is_valid()
+            && *held_before >= 0.0
+            && Finite::is_finite(held_since)
     }
 }
 
@@ -272,6 +286,19 @@ mod tests {
             state.move_anchors(side, 2.0, &layout);
             let moved: Vec<usize> = (0..state.friction.len()).filter(|&k| state.friction[k].anchor != 0.0).collect();
             assert_eq!(moved, [side, FRICTION_WHEELS + side]);
+        }
+    }
+
+    #[test]
+    fn a_state_whose_friction_or_mean_torques_contain_no_number_is_not_valid() {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut states = [State::at_rest(0.0, 1e-3); 5];
+            states[0].friction[2].stiffness = bad;
+            states[1].friction[2].stiffness = -1.0;
+            states[2].friction[0].anchor = bad;
+            states[3].torque_means.sum[1] = bad;
+            states[4].torque_means.last = Some(([0.0, bad], 1.0));
+            assert!(states.iter().all(|state| !state.is_valid()), "{bad}");
         }
     }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::finite;
+
 /// Time integrals of the shaft torques over the present mesh cycle, and their means over the last whole one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TorqueMeans {
@@ -16,6 +18,8 @@ pub struct TorqueMeans {
     /// Time since the last whole cycle ended [s].
     pub since: f64,
 }
+
+finite!(TorqueMeans { sum, elapsed, cycles, last, since });
 
 impl TorqueMeans {
     /// Means over the last whole mesh cycle [N·m], unless rolling has nearly stopped since.

@@ -6,6 +6,7 @@ use super::LARGEST;
 use crate::integrate::Point;
 use crate::model::effects::mesh_history::MeshHistory;
 use crate::model::effects::strength::{Fatigue, Rated};
+use crate::numeric::Finite;
 
 /// Damage of the teeth, and values over mesh cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,6 +34,25 @@ pub struct LastLoads {
 impl Watched {
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
-        self.mesh_history.is_valid()
+        // the last loads are not saved
+        let Self { fatigue, mesh_history, last_loads: _ } = self;
+        fatigue.is_finite() && mesh_history.is_valid()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damage_that_is_no_number_is_not_valid() {
+        assert!(Watched::default().is_valid());
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut all = [Watched::default(); 3];
+            all[0].fatigue.from = bad;
+            all[1].fatigue.planets[1].flanks[0].root.sum = bad;
+            all[2].fatigue.utilisation.flank.share = bad;
+            assert!(all.iter().all(|watched| !watched.is_valid()), "{bad}");
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::finite;
+
 /// Whether a body sticks, or in which direction it slides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
@@ -44,6 +46,8 @@ pub struct FrictionState {
     /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
     pub stiffness: f64,
 }
+
+finite!(FrictionState { anchor, stiffness; mode });
 
 impl FrictionState {
     /// True if friction holds the body.

@@ -28,5 +28,5 @@ pub use failure::{StepFailure, six_digits};
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use readings::CostClass;
 pub use reports::Reported;
-pub use sensitivity::{Direction, STENCIL, StencilReadings};
+pub use sensitivity::{Direction, StencilReadings};
 pub use simulation::Simulation;

@@ -8,14 +8,13 @@ use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
 use crate::model::dynamics::{IdealEquations, Largest, State, Watched};
 use crate::model::effect_kinds::Changes;
-use crate::model::effects::strength::CONTACT_TEMPERATURE;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::{LedgerReadings, Motion, resultants};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
-use crate::model::thermal::{GEARS, NODES};
+use crate::model::thermal::NODES;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::LineContact;
@@ -44,6 +43,35 @@ impl Simulation {
             return None;
         }
         Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
+    }
+
+    /// The simulation with the brakes on that inputs put on if they change from 0 in the direction `change`; `None` if there are none.
+    /// The torque of these brakes is the least positive number. With a solver of the host, brakes are put on only at events.
+    pub fn with_brakes_put_on(&self, change: &Inputs) -> Option<Self> {
+        let mut inputs = self.inputs;
+        for (torque, change) in inputs.brake_torque.iter_mut().zip(change.brake_torque) {
+            if *torque == 0.0 && change != 0.0 {
+                *torque = f64::MIN_POSITIVE;
+            }
+        }
+        if inputs == self.inputs || self.is_model_exchange() || !has_brakes(&self.model) {
+            return None;
+        }
+        let state = with_brakes(&self.model, &inputs, &self.state)?;
+        Some(Self { state, inputs, forces: None, ..self.clone() })
+    }
+
+    /// The simulation as its outputs show it, if it differs: its inputs applied, and means over mesh cycles and temperatures up to the
+    /// present. Friction changes only with completed steps.
+    pub fn shown(&self) -> Option<Self> {
+        let mut shown = self.with_inputs_applied();
+        if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
+            let completed = self.completed().0;
+            let state = &mut shown.get_or_insert_with(|| self.clone()).state;
+            state.torque_means = completed.torque_means;
+            state.thermal.rises = completed.thermal.rises;
+        }
+        shown
     }
 
     /// Angles and speeds.
@@ -91,17 +119,7 @@ impl Simulation {
 
     fn forces_with(&mut self, extent: Extent) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| extent == Extent::Parts && !forces.has_parts) {
-            let mut shown = self.with_inputs_applied();
-            if self.model.layout.has_ends() && self.state.pending_step.is_some() {
-                // means over mesh cycles count up to the present
-                shown.get_or_insert_with(|| self.clone()).state.torque_means = self.completed().0.torque_means;
-            }
-            let mut forces = shown.as_ref().unwrap_or(self).forces_of_state(extent);
-            if self.model.thermal.is_some() && self.model.strength().is_none() {
-                // flanks that nobody rates are as warm as the gears, which the ledger tells
-                let strength = &mut forces.readings[const { places_of("strength", Changes::Always) }];
-                strength[CONTACT_TEMPERATURE] = self.completed().0.thermal.temperatures()[GEARS];
-            }
+            let forces = self.shown().as_ref().unwrap_or(self).forces_of_state(extent);
             self.forces = Some(forces);
         }
         self.forces.get_or_insert_default()

@@ -10,15 +10,20 @@ use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::Gears;
 use crate::model::dynamics::Acted;
 use crate::model::dynamics::sizes::with_equations;
+use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::PairLines;
 use crate::model::outputs::{LedgerReadings, Motion};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::{HEATS, STEP_READINGS};
+use crate::model::thermal::network::Rates;
+use crate::model::thermal::{NODES, Network};
 
 /// Distance of neighbouring points along a direction, in natural magnitudes.
 const APART: f64 = 3e-5;
 /// Central differences of order 4: places of the points as multiples of their distance, and their weights.
-pub const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
 
 /// The point of the first `n` of positions `q` and velocities `v`.
 fn first<const N: usize>(n: usize, q: &[f64], v: &[f64]) -> Point<N> {
@@ -41,12 +46,20 @@ pub struct Direction {
     pub rates: Inputs,
     /// Of the command that the carrier follows [rad/s].
     pub carrier_command: f64,
+    /// Of the temperatures of the nodes [K]. They change only with time.
+    pub temperatures: [f64; NODES],
 }
 
 impl Direction {
     /// No change.
-    pub const NONE: Self =
-        Self { q: [0.0; MAX_DOF], v: [0.0; MAX_DOF], inputs: Inputs::ZERO, rates: Inputs::ZERO, carrier_command: 0.0 };
+    pub const NONE: Self = Self {
+        q: [0.0; MAX_DOF],
+        v: [0.0; MAX_DOF],
+        inputs: Inputs::ZERO,
+        rates: Inputs::ZERO,
+        carrier_command: 0.0,
+        temperatures: [0.0; NODES],
+    };
 
     /// Whether positions or velocities change.
     fn moves(&self) -> bool {
@@ -152,7 +165,7 @@ impl Simulation {
         input_acceleration_slopes
     }
 
-    /// The direction in which state and inputs change with time.
+    /// The direction in which state and inputs change with time, without temperatures.
     pub fn time_direction(&self) -> Direction {
         let mut direction = Direction::NONE;
         let Direction { q, v, .. } = &mut direction;
@@ -162,6 +175,12 @@ impl Simulation {
             direction.carrier_command = direction.inputs.carrier_speed;
         }
         direction
+    }
+
+    /// Rates of the temperatures [K/s].
+    pub fn temperature_rates(&self) -> [f64; NODES] {
+        let rates = &self.ledger_rates().readings[const { places_of("warm_up", Changes::ByStep) }];
+        std::array::from_fn(|node| rates[node])
     }
 
     /// Derivatives of angles and speeds along `direction`.
@@ -203,11 +222,27 @@ impl Simulation {
         StencilReadings { read, apart }
     }
 
-    /// Rates of the ledger.
+    /// Rates of what moves continuously in the ledger: heat, temperatures, and heat stored and given off.
     pub fn ledger_rates(&self) -> LedgerReadings {
         let (inputs, state) = (&self.inputs, &self.state);
         let heat = with_equations!(self.model, state, inputs, |equations| equations.evaluate(&state.point()).1.heat);
-        LedgerReadings { heat, ..LedgerReadings::default() }
+        let mut readings = [0.0; STEP_READINGS];
+        if let Some(network) = &self.model.thermal {
+            let Rates { temperatures, given_off } = self.thermal_rates(network, &heat);
+            let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
+            thermal[..NODES].copy_from_slice(&temperatures);
+            thermal[NODES..].copy_from_slice(&[network.absorbed(&temperatures), given_off]);
+        }
+        LedgerReadings { heat, readings, ..LedgerReadings::default() }
+    }
+
+    /// Rates of temperatures while `heat` arises [W].
+    fn thermal_rates(&self, network: &Network<HEATS>, heat: &[f64; HEATS]) -> Rates {
+        let changes = self.inputs.changes_outside();
+        let around = network.around.changed(changes);
+        let is_limited = around.sump != network.around.commanded(changes).sump;
+        let sump = if is_limited { 0.0 } else { self.input_derivatives().map_or(0.0, |of| of.rates[0].sump_change) };
+        network.rates(&self.state.thermal, heat, self.state.v[CARRIER].abs(), (around, sump))
     }
 
     /// Sets all of `displaced` that follows `direction`.
@@ -222,6 +257,11 @@ impl Simulation {
             to.rates[0] = from.rates[0].plus(factor, &direction.rates);
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
+        for (to, (from, change)) in
+            state.thermal.rises.iter_mut().zip(from.thermal.rises.iter().zip(&direction.temperatures))
+        {
+            *to = from + factor * change;
+        }
     }
 
     /// The largest change in `direction`, in natural magnitudes.

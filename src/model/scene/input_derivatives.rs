@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Inputs;
+use crate::numeric::finite;
 
 /// Highest order of the derivatives.
 pub const ORDERS: usize = 2;
@@ -17,14 +18,11 @@ pub struct InputDerivatives {
     pub rates: [Inputs; ORDERS],
 }
 
+finite!(InputDerivatives { rates });
+
 impl InputDerivatives {
     /// Inputs that stay constant.
     pub const ZERO: Self = Self { rates: [Inputs::ZERO; ORDERS] };
-
-    /// Whether all derivatives are finite numbers.
-    pub fn is_finite(&self) -> bool {
-        self.rates.iter().all(Inputs::is_finite)
-    }
 
     /// Inputs and their derivatives `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {

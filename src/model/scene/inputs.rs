@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::finite;
+
 /// Limits of an input that may have either sign.
 const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Limits of a torque that only resists.
@@ -44,6 +46,8 @@ macro_rules! inputs {
         pub struct Inputs {
             $($(#[$doc])+ pub $name: $type,)+
         }
+
+        finite!(Inputs { $($name),+ });
 
         impl Default for Inputs {
             fn default() -> Self {
@@ -110,12 +114,5 @@ impl Inputs {
     /// Changes of the temperatures outside: of ambient and of a given sump [K].
     pub fn changes_outside(&self) -> [f64; 2] {
         [self.ambient_change, self.sump_change]
-    }
-
-    /// Whether all inputs are finite numbers.
-    pub fn is_finite(&self) -> bool {
-        let mut finite = true;
-        self.visit(self, |value, _| finite &= value.is_finite());
-        finite
     }
 }

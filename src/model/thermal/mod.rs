@@ -11,6 +11,7 @@ mod steady_tests;
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::Finite;
 pub use network::Network;
 
 /// Number of nodes.
@@ -109,12 +110,10 @@ impl Thermal {
         (self.felt, self.longest) = (self.temperatures(), self.unfelt_step);
     }
 
-    /// Whether all numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        let sum = |x: &[f64]| x.iter().sum::<f64>();
-        let rest = self.start + self.given_off;
-        (sum(&self.first) + sum(&self.rises) + sum(&self.felt) + sum(&self.entered) + rest).is_finite()
-            && self.longest > 0.0
-            && self.unfelt_step > 0.0
+    /// True if all numbers are finite, except for the longest step, which may be infinite, and step sizes are positive.
+    pub fn is_valid(&self) -> bool {
+        let Self { start, first, rises, felt, entered, given_off, longest, unfelt_step } = self;
+        let are_numbers = [first, rises, felt, entered].into_iter().all(Finite::is_finite);
+        are_numbers && [*start, *given_off].is_finite() && *longest > 0.0 && *unfelt_step > 0.0
     }
 }

@@ -54,6 +54,15 @@ pub struct Network<const H: usize> {
     pub shares: [[f64; NODES]; H],
 }
 
+/// Rates of the temperatures, and of the heat given off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    /// Rates of the temperatures of all nodes [K/s].
+    pub temperatures: [f64; NODES],
+    /// Heat given off to ambient and a sump of given temperature [W].
+    pub given_off: f64,
+}
+
 impl Around {
     /// With ambient and sump changed by `changes` [K], without limits.
     pub fn commanded(self, [ambient, sump]: [f64; 2]) -> Self {
@@ -84,7 +93,32 @@ impl<const H: usize> Network<H> {
 
     /// Heat stored since the start [J].
     pub fn stored(&self, thermal: &Thermal) -> f64 {
-        self.capacity.iter().zip(thermal.gains()).map(|(capacity, gain)| capacity * gain).sum()
+        self.absorbed(&thermal.gains())
+    }
+
+    /// Heat that changes of the temperatures [K] take [J].
+    pub fn absorbed(&self, changes: &[f64; NODES]) -> f64 {
+        self.capacity.iter().zip(changes).map(|(capacity, change)| capacity * change).sum()
+    }
+
+    /// Rates of `thermal` while heat arises at the rates `heat` [W], with the carrier at `speed`, without its sign [rad/s]. A given
+    /// sump changes by `sump` [K/s].
+    pub fn rates(&self, thermal: &Thermal, heat: &[f64; H], speed: f64, (around, sump): (Around, f64)) -> Rates {
+        let (at, power) = (thermal.temperatures(), self.entering(heat));
+        let mut given_off = self.to_ambient.at(speed) * (at[CASE] - around.ambient);
+        let mut into_oil = power[OIL];
+        let mut temperatures = [0.0; NODES];
+        for i in GEARS_TO_CASE {
+            let flow = self.to_oil[i].at(speed) * (at[i] - at[OIL]);
+            into_oil += flow;
+            temperatures[i] = (power[i] - flow - if i == CASE { given_off } else { 0.0 }) / self.capacity[i];
+        }
+        temperatures[OIL] = into_oil / self.capacity[OIL];
+        if around.sump.is_some() {
+            given_off += into_oil - self.capacity[OIL] * sump;
+            temperatures[OIL] = sump;
+        }
+        Rates { temperatures, given_off }
     }
 
     /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its

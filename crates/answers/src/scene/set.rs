@@ -1,7 +1,7 @@
 //! A value for a variable: taken from a file, checked, and put where the table's access leads.
 
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table, value_of};
+use bevel_differential::variables::{Access, Variability, Variable, accepted, assign, check_value, table, value_of};
 use toml::Value;
 
 use super::display_units::DisplayUnits;
@@ -179,7 +179,7 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
         Value::String(text) => units::parse(row, text)?,
         _ => return Err("must be a number, or a text like \"4.5 mm\"".into()),
     };
-    check_value(row, number).map_err(|problem| {
+    accepted(row, number, 0.0).map_err(|problem| {
         // a text has named its unit, so that no other was meant
         let message = match value {
             Value::String(_) => problem.message.split("; did you mean").next().unwrap_or_default().to_owned(),
@@ -191,8 +191,7 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
             }
             _ => message,
         }
-    })?;
-    Ok(number)
+    })
 }
 
 /// The value that `text` on a command line stands for, as a file would have it.

@@ -87,11 +87,8 @@ class Car:
                     break
                 wanted = controller(time, {name: values[name] for name in names}) if controller else None
                 asked = dict(zip(REQUESTS, (ask, turn)))
-                for name, value in (wanted or {}).items():
-                    if name in REQUESTS:
-                        asked[name] = course(name, value)
-                    else:
-                        instance.set({name: value})
+                asked.update((name, course(name, value)) for name, value in (wanted or {}).items() if name in REQUESTS)
+                instance.set({name: value for name, value in (wanted or {}).items() if name not in REQUESTS})
                 run.step(time, steps.points[row + 1] - time, [asked[name] for name in REQUESTS])
             warn(instance.messages)
         return record

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::integrate::Curve;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS, Plan};
+use crate::numeric::Finite;
 
 /// Most quantities: speeds of both side gears, then transmission errors by group of planets and side.
 pub const MOST_QUANTITIES: usize = 2 + 2 * MAX_GROUPS;
@@ -79,8 +80,8 @@ impl MeshHistory {
 
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
-        let extremes = self.extremes.iter().flatten().flatten();
-        self.rolled.abs() < 1.0 && extremes.chain(&self.last).all(|x| x.is_finite())
+        let Self { rolled, extremes, last } = self;
+        rolled.abs() < 1.0 && extremes.is_finite() && last.is_finite()
     }
 }
 

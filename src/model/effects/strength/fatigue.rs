@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::overload::Overloads;
 use super::utilisation::Utilisation;
 use crate::model::scene::MAX_GROUPS;
+use crate::numeric::finite;
 use crate::strength::{Damage, FlankDamage, Rating, TeethInMesh, ToothDamage};
 
 /// Damage of the teeth so far.
@@ -25,6 +26,8 @@ pub struct Fatigue {
     /// Whether it counts a start that was not in equilibrium.
     pub has_blow: bool,
 }
+
+finite!(Fatigue { planets, sides, in_mesh, overloads, utilisation, from; has_blow });
 
 impl Fatigue {
     /// Damage of a run that begins at `start` [s] and is rated `later` [s] than that; `in_equilibrium`: whether it begins so.

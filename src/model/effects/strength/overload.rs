@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::Plan;
+use crate::model::scene::{MAX_GROUPS, Plan};
+use crate::numeric::{Finite, finite};
 use crate::problem::Problem;
 
 /// What is stressed.
@@ -40,6 +41,16 @@ pub struct Overload {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overloads {
     first: [Option<Overload>; Stressed::ALL.len()],
+}
+
+finite!(Overloads { first });
+
+impl Finite for Overload {
+    /// True if all numbers are finite, and group and side exist.
+    fn is_finite(&self) -> bool {
+        let Self { time, stress, strength, group, side } = *self;
+        [time, stress, strength].is_finite() && group < MAX_GROUPS && side < 2
+    }
 }
 
 impl Overloads {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::overload::{Overload, Stressed};
+use crate::numeric::finite;
 
 /// Largest safety factor that is given: that of teeth without load.
 pub const MOST: f64 = 1e3;
@@ -23,6 +24,11 @@ pub struct Utilisation {
     pub root: Largest,
     /// Of all flanks.
     pub flank: Largest,
+}
+
+finite! {
+    Largest { share, time }
+    Utilisation { root, flank }
 }
 
 impl Largest {

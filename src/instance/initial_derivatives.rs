@@ -1,0 +1,170 @@
+//! Derivatives of initial values with respect to inputs and parameters, by differences that stay within the ranges.
+
+use super::sensitivity::{Unknowns, finite_slope};
+use super::values::row;
+use super::{CallError, CallResult, Snapshot};
+use crate::model::GearCache;
+use crate::variables::{Access, Range};
+
+/// A point of a difference: its place in steps, and its weights in the differences of order 2 and of order 4.
+type Difference = (f64, [f64; 2]);
+
+/// Central differences.
+const CENTRAL: [Difference; 4] =
+    [(-2.0, [0.0, 1.0 / 12.0]), (-1.0, [-0.5, -2.0 / 3.0]), (1.0, [0.5, 2.0 / 3.0]), (2.0, [0.0, -1.0 / 12.0])];
+/// One-sided differences.
+const FORWARD: [Difference; 5] =
+    [(0.0, [-1.5, -25.0 / 12.0]), (1.0, [2.0, 4.0]), (2.0, [-0.5, -3.0]), (3.0, [0.0, 4.0 / 3.0]), (4.0, [0.0, -0.25])];
+const BACKWARD: [Difference; 5] = [
+    (0.0, [1.5, 25.0 / 12.0]),
+    (-1.0, [-2.0, -4.0]),
+    (-2.0, [0.5, 3.0]),
+    (-3.0, [0.0, -4.0 / 3.0]),
+    (-4.0, [0.0, 0.25]),
+];
+/// Longest step of the differences of initial values, relative to the changed value. The initial equilibrium is found to about
+/// [`START_NOISE`].
+const RELATIVE_STEP: f64 = 3e-3;
+/// Noise of initial values, relative to them.
+const START_NOISE: f64 = 1e-9;
+/// Least size of a value that is not 0, as a fraction of its range or, if that is shorter, of 1 SI unit.
+const LEAST_SIZE: f64 = 1e-3;
+/// Least room on both sides for central differences, as a fraction of the step.
+const LEAST_ROOM: f64 = 0.1;
+/// Factors of the step, tried in turn until the differences of both orders agree: a long step may pass a kink.
+const REDUCTIONS: [f64; 4] = [1.0, 0.125, 0.015625, 0.001953125];
+/// Factor by which the differences of a shorter step must agree better.
+const BETTER: f64 = 0.5;
+/// Relative difference of the orders below which they agree.
+const AGREEMENT: f64 = 1e-4;
+
+/// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
+/// equilibrium.
+pub fn initial_derivatives(
+    (now, cache): (&Snapshot, &GearCache),
+    unknowns: &Unknowns,
+    known: impl Iterator<Item = (u32, f64)> + Clone,
+    slopes: &mut [f64],
+) -> CallResult {
+    let Some(room) = Room::of(now, known.clone())? else { return Ok(()) };
+    let estimate = |reduction| differences((now, cache), unknowns, known.clone(), room.sides(reduction));
+    let mut best = estimate(REDUCTIONS[0]);
+    for reduction in &REDUCTIONS[1..] {
+        if best.as_ref().is_ok_and(|best| best.disagreement < 1.0) {
+            break;
+        }
+        let shorter = estimate(*reduction);
+        let is_better = match (&shorter, &best) {
+            // of steps that agree no better, the longest has the least noise
+            (Ok(shorter), Ok(best)) => shorter.disagreement < BETTER * best.disagreement,
+            (shorter, _) => shorter.is_ok(),
+        };
+        if is_better {
+            best = shorter;
+        }
+    }
+    for ((slope, found), (row, _)) in slopes.iter_mut().zip(best?.slopes).zip(&unknowns.0) {
+        *slope = finite_slope(row, found)?;
+    }
+    Ok(())
+}
+
+/// Initial values that are to change, and how far they may.
+struct Room {
+    /// Step at which the fastest of them changes by [`RELATIVE_STEP`] of its size.
+    step: f64,
+    /// Steps up to the end of a range, backward and forward.
+    ends: [f64; 2],
+}
+
+impl Room {
+    /// How far the values `known` may change in their directions; `None` if none of them changes.
+    fn of(now: &Snapshot, known: impl Iterator<Item = (u32, f64)>) -> CallResult<Option<Self>> {
+        let (mut size, mut ends) = (0.0f64, [f64::INFINITY; 2]);
+        for (reference, change) in known {
+            let row = row(reference)?;
+            let value = match row.access {
+                Access::Input(slot) => *slot(&mut { now.inputs }),
+                Access::Real(slot) => *slot(&mut { now.parameters }),
+                _ => {
+                    return Err(CallError::error(format!(
+                        "{} is neither an input nor a real parameter, so there is no derivative with respect to it",
+                        row.name
+                    )));
+                }
+            };
+            let range = row.range.unwrap_or(Range { min: f64::NEG_INFINITY, max: f64::INFINITY });
+            let unit = (range.max - range.min).min(1.0);
+            size = size.max(change.abs() / if value == 0.0 { unit } else { value.abs().max(LEAST_SIZE * unit) });
+            if change != 0.0 {
+                let [min, max] = [value - range.min, range.max - value].map(|room| room.max(0.0) / change.abs());
+                let [backward, forward] = if change > 0.0 { [min, max] } else { [max, min] };
+                ends = [ends[0].min(backward), ends[1].min(forward)];
+            }
+        }
+        Ok((size > 0.0).then(|| Self { step: RELATIVE_STEP / size, ends }))
+    }
+
+    /// Differences with a step that is shorter by the factor `reduction`: central ones within the range, one-sided ones at an end.
+    fn sides(&self, reduction: f64) -> (&'static [Difference], f64) {
+        let (step, [backward, forward]) = (self.step * reduction, self.ends);
+        let central = backward.min(forward) / 2.0;
+        if central >= LEAST_ROOM * step {
+            (&CENTRAL, step.min(central))
+        } else if forward >= backward {
+            (&FORWARD, step.min(forward / 4.0))
+        } else {
+            (&BACKWARD, step.min(backward / 4.0))
+        }
+    }
+}
+
+/// Derivatives of initial values by the differences of order 4, and how far those of order 2 differ, relative to what is accepted.
+struct Estimate {
+    slopes: Vec<f64>,
+    disagreement: f64,
+}
+
+fn differences(
+    (now, cache): (&Snapshot, &GearCache),
+    unknowns: &Unknowns,
+    known: impl Iterator<Item = (u32, f64)> + Clone,
+    (points, step): (&[Difference], f64),
+) -> CallResult<Estimate> {
+    let count = unknowns.0.len();
+    let (mut second, mut fourth, mut largest) = (vec![0.0; count], vec![0.0; count], vec![0.0f64; count]);
+    let mut first = vec![None; count];
+    for &(place, [of_second, of_fourth]) in points {
+        let mut moved = now.clone();
+        for (reference, change) in known.clone() {
+            let row = row(reference)?;
+            let value = match row.access {
+                Access::Input(slot) => slot(&mut moved.inputs),
+                Access::Real(slot) => slot(&mut moved.parameters),
+                _ => continue,
+            };
+            let wanted = *value + place * step * change;
+            // rounding does not lead out of the range
+            *value = row.range.map_or(wanted, |range| wanted.clamp(range.min, range.max));
+        }
+        let mut simulation = moved.start(cache).map_err(|problems| {
+            CallError::error(format!(
+                "there is no derivative, because initialisation fails close to these values:\n{}",
+                crate::problem::list(&problems)
+            ))
+        })?;
+        for (k, (_, source)) in unknowns.0.iter().enumerate() {
+            let value = source.read(&mut simulation);
+            // the slope of a constant is exactly 0
+            let change = value - *first[k].get_or_insert(value);
+            second[k] += of_second * change / step;
+            fourth[k] += of_fourth * change / step;
+            largest[k] = largest[k].max(value.abs());
+        }
+    }
+    let apart = |k: usize| {
+        let accepted = AGREEMENT * fourth[k].abs() + START_NOISE * largest[k] / step;
+        (second[k] - fourth[k]).abs() / accepted.max(f64::MIN_POSITIVE)
+    };
+    Ok(Estimate { disagreement: (0..count).map(apart).fold(0.0, f64::max), slopes: fourth })
+}

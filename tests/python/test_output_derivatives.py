@@ -1,0 +1,154 @@
+"""Output derivatives against central differences of the outputs over small communication steps: every output, scenes with effects on,
+their mirror images, and the arrays of FMI 3.0."""
+
+import ctypes
+
+import numpy as np
+import pytest
+import theory
+from bevel_differential.instance import Instance
+from braking import BRAKED, brakes, drive_torque
+from driving import BIAS, STEADY_TURN
+from fmi3 import Unit3
+from symmetry import Image
+
+WHEELS = {"inertia.left_end": 0.6, "inertia.right_end": 0.9, "left.load_torque": 500.0, "right.load_torque": 300.0}
+WARM = {"effects.warm_up": True, "warm_up.gears_above_oil": 20.0, "warm_up.clutch_above_oil": 5.0, "warm_up.washers_above_oil": 10.0,
+        "warm_up.clutch_capacity": 50.0}
+RUBBING = {"effects.thrust_friction": True, **theory.CLUTCHES, **theory.DRAG}
+DRIVEN = BRAKED | brakes(150.0, 100.0) | drive_torque(700.0) | WHEELS | {"carrier.speed_command": 40.0}
+# a start that is not in equilibrium keeps everything moving
+SCENES = {
+    "ideal": DRIVEN | WARM | {"scene.gear_contact": "ideal", **theory.DRAG, **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0,
+                              "limited_slip.preload": 40.0, "bearing_drag.viscosity_from_oil": True},
+    "sump": DRIVEN | WARM | {"scene.gear_contact": "ideal", **theory.DRAG, "warm_up.sump_given": True, "oil.temperature": 330.0},
+    "lumped": DRIVEN | WARM | RUBBING | {"scene.gear_contact": "lumped", "scene.start": "rolling"},
+    "tooth": DRIVEN | WARM | RUBBING | {"effects.tooth_friction": True, "effects.strength": True, "scene.start": "rolling"},
+    "line": STEADY_TURN | WHEELS | WARM | RUBBING | {"contact.law": "line", "effects.tooth_friction": True, "effects.strength": True,
+                                            "effects.tooth_errors": True, "tooth_errors.planet_runout": 1e-5},
+    "four planets": STEADY_TURN | WHEELS | {"geometry.planet_teeth": 9, "geometry.side_teeth": 14, "geometry.planet_count": 4, "scene.planet_spin": "free", "scene.start": "rolling"},
+    "half-shafts": BIAS | {"effects.half_shaft": True, "effects.pin_compliance": True, "effects.final_drive": True},
+    "half-shafts that warm up": DRIVEN | WARM | RUBBING | {"effects.half_shaft": True, "scene.start": "rolling"},
+}
+# tooth errors are drawn for each flank, and rattling planets do not repeat
+MIRRORED = ["ideal", "sump", "lumped", "tooth", "half-shafts that warm up"]
+# inputs that change within the steps, per second
+SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "warm_up.ambient_change": 5.0},
+          "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
+          "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
+# outputs that jump, by the documentation: with completed steps, at events, and from tooth pair to tooth pair
+JUMPS = ("damage.", "solver.", "held.", "safety.root_min", "safety.flank_min")
+COUNTS = ("_peak_to_peak", "_pairs", ".tooth")
+POINTS, STEP, SIZE = 4, 7e-3, 4e-6
+# of the largest slope of an output in the run; of the fastest temperature, as the thermal network is integrated to order 2
+CLOSE = 2e-3
+# of the solver, whose error in a step is in the slopes of its continuous extension; and of differences
+TOLERANCE, ROUNDING, TORQUES = 1e-10, 1e-15, 1e3
+
+
+def jumps(name):
+    return name.startswith(JUMPS) or name.endswith(COUNTS)
+
+
+class Derivatives(Instance):
+    """An instance whose outputs have rates."""
+
+    def rates(self, names):
+        references = [self.fmu.variable(name).reference for name in names]
+        return np.array(self._through(self.raw.getRealOutputDerivatives, references, [1] * len(names)))
+
+    def around(self, names):
+        """Rates, central differences and their uncertainty, two short steps from here. Differences over two distances tell curvature
+        and kinks from errors."""
+        values = [self.read(names)]
+        for k in range(4):
+            self.step(SIZE)
+            values.append(self.read(names))
+            if k == 1:
+                rates = self.rates(names)
+        values = np.array(values)
+        long, short = (values[4] - values[0]) / (4.0 * SIZE), (values[3] - values[1]) / (2.0 * SIZE)
+        # accelerations follow from torques of some kN.m
+        least = np.array([TORQUES if self.fmu.variable(name).unit == "rad/s2" else 0.0 for name in names])
+        error = ROUNDING / SIZE + TOLERANCE / self.get("solver.step_size")
+        return rates, short, np.abs(long - short) + error * np.maximum(np.abs(values[2]), least)
+
+
+def along(fmu, values, slopes, outputs):
+    """Rates, differences and uncertainties at points of a run, each of shape (points, outputs)."""
+    found = []
+    with Derivatives(fmu) as instance:
+        instance.initialise({**values, "solver.relative_tolerance": TOLERANCE})
+        instance.set_slopes(slopes)
+        for _ in range(POINTS):
+            instance.step(STEP)
+            found.append(instance.around(outputs))
+    return [np.array(each) for each in zip(*found)]
+
+
+def scales(names, differences):
+    """The largest slope of each output; that of all temperatures for each of them."""
+    largest = np.abs(differences).max(axis=0)
+    warm = np.array([name.startswith("temperature.") for name in names])
+    return np.where(warm, largest[warm].max(), largest)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_rates_are_central_differences_of_the_outputs(fmu, outputs, name):
+    rates, differences, uncertain = along(fmu, SCENES[name], SLOPES.get(name, {}), outputs)
+    allowed = CLOSE * scales(outputs, differences) + uncertain
+    for k, output in enumerate(outputs):
+        if jumps(output):
+            assert not rates[:, k].any(), output
+        else:
+            assert np.all(np.abs(rates - differences)[:, k] <= allowed[:, k]), (output, rates[:, k], differences[:, k])
+
+
+def test_every_output_that_moves_continuously_moves_in_one_of_the_scenes(fmu, outputs):
+    moves = np.zeros(len(outputs), bool)
+    for name, values in SCENES.items():
+        rates, differences, uncertain = along(fmu, values, SLOPES.get(name, {}), outputs)
+        moves |= np.any(np.abs(differences) > 10.0 * uncertain, axis=0) & rates.any(axis=0)
+    still = [output for output, moved in zip(outputs, moves) if not moved and not jumps(output)]
+    # a third loaded pair needs a contact ratio above 2
+    assert [output for output in still if not output.startswith("mesh.pair[3]")] == []
+
+
+@pytest.mark.parametrize("name", MIRRORED)
+def test_rates_of_a_mirrored_scene_are_mirrored(fmu, outputs, name):
+    slopes = SLOPES.get(name, {})
+    image = Image(fmu, {"start": SCENES[name], "steps": [(STEP, slopes)]}, "swapped")
+    mirrored = image.scene()
+    # loaded pairs of one mesh have no image
+    outputs = [output for output in outputs if image.name(output) in fmu.variables]
+    rates, differences, _ = along(fmu, SCENES[name], slopes, outputs)
+    [(_, slopes)] = mirrored["steps"]
+    images, _, _ = along(fmu, mirrored["start"], slopes, [image.name(output) for output in outputs])
+    factors = np.array([image.factor(output) for output in outputs])
+    apart = np.abs(rates - factors * images).max(axis=0)
+    allowed = CLOSE * scales(outputs, differences) + 1e-9
+    assert [output for k, output in enumerate(outputs) if apart[k] > allowed[k]] == []
+
+
+def test_arrays_of_fmi_3_have_the_rates_of_their_elements(fmu3):
+    with Unit3(fmu3) as unit:
+        unit.initialise({"geometry.planet_teeth": 10, "geometry.side_teeth": 18, "geometry.planet_count": 3, "scene.start": 2,
+                         "left.load_torque": 600.0, "inertia.left_end": 0.5})
+        unit.step(0.0, 0.01)
+        variables = unit.variables
+
+        def rates(name, size):
+            values, references = (ctypes.c_double * size)(), (ctypes.c_uint * 1)(variables[name].valueReference)
+            unit.raw.fmi3GetOutputDerivatives(unit.raw.component, references, 1, (ctypes.c_int32 * 1)(1), values, size)
+            return list(values)
+
+        arrays = [name for name, variable in variables.items() if variable.dimensions and variable.type == "Float64"]
+        moving = 0
+        for array in arrays:
+            is_pairs = array.startswith("planet[1].")
+            element = array.replace("left_pairs_", "left_pair[{}].") if is_pairs else array.replace("planets.", "planet[{}].")
+            expected = [rates(element.format(k), 1)[0] for k in (1, 2, 3)]
+            assert rates(array, 3) == expected, array
+            moving += any(expected)
+        assert moving >= 8
+        assert rates("event.time", 1) == [0.0]
