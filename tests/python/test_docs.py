@@ -1,4 +1,4 @@
-"""Pages as a reader walks them: links lead somewhere, commands run, and what is long is said by few words."""
+"""Pages as a reader walks them: links lead somewhere, commands are known, and what is long is said by few words."""
 
 import importlib
 import re
