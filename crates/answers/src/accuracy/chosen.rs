@@ -100,7 +100,9 @@ fn retain(mut list: Option<&mut Item>, keep: &dyn Fn(&mut dyn TableLike) -> bool
     let mut kept = tables(list.as_deref_mut()).into_iter().map(keep).collect::<Vec<_>>().into_iter();
     match list {
         Some(Item::ArrayOfTables(tables)) => tables.retain(|_| kept.next().unwrap_or(true)),
-        Some(Item::Value(Value::Array(values))) => values.retain(|value| !value.is_inline_table() || kept.next().unwrap_or(true)),
+        Some(Item::Value(Value::Array(values))) => {
+            values.retain(|value| !value.is_inline_table() || kept.next().unwrap_or(true))
+        }
         _ => {}
     }
 }

@@ -100,7 +100,8 @@ impl AccuracyQuestion {
             Some(json!({"set": changed(&acting(&run.scene)), "difference": difference(own, on)}))
         };
         let choice = found.choice();
-        let text = |what: fn(&crate::scene::Scene) -> Result<String>| choice.map(|run| what(&acting(&run.scene))).transpose();
+        let text =
+            |what: fn(&crate::scene::Scene) -> Result<String>| choice.map(|run| what(&acting(&run.scene))).transpose();
         let file = self.file.as_deref().filter(|_| choice.is_some()).map(|to| chosen::file(&found, to)).transpose()?;
         Ok(json!({
             "text": report::text(&found),

@@ -32,6 +32,5 @@ pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
     let mut parameters = scene.parameters;
     let unit = |row: &Variable| row.unit.map(|unit| unit.name);
     let is_repeated = || scene.outputs.iter().any(|output| unit(output) == unit(row));
-    felt::acts(index, &mut parameters, situation)
-        || felt::is_felt(index, &mut parameters, situation) && is_repeated()
+    felt::acts(index, &mut parameters, situation) || felt::is_felt(index, &mut parameters, situation) && is_repeated()
 }
