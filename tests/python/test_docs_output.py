@@ -96,12 +96,23 @@ def shows(block, said):
 
 
 def now(block, said):
-    """The block with what is said now."""
+    """The block with what is said now: of an excerpt the lines that resemble its own most, in their order."""
     lines = said.strip("\n").splitlines()
-    if not GAP.search(block):
-        chosen = lines
-    else:
-        chosen = [line if GAP.match(f"{line}\n") else difflib.get_close_matches(line, lines, n=1, cutoff=0.0)[0] for line in block.splitlines()]
+    chosen, place = lines, 0
+    if GAP.search(block):
+        chosen = []
+        for line in block.splitlines():
+            if GAP.match(f"{line}\n"):
+                chosen.append("...")
+                continue
+            [nearest] = difflib.get_close_matches(line, lines[place:], n=1, cutoff=0.0)
+            found = lines.index(nearest, place)
+            if found > place and chosen[-1:] != ["..."]:
+                chosen.append("...")
+            chosen.append(nearest)
+            place = found + 1
+        if place < len(lines) and chosen[-1] != "...":
+            chosen.append("...")
     fitting = (textwrap.wrap(line, WIDTH, break_on_hyphens=False) if len(line) > WIDEST else [line] for line in chosen)
     renewed = "".join(f"{part}\n" for parts in fitting for part in parts)
     times = TIME.findall(block)
@@ -176,5 +187,6 @@ def test_what_is_shown_is_found_by_its_digits_and_not_by_its_times():
     assert not shows("force 12.6 N\n\nerror 1.0 %; 50 x real time; more\nends\n", said)
     assert not shows("force 12.5 N\n\nerror 1.0 %; 50 x real time; more\n", said)
     assert not shows("force 12.5 N\nends\n", said)
-    assert now("...\nforce 9 N\n", said) == "...\nforce 12.5 N\n"
+    assert now("force 9 N\n...\nends\n", said) == "force 12.5 N\n...\nends\n"
+    assert now("...\nforce 9 N\nends\n", said) == "...\nforce 12.5 N\n...\nends\n"
     assert now("...\nerror 2.0 %; 7.25 x real time; more\n...\n", said) == "...\nerror 1.0 %; 7.25 x real time; more\n...\n"
