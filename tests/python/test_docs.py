@@ -31,6 +31,14 @@ def test_there_is_no_more_to_read_than_a_user_reads():
     assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= LINES
 
 
+def test_the_readme_begins_with_the_commands_that_set_up_all_and_with_the_picture():
+    begin, _, rest = PAGES[0].read_text(encoding="utf-8").partition("## Install")
+    for command_line in ("cargo run --release", "cargo test --release"):
+        assert re.search(rf"^{command_line} +# \d+ minutes$", begin, re.MULTILINE)
+        assert f"| `{command_line}` |" not in rest
+    assert "figures/differential.png" in begin
+
+
 @pytest.mark.parametrize("shown", commands("bevel-differential"), ids=str)
 def test_a_command_of_the_package_is_understood(shown):
     name, *arguments = shown.words[1:]
