@@ -1,4 +1,4 @@
-"""What the documents show: links, commands and files to save."""
+"""What the documents show: links, commands, Python snippets, files to save, and what commands and snippets print."""
 
 import re
 import shlex
@@ -8,8 +8,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/*.md")), *sorted(ROOT.glob("examples/*/README.md"))]
 LINK = re.compile(r'\]\(([^)\s]+)\)|(?:src|href)="([^"]+)"')
-COMMAND = re.compile(r"^(?: {4}|\$ )?((?:bevel-differential|cargo run) (?:.*\\\n)*.*)", re.MULTILINE)
+# a command may stand in a comment, if the page's text says in other words what was run
+COMMAND = re.compile(r"^(?: {4}|\$ |<!-- )?((?:bevel-differential|cargo run|target/python/bin/fmpy) (?:.*\\\n)*.*?)(?: -->)?$", re.MULTILINE)
 SAVED = re.compile(r"`(\w+\.toml)`[^\n]*\n\n```toml\n(.*?)```", re.DOTALL)
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+# what a command of the laboratory renews
+MARKED = re.compile(r"^<!-- ([\w -]+?)[ :]begin.*?^<!-- \1[ :]end", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -21,6 +25,19 @@ class Command:
 
     def __str__(self):
         return f"{self.page}: {shlex.join(self.words)}"
+
+
+@dataclass(frozen=True)
+class Block:
+    """The text between two fences of a page; `start` is the number of letters of the page before it."""
+
+    page: str
+    kind: str
+    start: int
+    text: str
+
+    def __str__(self):
+        return f"{self.page}: {self.text.splitlines()[0]}"
 
 
 def links(page: Path) -> list[str]:
@@ -37,15 +54,39 @@ def anchors(page: Path) -> set[str]:
 
 
 def commands(program: str) -> list[Command]:
-    """Command lines of all pages that begin with these words; a comment after two blanks is none of it."""
-    found = []
-    for page in PAGES:
-        for shown in COMMAND.findall(page.read_text(encoding="utf-8")):
-            line = " ".join(part.strip() for part in shown.split("\\\n"))
-            words = shlex.split(re.split(r" {2,}(?=\w)", line, maxsplit=1)[0], comments=True)
-            if shlex.join(words).startswith(program):
-                found.append(Command(page.relative_to(ROOT).as_posix(), tuple(words)))
+    """Command lines of all pages that begin with these words."""
+    found = [command for page in PAGES for _, command in _commands(page) if shlex.join(command.words).startswith(program)]
     return list(dict.fromkeys(found))
+
+
+def _commands(page: Path) -> list[tuple[int, Command]]:
+    """Where a page has command lines; a comment after two blanks is none of a line."""
+    found = []
+    for shown in COMMAND.finditer(page.read_text(encoding="utf-8")):
+        line = " ".join(part.strip() for part in shown[1].split("\\\n"))
+        words = shlex.split(re.split(r" {2,}(?=\w)", line, maxsplit=1)[0], comments=True)
+        found.append((shown.start(), Command(page.relative_to(ROOT).as_posix(), tuple(words))))
+    return found
+
+
+def blocks(*kinds: str) -> list[Block]:
+    """Fenced texts of all pages with these words behind the fence."""
+    return [Block(page.relative_to(ROOT).as_posix(), shown[1], shown.start(2), shown[2]) for page in PAGES
+            for shown in FENCE.finditer(page.read_text(encoding="utf-8")) if shown[1] in kinds]
+
+
+def printed() -> list[tuple[Command | Block, Block]]:
+    """What pages show of the output of commands and snippets, each with the last of these above it."""
+    found = []
+    for block in blocks("text"):
+        text = (ROOT / block.page).read_text(encoding="utf-8")
+        if any(marked.start() < block.start < marked.end() for marked in MARKED.finditer(text)):
+            continue
+        snippets = [(snippet.start, snippet) for snippet in blocks("python") if snippet.page == block.page]
+        above = [each for each in _commands(ROOT / block.page) + snippets if each[0] < block.start]
+        assert above, f"{block.page}: nothing above prints\n{block.text}"
+        found.append((max(above, key=lambda each: each[0])[1], block))
+    return found
 
 
 def saved(page: str) -> dict[str, str]:

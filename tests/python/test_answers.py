@@ -8,10 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from documents import saved
 from interrupts import with_interrupts
 
 from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
+from bevel_differential.command import main
 from bevel_differential.want import Statistic, figures
 
 # long enough to be stopped in the middle: seconds of the richest model
@@ -33,6 +35,24 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
     assert "Needed" in str(found) and len(found.table.splitlines()) == len(found.runs) + 1
     found.plot(tmp_path / "front.png")
     assert (tmp_path / "front.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("within", ["1%", "10%"])
+def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    # the torque does not need what warms up, so the table feeds nothing
+    idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
+    (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
+    files = [f"--{kind}=chosen.{kind}" for kind in ("ssv", "python")]
+    wanted = ["--want", "left.shaft_torque:mean", "--within", within, "--write", "chosen.toml", *files]
+    assert main(["accuracy", "turn.toml", *wanted]) == 0
+    capsys.readouterr()
+    assert main(["plan", "chosen.toml"]) == 0
+    assert "changes nothing" not in capsys.readouterr().err
+    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "python")}
+    # a tenth needs no friction of washers
+    assert all(("thrust_friction.radii_from_geometry" in text) == (within == "1%") for text in written.values())
+    assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["python"]
 
 
 def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):

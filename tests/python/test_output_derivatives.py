@@ -145,8 +145,8 @@ def test_arrays_of_fmi_3_have_the_rates_of_their_elements(fmu3):
         arrays = [name for name, variable in variables.items() if variable.dimensions and variable.type == "Float64"]
         moving = 0
         for array in arrays:
-            is_pairs = array.startswith("planet[1].")
-            element = array.replace("left_pairs_", "left_pair[{}].") if is_pairs else array.replace("planets.", "planet[{}].")
+            is_pairs = array.startswith("mesh.")
+            element = array.replace("pairs_", "pair[{}].") if is_pairs else array.replace("planets.", "planet[{}].")
             expected = [rates(element.format(k), 1)[0] for k in (1, 2, 3)]
             assert rates(array, 3) == expected, array
             moving += any(expected)

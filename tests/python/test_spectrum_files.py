@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from duty_cycles import DUTY_CYCLE, FLANKS, HEAD, ROOT, ROOTS, spectrum_of
+from duty_cycles import DUTY_CYCLE, HEAD, ROOT, spectrum_of
 
 from bevel_differential import DifferentialError
 from bevel_differential.command import main
@@ -35,15 +35,9 @@ def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
 def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
     text = (ROOT / "docs" / "spectrum.md").read_text(encoding="utf-8")
     written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
-    header, rows = written[:2], [[cell.strip() for cell in line.strip("|").split("|")] for line in written[2:]]
-    found = spectrum(DUTY_CYCLE, fmu=fmu_file)
-    assert header == found.markdown()[:2] and len(rows) > 10
-    table = {str(row["event"]): row for row in found.table()}
-    for name, count, _, *cells in rows:
-        numbers = [float(cell) for cell in cells[:4] + cells[6:]]
-        expected = [table[name][column] for column in [*ROOTS, *FLANKS, "safety.root_min", "safety.flank_min"]]
-        assert float(count) == table[name]["count"] and cells[5] == table[name]["worst_mode"]
-        assert numbers == pytest.approx(expected, rel=0.02), name
+    lines = iter(spectrum(DUTY_CYCLE, fmu=fmu_file).markdown())
+    # the worst events, in their order
+    assert len(written) > 10 and all(line in lines for line in written)
 
 
 def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle):

@@ -1,18 +1,20 @@
-//! The scene with the chosen setting as a file: that of the scene, with nothing changed but what the setting has otherwise, and
-//! with paths that lead to the same files.
+//! The scene with the chosen setting as a file: that of the scene, with nothing changed but what the setting has otherwise, without
+//! the values that change nothing there, and with paths that lead to the same files.
 
 use std::fs;
 use std::path::{Path, absolute};
 
 use anyhow::{Context, Result, ensure};
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Variable, table};
+use bevel_differential::variables::felt::Situation;
+use bevel_differential::variables::{Variable, named, table};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 use super::answer::Answer;
 use super::words::{percent, setting};
+use crate::scene::acting::{acting, acts};
 use crate::scene::set::{Setting, SettingValue};
-use crate::scene::{former_names, load};
+use crate::scene::{Scene, former_names, load};
 use crate::text::shown;
 
 /// The scene with the chosen setting, as a file at `to`: paths in it lead to the same files.
@@ -28,8 +30,9 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let mut document: DocumentMut = original.parse().context("the scene's file")?;
     let outputs: Array = answer.scene.outputs.iter().map(|row| row.name).collect();
     document["outputs"] = Item::Value(Value::Array(outputs));
-    let written = load::parse(&answer.scene.name, &answer.scene.file, original)?;
-    let (wanted, inputs) = (chosen.scene.parameters, chosen.scene.inputs);
+    take_out_idle(&mut document, &chosen.scene);
+    let written = load::parse(&answer.scene.name, &answer.scene.file, &document.to_string())?;
+    let Scene { parameters: wanted, inputs, .. } = acting(&chosen.scene);
     for (key, before, after) in
         [("stop_time", written.stop_time, answer.scene.stop_time), ("step", written.step, answer.scene.step)]
     {
@@ -50,7 +53,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let head = format!(
         "# Made from scene {}: {}.\n# Error {} where {} % is wanted, against the richest model.\n\n",
         answer.scene.name,
-        setting(&wanted),
+        setting(&chosen.scene.parameters),
         percent(chosen.error()),
         100.0 * answer.within
     );
@@ -58,6 +61,62 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let again = load::parse(&answer.scene.name, &answer.scene.file, &text).context("the chosen scene")?;
     ensure!(again.parameters == wanted, "the chosen scene does not come out as it was run");
     Ok(text)
+}
+
+/// Takes the values out of a scene file that change nothing in `scene`.
+fn take_out_idle(document: &mut DocumentMut, scene: &Scene) {
+    let is_idle = |name: &str, situation| named(name).is_some_and(|row| !acts(row, scene, situation));
+    if let Some(set) = document.get_mut("set").and_then(Item::as_table_like_mut) {
+        take_out(set, "", &|name| is_idle(name, Situation::START));
+    }
+    retain(document.get_mut("at"), &|at| {
+        take_out(at, "", &|name| is_idle(name, Situation::RUNNING));
+        // its time is left
+        at.len() > 1
+    });
+    let input = |table: &dyn TableLike| table.get("input").and_then(Item::as_str).map(str::to_owned);
+    retain(document.get_mut("table"), &|table| !input(table).is_some_and(|name| is_idle(&name, Situation::START)));
+}
+
+/// Takes the names that are `idle` out of a table with dotted or nested keys.
+fn take_out(table: &mut dyn TableLike, prefix: &str, idle: &dyn Fn(&str) -> bool) {
+    let keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
+    for key in keys {
+        let name = format!("{prefix}{key}");
+        let is_empty = match table.get_mut(&key).and_then(Item::as_table_like_mut) {
+            Some(group) => {
+                take_out(group, &format!("{name}."), idle);
+                group.is_empty()
+            }
+            None => idle(&name),
+        };
+        if is_empty {
+            table.remove(&key);
+        }
+    }
+}
+
+/// Keeps the tables of a list for which `keep` is true.
+fn retain(mut list: Option<&mut Item>, keep: &dyn Fn(&mut dyn TableLike) -> bool) {
+    let mut kept = tables(list.as_deref_mut()).into_iter().map(keep).collect::<Vec<_>>().into_iter();
+    match list {
+        Some(Item::ArrayOfTables(tables)) => tables.retain(|_| kept.next().unwrap_or(true)),
+        Some(Item::Value(Value::Array(values))) => {
+            values.retain(|value| !value.is_inline_table() || kept.next().unwrap_or(true))
+        }
+        _ => {}
+    }
+}
+
+/// The tables of a list.
+fn tables(list: Option<&mut Item>) -> Vec<&mut dyn TableLike> {
+    match list {
+        Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as _).collect(),
+        Some(Item::Value(Value::Array(values))) => {
+            values.iter_mut().filter_map(Value::as_inline_table_mut).map(|table| table as _).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Value of a parameter or input, as a file has it.
@@ -113,17 +172,12 @@ fn dotted(inline: bool) -> Item {
 /// The text of the scene in `from`, with paths that lead to the same files from where `to` is.
 pub fn moved(text: String, from: &Path, to: &Path) -> Result<String> {
     let mut document: DocumentMut = text.parse().context("the scene's file")?;
-    let Some(inputs) = document.get_mut("inputs") else { return Ok(text) };
+    if !document.contains_key("inputs") {
+        return Ok(text);
+    }
     let folder = |file: &Path| absolute(file).map(|file| file.parent().unwrap_or(&file).to_path_buf());
     let (old, new) = (folder(from)?, folder(to)?);
-    let tables: Vec<&mut dyn TableLike> = match inputs {
-        Item::ArrayOfTables(tables) => tables.iter_mut().map(|table| table as _).collect(),
-        Item::Value(Value::Array(values)) => {
-            values.iter_mut().filter_map(Value::as_inline_table_mut).map(|table| table as _).collect()
-        }
-        _ => Vec::new(),
-    };
-    for table in tables {
+    for table in tables(document.get_mut("inputs")) {
         let Some(file) = table.get("file").and_then(|file| file.as_str()) else { continue };
         let file = old.join(file);
         // there is no way from one drive of Windows to another

@@ -17,6 +17,7 @@ use crate::accuracy::words::difference;
 use crate::accuracy::{Question, chosen, report, table, want};
 use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
+use crate::scene::acting::acting;
 use crate::scene::{former_names, script, ssv};
 
 /// Asks for the cheapest model of a scene that gives the wanted quantities within an accuracy.
@@ -97,10 +98,11 @@ impl AccuracyQuestion {
         let setting_json = |run: Option<usize>| {
             let run = run.map(|run| &found.trials[run])?;
             let [on, own] = [&run.scene.parameters, &found.choice()?.scene.parameters];
-            Some(json!({"set": changed(&run.scene), "difference": difference(own, on)}))
+            Some(json!({"set": changed(&acting(&run.scene)), "difference": difference(own, on)}))
         };
         let choice = found.choice();
-        let text = |what: fn(&crate::scene::Scene) -> Result<String>| choice.map(|run| what(&run.scene)).transpose();
+        let text =
+            |what: fn(&crate::scene::Scene) -> Result<String>| choice.map(|run| what(&acting(&run.scene))).transpose();
         let file = self.file.as_deref().filter(|_| choice.is_some()).map(|to| chosen::file(&found, to)).transpose()?;
         Ok(json!({
             "text": report::text(&found),
@@ -115,7 +117,7 @@ impl AccuracyQuestion {
             "cheaper": setting_json(found.too_coarse),
             "richer": setting_json(found.richer),
             "reference": {
-                "set": changed(&found.reference.scene),
+                "set": changed(&acting(&found.reference.scene)),
                 "values": found.reference.values,
                 "scales": found.scales,
             },

@@ -1,5 +1,6 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
+pub mod acting;
 pub mod assignments;
 pub mod display_units;
 pub mod former_names;

@@ -6,10 +6,12 @@ use answers::accuracy::answer::{Answer, Role};
 use answers::accuracy::gears::Gears;
 use answers::accuracy::{Question, answer, chosen, report};
 use answers::progress::Progress;
-use answers::scene::run::run;
+use answers::scene::run::{SceneRun, run};
 use answers::scene::{Scene, load};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::GearContact;
+use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::index_of;
 
 /// No teeth, 50 rad/s, 99 N.m on each side.
 const IDEAL: &str = r#"
@@ -147,6 +149,36 @@ fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
     let trial = found.choice().expect("a setting");
     // this one summarises from the start on
     assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);
+}
+
+#[test]
+fn a_scene_is_written_without_the_values_that_change_nothing() {
+    let idle = "oil.temperature = \"80 degC\"
+effects.thrust_friction = true
+thrust_friction = { coefficient = 0.04, cold_factor = 1.5 }
+contact.damping = 60e3
+
+[[at]]
+time = \"10 ms\"
+thrust_friction.coefficient = 0.06
+
+[[at]]
+time = \"20 ms\"
+left.load_torque = \"410 N.m\"
+thrust_friction.coefficient = 0.05
+";
+    // no teeth give the carrier's torque of a turn with little friction
+    let found = asked(&format!("{TEETH}{idle}"), &["carrier.torque:mean"], 0.2);
+    let text = chosen::text(&found, &format!("{TEETH}{idle}")).expect("a file");
+    assert!(!text.contains("thrust_friction.") && !text.contains("oil."), "{text}");
+    let scene = parsed(&text);
+    for setting in &scene.settings {
+        let index = index_of(setting.row.name).expect("a variable");
+        assert!(felt::acts(index, &mut scene.parameters.clone(), Situation::START), "{}", setting.row.name);
+    }
+    assert_eq!(scene.events.iter().map(|event| event.settings.len()).collect::<Vec<_>>(), [1], "{text}");
+    let started = SceneRun::start(&scene, scene.step).expect("a start");
+    assert!(!started.warnings().iter().any(|warning| warning.contains("changes nothing")), "{text}");
 }
 
 #[test]

@@ -1,14 +1,10 @@
 //! The derived dimensions: golden numbers, the same in text and JSON, set by name and unit, refused with all reasons.
 
-use std::fs;
-
 use answers::geometry::design::{Design, parameters};
 use answers::geometry::dimensions::{DimensionGroup, of_gears, of_pair};
 use answers::geometry::{json, text, tredgold};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde_json::Value;
-
-use crate::workspace;
 
 fn document(design: &Design) -> Result<Value> {
     Ok(serde_json::from_str(&json::text(design, None)?)?)
@@ -273,16 +269,4 @@ fn errors_are_reported_at_once_with_name_range_and_unit() {
     assert!(refused(&["geometry.planet_addendum=1.2"]).contains("changes nothing without"));
     assert!(refused(&["contact.law=line"]).contains("does not change the geometry"));
     assert!(refused(&["geometry.shaft_angle=80deg"]).contains("only at 90 deg"));
-}
-
-#[test]
-fn the_excerpt_in_the_documentation_is_what_the_program_prints() -> Result<()> {
-    let page = fs::read_to_string(workspace().join("docs/geometry.md"))?;
-    let excerpt = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).context("an excerpt")?;
-    let text = text::text(&Design::new::<&str>(&[])?);
-    assert!(excerpt.lines().count() > 10);
-    for line in excerpt.lines().filter(|line| line.trim() != "...") {
-        assert!(text.lines().any(|printed| printed == line), "not printed: {line}");
-    }
-    Ok(())
 }

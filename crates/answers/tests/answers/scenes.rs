@@ -4,10 +4,10 @@ use std::path::Path;
 
 use answers::progress::Progress;
 use answers::scene::run::{SceneResult, SceneRun, run};
-use answers::scene::{InputTable, Scene, all, files, find, load, loads, plan};
+use answers::scene::{InputTable, Scene, files, find, load, loads, plan};
 use anyhow::Result;
 
-use crate::{folder, workspace};
+use crate::folder;
 
 /// Communication steps that every scene has to take here.
 const STEPS: u64 = 20;
@@ -119,16 +119,6 @@ fn scenes_without_teeth_have_no_loads() -> Result<()> {
         .expect_err("no teeth")
         .to_string();
     assert!(problem.contains("scene.gear_contact = ideal"), "{problem}");
-    Ok(())
-}
-
-#[test]
-fn the_documentation_lists_all_scenes() -> Result<()> {
-    let page = std::fs::read_to_string(workspace().join("docs").join("scenes.md"))?;
-    for scene in all(&folder())? {
-        let row = page.lines().find(|line| line.starts_with(&format!("{} ", scene.name)));
-        assert!(row.is_some_and(|row| row.ends_with(&scene.description)), "docs/scenes.md: {}", scene.name);
-    }
     Ok(())
 }
 

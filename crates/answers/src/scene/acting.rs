@@ -1,0 +1,36 @@
+//! A scene without the values that change nothing in it.
+
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::{Variable, assign, index_of, table, value_of};
+
+use super::Scene;
+
+/// `scene` with start values in place of those that change nothing in it, and without naming them.
+pub fn acting(scene: &Scene) -> Scene {
+    let mut found = scene.clone();
+    for row in table().rows.iter().filter(|row| !acts(row, scene, Situation::START)) {
+        if let Some(start) = value_of(row, &Parameters::default(), &Inputs::default()) {
+            // a start value is within its range
+            let fits = assign(row, start, &mut found.parameters, &mut found.inputs);
+            debug_assert_eq!(fits, Ok(()));
+        }
+    }
+    found.settings.retain(|setting| acts(setting.row, scene, Situation::START));
+    for event in &mut found.events {
+        event.settings.retain(|setting| acts(setting.row, scene, Situation::RUNNING));
+    }
+    found.events.retain(|event| !event.settings.is_empty());
+    found.input_tables.retain(|table| acts(table.row, scene, Situation::START));
+    found
+}
+
+/// Whether something in `scene` depends on the value of `row`. Of values that only outputs repeat, those act whose unit an output of
+/// the scene has.
+pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
+    let Some(index) = index_of(row.name) else { return true };
+    let mut parameters = scene.parameters;
+    let unit = |row: &Variable| row.unit.map(|unit| unit.name);
+    let is_repeated = || scene.outputs.iter().any(|output| unit(output) == unit(row));
+    felt::acts(index, &mut parameters, situation) || felt::is_felt(index, &mut parameters, situation) && is_repeated()
+}

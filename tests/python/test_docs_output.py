@@ -1,0 +1,192 @@
+"""Commands, snippets and files of the pages run as printed, and what a page shows of their output is what they print, to the digit.
+
+Only times that depend on the machine may differ. Lines `...` of a page stand for any lines, and warnings may be left out of a page.
+`RENEW=1` in the environment writes what is printed now into the pages, but for these times."""
+
+import difflib
+import io
+import os
+import re
+import runpy
+import shutil
+import subprocess
+import sys
+import textwrap
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import pytest
+from bevel_differential import command
+from documents import ROOT, blocks, commands, printed, saved
+
+# what depends on the machine
+TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.]+ of the [\d.]+(?= ms of a run)")
+# longest line of a page, and the length to which it wraps longer ones
+WIDEST, WIDTH = 160, 120
+GAP = re.compile(r"^ *\.\.\.\n", re.MULTILINE)
+# for commands whose output no page shows: what makes them quick
+QUICKER = {
+    "optimise": ["--quick", "--population", "16", "--generations", "1"],
+    "tolerance": ["--runs", "8", "--no-indices"],
+    "sweep": ["--runs", "4"],
+    "losses": ["--torque", "1000 N.m", "--speed", "10 rad/s", "--difference", "1 rad/s", "--temperature", "80 degC", "--unseen", "4"],
+    "bench": ["breakaway"],
+    "report": ["--quick"],
+}
+# opens a browser, and takes a file that a build makes (test_page_command.py)
+NOT_RUN = "page"
+# files of pages that name no file to save: their names, and the command that reads them
+FILES = {
+    ("docs/optimisation.md", "toml"): ("problem.toml", ["optimise"]),
+    ("docs/scenes.md", "toml"): ("scene.toml", ["run"]),
+    ("docs/scenes.md", "csv"): ("cycle.csv", None),
+    ("docs/spectrum.md", "csv"): ("cycle.csv", ["spectrum"]),
+    ("docs/sweeps.md", "toml"): ("plan.toml", ["sweep", "--plan-file"]),
+    ("docs/tolerances.md", "toml"): ("tolerances.toml", ["tolerance"]),
+}
+SHOWN = {}
+for source, block in printed():
+    SHOWN.setdefault(source, []).append(block)
+COMMANDS = [one for one in commands("bevel-differential") if one.words[1] != NOT_RUN and not one.words[1].isupper()]
+OF_FMPY = commands("target/python/bin/fmpy info")
+# a process of its own shows once for each command that it needs nothing from others
+ALONE = list({one.words[1]: one for one in reversed(COMMANDS)}.values())
+
+
+@pytest.fixture
+def reader(fmu_file, tmp_path, monkeypatch):
+    """reader(page): a folder, now the current one, with what a reader of the page has: an FMU, examples and the files that it shows."""
+
+    def prepared(page):
+        shutil.copytree(ROOT / "examples" / "design", tmp_path / "examples" / "design")
+        (tmp_path / "target").mkdir()
+        (tmp_path / "target" / "fmu").symlink_to(Path(fmu_file).resolve().parent)
+        for name, text in saved(page).items():
+            (tmp_path / name).write_text(text, encoding="utf-8")
+        monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(Path(fmu_file).resolve()))
+        monkeypatch.setenv("MPLBACKEND", "Agg")
+        monkeypatch.chdir(tmp_path)
+        return tmp_path
+
+    return prepared
+
+
+def called(words, alone=False):
+    """Exit status of the command with these words, and what a terminal shows."""
+    if alone:
+        done = subprocess.run([sys.executable, "-u", "-m", "bevel_differential", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, encoding="utf-8", timeout=300, check=False)
+        return done.returncode, done.stdout
+    said = io.StringIO()
+    with redirect_stdout(said), redirect_stderr(said):
+        return command.main(words), said.getvalue()
+
+
+def plain(text, wrapped):
+    """The text without what may differ: times, and the places of line breaks where a page wraps."""
+    text = TIME.sub("(time)", text)
+    return " ".join(text.split()) if wrapped else text.strip("\n")
+
+
+def shows(block, said):
+    """Whether the block shows what was said."""
+    wrapped = TIME.search(block) or any(len(line) > WIDEST for line in said.splitlines())
+    parts = GAP.split(block)
+    return re.fullmatch(r"[\s\S]*?".join(re.escape(plain(part, wrapped)) for part in parts), plain(said, wrapped)) is not None
+
+
+def now(block, said):
+    """The block with what is said now: of an excerpt the lines that resemble its own most, in their order."""
+    lines = said.strip("\n").splitlines()
+    chosen, place = lines, 0
+    if GAP.search(block):
+        chosen = []
+        for line in block.splitlines():
+            if GAP.match(f"{line}\n"):
+                chosen.append("...")
+                continue
+            [nearest] = difflib.get_close_matches(line, lines[place:], n=1, cutoff=0.0)
+            found = lines.index(nearest, place)
+            if found > place and chosen[-1:] != ["..."]:
+                chosen.append("...")
+            chosen.append(nearest)
+            place = found + 1
+        if place < len(lines) and chosen[-1] != "...":
+            chosen.append("...")
+    fitting = (textwrap.wrap(line, WIDTH, break_on_hyphens=False) if len(line) > WIDEST else [line] for line in chosen)
+    renewed = "".join(f"{part}\n" for parts in fitting for part in parts)
+    times = TIME.findall(block)
+    # this machine may be another one, and busy
+    return TIME.sub(lambda _: times.pop(0), renewed) if len(times) == len(TIME.findall(renewed)) else renewed
+
+
+def check(source, said):
+    """All blocks that show the output of a command or snippet; renews them if that is asked for."""
+    for shown in SHOWN.get(source, []):
+        heard = said if "warning: " in shown.text else re.sub(r"^warning: .*\n", "", said, flags=re.MULTILINE)
+        if shows(shown.text, heard):
+            continue
+        renewed = now(shown.text, heard)
+        can_be_renewed = os.environ.get("RENEW") and shows(renewed, heard)
+        assert can_be_renewed, f"{shown.page} shows\n{shown.text}\nand printed is (RENEW=1 renews the page)\n{renewed}"
+        page = ROOT / shown.page
+        text = page.read_text(encoding="utf-8")
+        page.write_text(text.replace(f"```text\n{shown.text}```", f"```text\n{renewed}```"), encoding="utf-8")
+
+
+@pytest.mark.parametrize("shown", COMMANDS, ids=str)
+def test_a_command_runs_and_prints_what_its_page_shows(shown, reader):
+    reader(shown.page)
+    words = [*shown.words[1:], *([] if shown in SHOWN else QUICKER.get(shown.words[1], []))]
+    status, said = called(words, shown in ALONE)
+    check(shown, said)
+    # a page may show a refusal, and a quick search may find nothing
+    assert status == 0 or shown in SHOWN or "no feasible design among" in said, said
+
+
+@pytest.mark.parametrize("shown", OF_FMPY, ids=str)
+def test_fmpy_prints_what_the_page_shows(shown, reader):
+    reader(shown.page)
+    done = subprocess.run([sys.executable, "-m", "fmpy", *shown.words[1:]], capture_output=True, text=True, check=True)
+    check(shown, done.stdout)
+
+
+@pytest.mark.parametrize("snippet", blocks("python"), ids=str)
+def test_a_snippet_runs_and_prints_what_its_page_shows(snippet, reader):
+    script = reader(snippet.page) / "snippet.py"
+    script.write_text(snippet.text, encoding="utf-8")
+    with redirect_stdout(io.StringIO()) as said:
+        runpy.run_path(str(script), run_name="__main__")
+    check(snippet, said.getvalue())
+
+
+@pytest.mark.parametrize("shown", blocks("toml", "csv"), ids=str)
+def test_a_file_of_a_page_is_understood_as_it_is_printed(shown, reader):
+    folder = reader(shown.page)
+    if shown.text in saved(shown.page).values():
+        # a command of the page names it
+        return
+    name, words = FILES[shown.page, shown.kind]
+    with chdir(folder / "examples" / "design"):
+        for other in blocks("toml", "csv"):
+            if other.page == shown.page:
+                Path(FILES[other.page, other.kind][0]).write_text(other.text, encoding="utf-8")
+        if words:
+            status, said = called([*words, name, *QUICKER.get(words[0], [])])
+            assert status == 0, said
+
+
+def test_all_that_pages_show_is_compared():
+    assert not [str(source) for source in SHOWN if source not in [*COMMANDS, *OF_FMPY, *blocks("python")]]
+
+
+def test_what_is_shown_is_found_by_its_digits_and_not_by_its_times():
+    said = "force 12.5 N\n\nerror 1.0 %; 50 x real time; more\nends\n"
+    assert shows("force 12.5 N\n\nerror 1.0 %; 7.25 x real time; more\nends\n", said)
+    assert shows("...\nerror 1.0 %; 7.25 x real\ntime; more\n...\n", said)
+    assert not shows("force 12.6 N\n\nerror 1.0 %; 50 x real time; more\nends\n", said)
+    assert not shows("force 12.5 N\n\nerror 1.0 %; 50 x real time; more\n", said)
+    assert not shows("force 12.5 N\nends\n", said)
+    assert now("force 9 N\n...\nends\n", said) == "force 12.5 N\n...\nends\n"
+    assert now("...\nforce 9 N\nends\n", said) == "...\nforce 12.5 N\n...\nends\n"
+    assert now("...\nerror 2.0 %; 7.25 x real time; more\n...\n", said) == "...\nerror 1.0 %; 7.25 x real time; more\n...\n"
