@@ -102,14 +102,14 @@ impl Snapshot {
     }
 
     /// Rebuilds the simulation under the present parameters: a running one continues, another one will start again on demand.
+    #[cold]
+    #[inline(never)] // its frame is large for a small stack
     fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
-        match self.simulation.take() {
-            Some(simulation) if self.phase != Phase::Initialization => {
-                let state = Box::new((*simulation.state(), *simulation.watched()));
-                self.resume((Some(state), simulation.accepted().map(|accepted| Box::new(*accepted))), cache)
-            }
-            _ => Ok(()),
-        }
+        let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
+        let state = running.map(|s| Box::new((*s.state(), *s.watched())));
+        let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
+        self.simulation = None;
+        self.resume((state, accepted), cache)
     }
 
     /// Continues what was `running`, if anything, under the present parameters.

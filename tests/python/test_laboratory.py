@@ -73,6 +73,12 @@ def test_deviations_of_hosts_are_relative_to_the_value_or_the_natural_scale():
     assert found.largest == pytest.approx(0.01, abs=1e-15)
 
 
+def test_the_scale_of_a_derivative_is_its_largest_value():
+    own = host_record((0, 1.0, 0.0), (1, -200.0, 0.0))
+    assert hosts.largest(own) == {"a": 200.0, "b": 1.0}
+    assert hosts.deviation(own, host_record((0, 3.0, 0.0), (1, -200.0, 0.0)), False, hosts.largest(own)).largest == 0.01
+
+
 def test_a_missing_point_is_an_error_but_for_the_start():
     own, scales = host_record((0, 1.0, 0.0), (1, 2.0, 0.0)), {"a": 1.0, "b": 1.0}
     later = host_record((1, 2.0, 0.0))
