@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
-use crate::scene::{self, Scene, former_names, loads, plan, script, ssv, warnings};
+use crate::scene::{self, Scene, acting, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// All scenes of a folder.
@@ -115,7 +115,7 @@ impl SceneQuestion {
     }
 
     pub(super) fn acting(&self, progress: &mut Progress) -> Result<Value> {
-        Ok(json!({"names": warnings::acting(&self.of.scene(progress)?)}))
+        Ok(json!({"names": acting::names(&self.of.scene(progress)?)}))
     }
 
     pub(super) fn plan(&self, progress: &mut Progress) -> Result<Value> {

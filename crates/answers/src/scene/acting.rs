@@ -1,4 +1,4 @@
-//! A scene without the values that change nothing in it.
+//! What acts in a scene: its variables, and the scene without the values that change nothing in it.
 
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::felt::{self, Situation};
@@ -23,6 +23,13 @@ pub fn acting(scene: &Scene) -> Scene {
     found.events.retain(|event| !event.settings.is_empty());
     found.input_tables.retain(|table| acts(table.row, scene, Situation::START));
     found
+}
+
+/// Names of the variables whose values take effect in `scene`, and of the outputs that are not those of an absent effect.
+pub fn names(scene: &Scene) -> Vec<&'static str> {
+    let mut parameters = scene.parameters;
+    let mut acts = |index: usize| felt::acts(index, &mut parameters, Situation::START);
+    table().rows.iter().enumerate().filter(|(index, _)| acts(*index)).map(|(_, row)| row.name).collect()
 }
 
 /// Whether something in `scene` depends on the value of `row`. Of values that only outputs repeat, those act whose unit an output of

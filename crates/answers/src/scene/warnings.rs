@@ -4,7 +4,7 @@ use bevel_differential::model::{Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
 use bevel_differential::variables::unset::{self, SetValues};
-use bevel_differential::variables::{index_of, number, table};
+use bevel_differential::variables::{index_of, number};
 
 use super::Scene;
 
@@ -32,13 +32,6 @@ pub fn set_values(scene: &Scene) -> SetValues {
         }
     }
     set
-}
-
-/// Names of the variables whose values take effect in `scene`, and of the outputs that are not those of an absent effect.
-pub fn acting(scene: &Scene) -> Vec<&'static str> {
-    let mut parameters = scene.parameters;
-    let mut acts = |index: usize| felt::acts(index, &mut parameters, Situation::START);
-    table().rows.iter().enumerate().filter(|(index, _)| acts(*index)).map(|(_, row)| row.name).collect()
 }
 
 /// Values that change nothing in `scene`, at the start or later, each variable once.
