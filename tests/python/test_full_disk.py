@@ -82,6 +82,7 @@ CASES = {
     "bench": (["winter_start", "--out", "out", "--workers", "0"], "out/winter_start.toml", 150_000, ()),
     "study": (["--out", "out"], "out/table.md", 190_000, ()),
     "verify": (["--quick", "--csv", "a.csv"], "a.csv", 0, ()),
+    "variables": (["--csv", "a.csv"], "a.csv", 0, ()),
     "examples": (["--out", "."], None, 12_288, ()),
 }
 FOLDERS = ("geometry", "pattern", "optimise", "bench", "study", "examples")

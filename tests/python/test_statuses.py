@@ -3,16 +3,17 @@
 import argparse
 import dataclasses
 import importlib
-import shutil
 import webbrowser
 from pathlib import Path
 
 import pytest
 
 import stand_in
-from bevel_differential import answers, cad
+from bevel_differential import cad, library
 from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
+from bevel_differential.command import examples as examples_command
 from bevel_differential.command import page as page_command
+from bevel_differential.fmu import Fmu
 from bevel_differential.instance import Instance
 from bevel_differential.verify import experiment
 from bevel_differential.verify.evidence import MANIFEST
@@ -90,6 +91,7 @@ CASES = {
     "study": {DONE: "study --quick", FAILED: f"study --quick --out {NOWHERE}/a", WRONG: "study --quick --fmu none.fmu"},
     "verify": {DONE: "verify good.fmu", FAILED: f"verify good.fmu --csv {NOWHERE}/a.csv", WRONG: "verify none.fmu", FINDING: "verify bad.fmu"},
     "examples": {DONE: "examples", FAILED: f"examples --out {NOWHERE}/a", WRONG: "examples --out there"},
+    "variables": {DONE: "variables drag", FAILED: f"variables --csv {NOWHERE}/a.csv", WRONG: "variables --acting study_turnin"},
     "page": {DONE: "page", FAILED: "page", WRONG: "page --paht"},
 }
 EACH = [(status, line) for cases in CASES.values() for status, line in cases.items()]
@@ -140,7 +142,8 @@ def test_ctrl_c_ends_every_command_with_its_status(name, prepared, monkeypatch, 
         raise KeyboardInterrupt
 
     prepared(DONE)
-    for owner, function in ((answers, "_library"), (Instance, "start"), (experiment, "simulate_fmu"), (shutil, "copyfile"), (webbrowser, "open")):
+    for owner, function in ((library, "_library"), (Instance, "start"), (experiment, "simulate_fmu"), (examples_command, "write_whole"), (Fmu, "find"),
+                            (webbrowser, "open")):
         monkeypatch.setattr(owner, function, interrupted)
     assert main(CASES[name][DONE].split()) == INTERRUPTED
     assert "stopped" in capsys.readouterr().err

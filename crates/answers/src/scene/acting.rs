@@ -1,6 +1,6 @@
 //! What acts in a scene: its variables, and the scene without the values that change nothing in it.
 
-use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::variables::felt::{self, Situation};
 use bevel_differential::variables::{Variable, assign, index_of, table, value_of};
 
@@ -29,7 +29,20 @@ pub fn acting(scene: &Scene) -> Scene {
 pub fn names(scene: &Scene) -> Vec<&'static str> {
     let mut parameters = scene.parameters;
     let mut acts = |index: usize| felt::acts(index, &mut parameters, Situation::START);
-    table().rows.iter().enumerate().filter(|(index, _)| acts(*index)).map(|(_, row)| row.name).collect()
+    let rows =
+        table().rows.iter().enumerate().filter(|(index, row)| acts(*index) && !is_of_absent_effect(row.name, scene));
+    rows.map(|(_, row)| row.name).collect()
+}
+
+/// Whether an output is of effects alone that are off in `scene`, and therefore 0.
+fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
+    let owners = EFFECTS.iter().filter(|effect| {
+        effect.heat.is_some_and(|heat| heat.output == output)
+            || effect.readings.iter().any(|reading| reading.name == output)
+    });
+    let may_act = |switch| scene.parameters.effects.active().any(|on| on == switch);
+    let mut switches = owners.map(|effect| effect.switch.filter(|_| !effect.may_act_unswitched)).peekable();
+    switches.peek().is_some() && switches.all(|switch| switch.is_some_and(|switch| !may_act(switch)))
 }
 
 /// Whether something in `scene` depends on the value of `row`. Of values that only outputs repeat, those act whose unit an output of

@@ -28,19 +28,26 @@ def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     return values
 
 
-def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
-    """A file to write, of a kind in `output_file.ENDINGS`; one that cannot be written is wrong use, before any work."""
+class _File(argparse.Action):
+    """Takes a file that is to be written, checked before any work: an unknown ending is wrong use, a read-only folder a failure."""
 
-    def file(text: str) -> Path | None:
+    def __init__(self, kind: str, **named: Any):
+        super().__init__(**named)
+        self.kind = kind
+
+    def __call__(self, parser, namespace, values, option_string=None):
         try:
-            return checked(text, kind)
+            setattr(namespace, self.dest, checked(values, self.kind))
         except DifferentialError as error:
             if error.kind == "failed":
                 raise
-            raise argparse.ArgumentTypeError(str(error)) from None
+            raise argparse.ArgumentError(self, str(error)) from None
 
+
+def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
+    """A file to write, of a kind in `output_file.ENDINGS`."""
     help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
-    parser.add_argument(option, metavar="FILE", type=file, help=help, **more)
+    parser.add_argument(option, metavar="FILE", action=_File, kind=kind, help=help, **more)
 
 
 def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:

@@ -5,7 +5,8 @@ import shutil
 import textwrap
 
 from ..values import Variable
-from .arguments import add_fmu
+from . import DONE
+from .arguments import add_file, add_fmu
 
 HEAD = ("name", "kind", "type", "unit", "start", "min", "max", "display unit", "literals", "description")
 # narrowest column of descriptions; in a narrower terminal each variable has a paragraph
@@ -16,18 +17,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("words", nargs="*", metavar="WORD", help="list variables with all these words in name or description")
     parser.add_argument("--acting", metavar="SCENE", help="list variables that take effect in a scene: a file (TOML), or a shipped scene")
-    parser.add_argument("--csv", metavar="FILE", help="write the list, in SI: CSV, or Parquet where the file ends in .parquet")
+    add_file(parser, "--csv", "table", "write the list, in SI")
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints the list and writes a file. Returns 0."""
+    """Prints the list and writes a file."""
     from ..fmu import Fmu
-    from ..output_file import checked
     from ..records import write
     from ..values import variable_suggestion
 
-    checked(arguments.csv)
     fmu = Fmu.of(arguments.fmu)
     found = fmu.find(*arguments.words, acting=arguments.acting)
     print("\n".join(_table(found)), end="\n" if found else "")
@@ -35,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"{len(found)} of {len(fmu.variables)} variables{near}")
     if arguments.csv:
         print(f"written: {write(arguments.csv, HEAD, map(_row, found), f'variables of {fmu.file.name}')}")
-    return 0
+    return DONE
 
 
 def _kind(variable: Variable) -> str:
