@@ -135,19 +135,19 @@ fn differences(
     let (mut second, mut fourth, mut largest) = (vec![0.0; count], vec![0.0; count], vec![0.0f64; count]);
     let mut first = vec![None; count];
     for &(place, [of_second, of_fourth]) in points {
-        let mut moved = now.clone();
+        let (mut parameters, mut inputs) = (now.parameters, now.inputs);
         for (reference, change) in known.clone() {
             let row = row(reference)?;
             let value = match row.access {
-                Access::Input(slot) => slot(&mut moved.inputs),
-                Access::Real(slot) => slot(&mut moved.parameters),
+                Access::Input(slot) => slot(&mut inputs),
+                Access::Real(slot) => slot(&mut parameters),
                 _ => continue,
             };
             let wanted = *value + place * step * change;
             // rounding does not lead out of the range
             *value = row.range.map_or(wanted, |range| wanted.clamp(range.min, range.max));
         }
-        let mut simulation = moved.start(cache).map_err(|problems| {
+        let mut simulation = now.start_from(&parameters, &inputs, cache).map_err(|problems| {
             CallError::error(format!(
                 "there is no derivative, because initialisation fails close to these values:\n{}",
                 crate::problem::list(&problems)

@@ -77,11 +77,21 @@ type Running = (Option<Box<(State, Watched)>>, Option<Box<Accepted>>);
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
     pub fn start(&self, cache: &GearCache) -> Result<Simulation, Vec<Problem>> {
-        let problems = check_ranges(&self.parameters);
+        self.start_from(&self.parameters, &self.inputs, cache)
+    }
+
+    /// The same from other parameters and inputs.
+    pub fn start_from(
+        &self,
+        parameters: &Parameters,
+        inputs: &Inputs,
+        cache: &GearCache,
+    ) -> Result<Simulation, Vec<Problem>> {
+        let problems = check_ranges(parameters);
         if !problems.is_empty() {
             return Err(problems);
         }
-        Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(cache))
+        Simulation::start_with(&self.effective(parameters), inputs, self.start_time, &given(cache))
     }
 
     /// Takes over the stop time and the tolerance of `experiment`, if it has them. A tolerance that was set as a parameter stays.
@@ -115,17 +125,18 @@ impl Snapshot {
     /// Continues what was `running`, if anything, under the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
         if let (Some(state), accepted) = running {
-            let resumed = Simulation::resume_with(&self.effective(), &self.inputs, *state, &given(cache));
+            let resumed =
+                Simulation::resume_with(&self.effective(&self.parameters), &self.inputs, *state, &given(cache));
             let resumed = resumed.map_err(|p| problem::list(&p))?;
             self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
         }
         Ok(())
     }
 
-    /// Parameters for the simulation: in model exchange every planet has its own states, and the motion between completed steps
+    /// `parameters` for the simulation: in model exchange every planet has its own states, and the motion between completed steps
     /// is the host's, so that there is no history of it.
-    fn effective(&self) -> Parameters {
-        let mut parameters = self.parameters;
+    fn effective(&self, parameters: &Parameters) -> Parameters {
+        let mut parameters = *parameters;
         let own_steps = self.kind == Kind::CoSimulation;
         parameters.solver.merge_planets &= own_steps;
         parameters.effects.mesh_history &= own_steps;

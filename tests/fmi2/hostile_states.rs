@@ -106,7 +106,7 @@ fn absurd_numbers_in_a_state_with_teeth_are_refused_or_do_no_harm() {
         assert_eq!(host.set_boolean(&format!("effects.{switch}"), 1), Status::Ok);
     }
     assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-    assert_eq!(host.set_many(&["planet.spin_command", "left.brake_torque"], &[20.0, 50.0]), Status::Ok);
+    assert_eq!(host.set_many(&["spin.command", "left.brake_torque"], &[20.0, 50.0]), Status::Ok);
     host.start();
     // a tooth has passed, and a step of the solver is pending
     host.steps(0.0, 1e-3, 60);

@@ -16,7 +16,7 @@ const SCENES: [(&str, Set); 4] = [
         level(host, 3);
         assert_eq!(host.set_integer("geometry.planet_count", 4), Status::Ok);
         assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-        assert_eq!(host.set("planet.spin_command", 3.0), Status::Ok);
+        assert_eq!(host.set("spin.command", 3.0), Status::Ok);
         assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
         assert_eq!(host.set_boolean("effects.pin_compliance", 1), Status::Ok);
     }),
@@ -125,7 +125,7 @@ fn inputs_and_states_are_set_in_one_call() {
     for (name, set) in SCENES {
         let [apart, mixed] = [(); 2].map(|()| turned(set));
         let x = moved(&apart.states());
-        let inputs = ["carrier.speed_command", "left.load_torque", "planet.spin_command"];
+        let inputs = ["carrier.speed_command", "left.load_torque", "spin.command"];
         let values = [17.0, 640.0, 2.5];
         assert_eq!(apart.host.set_many(&inputs, &values), Status::Ok);
         apart.set(apart.time, &x);

@@ -9,7 +9,7 @@ from fmi3 import Unit3
 
 COUNT = 30
 WHEELS = {"inertia.left_end": 0.5, "inertia.right_end": 0.5}
-SCENES = {"study": WHEELS, "turn": {"scene.planet_spin": 2, "planet.spin_command": 3.0} | WHEELS,
+SCENES = {"study": WHEELS, "turn": {"scene.planet_spin": 2, "spin.command": 3.0} | WHEELS,
           "torque, half-shafts, pins": {"scene.carrier_drive": 2, "effects.half_shaft": True, "effects.pin_compliance": True} | WHEELS,
           "without teeth": {"scene.gear_contact": 1} | WHEELS}
 

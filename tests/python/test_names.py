@@ -1,5 +1,6 @@
 """Names of variables: a tree, as tools that build buses or records need it; former names still find their variables."""
 
+import math
 import re
 import subprocess
 import sys
@@ -95,6 +96,11 @@ def test_all_former_names_find_their_variables(fmu):
     for name in ("planet.spin", "planet[1].left_pair[4].force", "planet[1].left_pair", "planet.spin_speed"):
         with pytest.raises(DifferentialError, match="there is no such variable"):
             fmu.variable(name)
+
+
+def test_a_unit_that_is_shown_hides_no_former_name(fmu):
+    with pytest.warns(DifferentialWarning, match="spin.command"):
+        assert fmu.displaying(["rpm"]).variable("planet.spin_command").shown(math.tau / 60.0) == ("rpm", pytest.approx(1.0))
 
 
 def test_a_differential_takes_former_names_and_its_records_answer_to_both(fmu_file):

@@ -30,7 +30,7 @@ outputs = ["safety.root_min"]
 [set]
 scene.gear_contact = "lumped"
 scene.planet_spin = "imposed"
-planet.spin_command = "200 deg/s"
+spin.command = "200 deg/s"
 effects.strength = true
 contact.mesh_stiffness_from_geometry = false
 left.load_torque = "835 N.m"

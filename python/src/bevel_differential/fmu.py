@@ -107,8 +107,8 @@ class Fmu:
         if key not in self._displaying:
             # `copy.copy` would go the way of `__reduce__`
             other = object.__new__(type(self))
-            other.__dict__.update(self.__dict__, display_units=preferred, variables={
-                name: each.shown_in(preferred.get(each.unit or "")) for name, each in self.variables.items()})
+            other.__dict__.update(self.__dict__, display_units=preferred, variables=_ByName(
+                (name, each.shown_in(preferred.get(each.unit or ""))) for name, each in self.variables.items()))
             self._displaying[key] = other
         return self._displaying[key]
 

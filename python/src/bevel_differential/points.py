@@ -58,6 +58,11 @@ def duration(what: str, time: TimeValue) -> float:
     return time
 
 
+def mean_over_time(values: np.ndarray, times: np.ndarray) -> float:
+    """Mean of values between which time passes; of a run without any duration, the value at its time."""
+    return float(np.trapezoid(values, times) / (times[-1] - times[0]) if times[-1] > times[0] else values[-1])
+
+
 @dataclass(frozen=True)
 class Steps:
     """Communication steps of a run.

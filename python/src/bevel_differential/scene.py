@@ -14,7 +14,7 @@ from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
 from .output_file import checked
 from .plot import plot
-from .points import Steps, TimeValue, duration, seconds, span
+from .points import Steps, TimeValue, duration, mean_over_time, seconds, span
 from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
@@ -128,10 +128,9 @@ class Scene(Runner):
         `display_units`."""
         fmu = self.fmu.displaying(display_units)
         lines: list[tuple[str, ...]] = [("output", "unit", "min", "mean", "max", "end")]
-        span_of_time = record["time"][-1] - record["time"][0]
         for name in _outputs(record):
             unit, values = fmu.variable(name).shown(record[name])
-            mean = np.trapezoid(values, record["time"]) / span_of_time if span_of_time else values[-1]
+            mean = mean_over_time(values, record["time"])
             lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
         return "\n".join(aligned(lines))
 

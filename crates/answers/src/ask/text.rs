@@ -35,7 +35,8 @@ pub struct NearQuestion {
 impl TableQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let texts: Vec<&str> = self.texts.iter().map(String::as_str).collect();
-        let found = csv_input::read(&self.file, &texts).map_err(|problem| question_error(format!("{}{problem}", self.shown)))?;
+        let found = csv_input::read(&self.file, &texts)
+            .map_err(|problem| question_error(format!("{}{problem}", self.shown)))?;
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
         let rows: Vec<_> = found.rows.iter().map(|(line, record)| (line, cells(record))).collect();
         Ok(json!({"header": [found.header_line, cells(&found.header)], "rows": rows}))

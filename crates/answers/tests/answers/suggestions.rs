@@ -50,7 +50,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("Geometry.Module", &["geometry.module"]),
     ("geometry-face-width", &["geometry.face_width"]),
     ("bearing_drag.oillevel", &["bearing_drag.oil_level"]),
-    ("torque", &["carrier.torque", "lock.torque"]),
+    ("torque", &["carrier.torque", "lock.torque", "spin.torque"]),
     // too many are as near, or none is
     ("planet.torque_capacity_of_gearbox", &[]),
     ("speed", &["carrier.speed", "left.speed", "right.speed"]),

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..extras import require
 from ..fmu import Fmu
-from ..points import TimeValue, span
+from ..points import TimeValue, duration, mean_over_time
 from ..records import write
 from ..scene import Scene
 from ..scene_file import find
@@ -87,7 +87,7 @@ class Comparison:
         """Mean, peak and end of an output of a scene, SI."""
         record = self.records[name]
         values, time = record[output].astype(float), record["time"]
-        return float(np.trapezoid(values, time) / (time[-1] - time[0])), float(values[np.argmax(np.abs(values))]), float(values[-1])
+        return mean_over_time(values, time), float(values[np.argmax(np.abs(values))]), float(values[-1])
 
     def _difference(self, output, first, other, largest):
         """Difference of two values in SI as it is shown, and in per cent of the first."""
@@ -163,7 +163,7 @@ def compare(*scenes: FileName | Scene, outputs: Sequence[str] | None = None, val
     opened = [scene if isinstance(scene, Scene) else Scene.load(scene, fmu) for scene in scenes]
     named = dict(zip(_names(opened, files), opened))
     outputs, notes = _common(named, outputs)
-    end = min(scene.stop for scene in opened) if stop is None else span("stop", stop)
+    end = min(scene.stop for scene in opened) if stop is None else duration("stop", stop)
     records = {}
     for (name, scene), file in zip(named.items(), files):
         try:

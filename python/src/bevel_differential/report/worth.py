@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..answers import Progress
+from ..points import mean_over_time
 from ..progress import silent
 from ..values import DifferentialError, Number
 from . import svg_style, words
@@ -86,7 +87,7 @@ def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
     for name in main_outputs(run):
         old, new = run.series(name), record[name].astype(float)
         size = sizes[name] or float(np.max(np.abs(new))) or 1.0
-        mean[name] = float(np.trapezoid(new - old, run.time) / (run.time[-1] - run.time[0]) / size)
+        mean[name] = mean_over_time(new - old, run.time) / size
         swing[name] = float((np.ptp(new) - np.ptp(old)) / size)
     calls = max(float(run.record["solver.rhs_calls"][-1]), 1.0)
     return Tried(label, NOISE * float(run.value(TOLERANCE)), mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
