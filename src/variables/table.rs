@@ -88,11 +88,13 @@ const ROUNDING: f64 = 1e-9;
 /// Returns the value that a variable takes if it is set to `value` after it was `last`: the limit of its range if an input or a
 /// tunable parameter exceeds the range only by rounding. Fails for all other values that are out of range or not finite.
 pub fn accepted(row: &Variable, value: f64, last: f64) -> Result<f64, Problem> {
-    let rounded = match row.range {
-        Some(Range { min, max }) if row.variability != Variability::Fixed => value.clamp(min, max),
+    let rounding = ROUNDING * last.abs().max(1.0);
+    // a host may trap invalid operations, such as arithmetic with NaN: values are compared first
+    let value = match row.range.filter(|_| row.variability != Variability::Fixed) {
+        Some(range) if value < range.min && range.min - value <= rounding => range.min,
+        Some(range) if value > range.max && value - range.max <= rounding => range.max,
         _ => value,
     };
-    let value = if (value - rounded).abs() <= ROUNDING * last.abs().max(1.0) { rounded } else { value };
     check_value(row, value).map(|()| value)
 }
 

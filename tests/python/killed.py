@@ -134,15 +134,15 @@ def resumed(folder, draw):
             return sweep(scene, **SWEEP, out=folder / name, resume=True)
 
     # from the start to the end, and without a run
-    longest, least = (duration(lambda: swept("whole")) for _ in range(2))
-    whole, parts, counts = swept("whole"), folder / "killed.parquet.parts", []
+    longest, least = (duration(lambda: swept("whole.parquet")) for _ in range(2))
+    whole, parts, counts = swept("whole.parquet"), folder / "killed.parquet.parts", []
     for _ in range(KILLS):
         killed_after(least + draw.uniform(0.0, 1.5 * (longest - least) / KILLS), lambda: swept("killed.parquet"))
         counts.append(len(list(parts.glob("part-*"))))
     last = swept("killed.parquet")
     assert last.digest() == whole.digest() and not parts.exists()
-    assert [os.waitpid(process, 0)[1] for process in [forked(lambda: swept("both")) for _ in range(2)]] == [0, 0]
-    assert swept("both").digest() == whole.digest()
+    assert [os.waitpid(process, 0)[1] for process in [forked(lambda: swept("both.parquet")) for _ in range(2)]] == [0, 0]
+    assert swept("both.parquet").digest() == whole.digest()
     print(f"sweep: {counts} of {len(whole.table)} rows are kept; {last.new} new ones at last")
 
 

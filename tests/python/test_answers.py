@@ -43,16 +43,16 @@ def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_pa
     # the torque does not need what warms up, so the table feeds nothing
     idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
     (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
-    files = [f"--{kind}=chosen.{kind}" for kind in ("ssv", "python")]
+    files = ["--ssv=chosen.ssv", "--python=chosen.py"]
     wanted = ["--want", "left.shaft_torque:mean", "--within", within, "--write", "chosen.toml", *files]
     assert main(["accuracy", "turn.toml", *wanted]) == 0
     capsys.readouterr()
     assert main(["plan", "chosen.toml"]) == 0
     assert "changes nothing" not in capsys.readouterr().err
-    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "python")}
+    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     # a tenth needs no friction of washers
     assert all(("thrust_friction.radii_from_geometry" in text) == (within == "1%") for text in written.values())
-    assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["python"]
+    assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["py"]
 
 
 def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):

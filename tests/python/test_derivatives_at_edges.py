@@ -42,7 +42,7 @@ class Starting(Instance):
     def derivative(self, outputs, name):
         references = [self.fmu.variable(output).reference for output in outputs]
         known = [self.fmu.variable(name).reference]
-        return np.array(self._through(self.raw.getDirectionalDerivative, references, known, [1.0]))
+        return np.array(self._through("a derivative", self.raw.getDirectionalDerivative, references, known, [1.0]))
 
 
 def one_sided(variable, at, value, middle):

@@ -151,7 +151,8 @@ def test_fmpy_prints_what_the_page_shows(shown, reader):
     check(shown, done.stdout)
 
 
-@pytest.mark.parametrize("snippet", blocks("python"), ids=str)
+# another test runs the one that reads a map
+@pytest.mark.parametrize("snippet", [snippet for snippet in blocks("python") if "LossMap" not in snippet.text], ids=str)
 def test_a_snippet_runs_and_prints_what_its_page_shows(snippet, reader):
     script = reader(snippet.page) / "snippet.py"
     script.write_text(snippet.text, encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 from bevel_differential import DifferentialError, Scene, extras
 from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Quantity, Text
-from bevel_differential.losses import VARIABLES, LossMap, losses
+from bevel_differential.losses import VARIABLES, MeasuredMap, losses
 from bevel_differential.losses.grid import Bound
 from bevel_differential.losses.picture import draw
 from bevel_differential.losses.report import write
@@ -227,7 +227,7 @@ def test_a_full_disk_leaves_no_half_report(single, tmp_path, monkeypatch):
 
 def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, fmu_file, tmp_path):
     with Scene("rich", set=RICH, fmu=fmu_file, display_units=["rpm", "kN.m", "K"]) as scene:
-        shown = LossMap(**{**mapped.__dict__, "scene": scene})
+        shown = MeasuredMap(**{**mapped.__dict__, "scene": scene})
         text = write(shown, tmp_path / "map.html").read_text(encoding="utf-8")
         draw(shown, tmp_path / "map.svg")
     assert not re.search(r"rad/s|(?<!k)N·m|°C", text.partition("Measured error")[0].partition("Axes of the map")[2].replace("N·m on top", ""))

@@ -55,7 +55,7 @@ class Derivatives(Instance):
 
     def rates(self, names):
         references = [self.fmu.variable(name).reference for name in names]
-        return np.array(self._through(self.raw.getRealOutputDerivatives, references, [1] * len(names)))
+        return np.array(self._through("rates", self.raw.getRealOutputDerivatives, references, [1] * len(names)))
 
     def around(self, names):
         """Rates, central differences and their uncertainty, two short steps from here. Differences over two distances tell curvature

@@ -67,7 +67,7 @@ RUNS = {
                 "scene.gear_contact=lumped"], [WIDE]),
 }
 # what needs more than a second is checked by what it is made of: sweeps, scenes and runs by the package
-ELSEWHERE = {"optimise", "tolerance", "bench", "study", "verify", "examples", "page"}
+ELSEWHERE = {"variables", "optimise", "tolerance", "bench", "study", "verify", "examples", "page"}
 
 
 def test_all_commands_are_here():

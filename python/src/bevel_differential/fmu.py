@@ -17,7 +17,7 @@ from fmpy import extract, read_model_description
 from .answers import about, ask
 from .former_names import present
 from .instance import Instance
-from .values import DifferentialError, FileName, Number, Value, Variable, spelled, variable_suggestion
+from .values import DifferentialError, FileName, Number, Value, Variable, spelled, suggestion, variable_suggestion
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted

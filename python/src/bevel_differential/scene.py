@@ -75,7 +75,7 @@ class Scene(Runner):
     def check_settable(self, names: Iterable[str]) -> None:
         """Refuses names of inputs that follow a table, as a value for them would change nothing."""
         driven = {table.variable.name for table in self._signals.tables}
-        for name in (self.fmu.variable(name).name for name in names):
+        for name in map(present, names):
             if name in driven:
                 raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
 

@@ -107,8 +107,9 @@ pub fn variable(name: &str) -> Result<&'static Variable, String> {
     found.ok_or_else(|| format!("there is no variable \"{name}\"{}", hint(name, rows.iter())))
 }
 
-/// Row of the output `name`, or what it might have been.
+/// Row of the output `name`, which may be a former name, or what it might have been.
 pub fn output(name: &str) -> Result<&'static Variable, String> {
+    let name = former_names::present(name);
     let is_output = |row: &&Variable| matches!(row.access, Access::Output(_));
     let rows = &table().rows;
     match rows.iter().find(|row| row.name == name) {

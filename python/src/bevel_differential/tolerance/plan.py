@@ -38,7 +38,8 @@ class Plan:
     @classmethod
     def load(cls, file: FileName, fmu: FileName | Fmu | None = None, runs: int | None = None, seed: int | None = None,
              indices: bool = True, stop: str | None = None) -> "Plan":
-        """The plan of a file; `runs` and `seed` instead of those in it, `stop` another end of its scene. All errors of the factors are reported at once."""
+        """The plan of a file; `runs` and `seed` instead of those in it, `stop` another end of its scene. All errors of the factors are
+        reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
         if not file.is_file():
             raise DifferentialError(f"{file}: there is no such file; `bevel-differential examples` writes one to begin with")
