@@ -17,7 +17,7 @@ from fmpy import extract, read_model_description
 from .answers import about, ask
 from .former_names import present
 from .instance import Instance
-from .values import DifferentialError, FileName, Number, Value, Variable, spelled, suggestion, variable_suggestion
+from .values import DifferentialError, FileName, Number, Value, Variable, variable_suggestion
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
 # process numbers, each with a folder that this process has extracted
@@ -58,9 +58,6 @@ class Fmu:
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
         self.variables = _ByName((each.name, Variable(each, units)) for each in self.description.modelVariables)
-        # SI unit by each of its units, itself included
-        self._dimensions = {name: unit.name for unit in units.values() if unit.name != "1"
-                            for name in (unit.name, *(shown.name for shown in unit.displayUnits))}
         self.display_units: dict[str, str] = {}
         self._displaying: dict[tuple[str, ...], "Fmu"] = {}
 
@@ -116,18 +113,7 @@ class Fmu:
         """The preferred units by the SI units of their dimensions."""
         if isinstance(units, str):
             raise DifferentialError(f"{units!r}: display units are a list, such as [{units!r}]")
-        found: dict[str, str] = {}
-        for written in units:
-            unit = spelled(written.strip())
-            if unit not in self._dimensions:
-                # "RPM" for "rpm"
-                meant = next((name for name in self._dimensions if name.lower() == unit.lower()), unit)
-                hint = suggestion(meant, self._dimensions) or f"; known: {', '.join(self._dimensions)}"
-                raise DifferentialError(f"there is no unit {written!r}{hint}", kind="use")
-            other = found.setdefault(self._dimensions[unit], unit)
-            if other != unit:
-                raise DifferentialError(f"{other} and {unit} are units of the same quantity; name one of them", kind="use")
-        return found
+        return ask({"ask": "display_units", "names": list(units)})["units"] if units else {}
 
     @cached_property
     def sha256(self) -> str:

@@ -59,6 +59,8 @@ pub enum Question {
     Table(text::TableQuestion),
     /// Names that a wrong one may mean.
     Near(text::NearQuestion),
+    /// Units that a user prefers, each by the SI unit of its dimension.
+    DisplayUnits(text::DisplayUnitsQuestion),
 }
 
 /// Answers a question, with the `numbers` that come beside it. `progress` reports to the caller, who may stop the work.
@@ -80,6 +82,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Statistics(question) => question.answer(numbers),
         Question::Table(question) => question.answer(),
         Question::Near(question) => Ok(question.answer()),
+        Question::DisplayUnits(question) => question.answer(),
     };
     // what fails because it was stopped tells nothing else
     answer.map_err(|why| progress.check_stopped().err().map_or(why, Into::into))

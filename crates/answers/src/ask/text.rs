@@ -1,5 +1,6 @@
-//! Questions about what users write: CSV files, and names with slips.
+//! Questions about what users write: CSV files, units, and names with slips.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -7,6 +8,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::problem::question_error;
+use crate::scene::display_units::DisplayUnits;
 use crate::scene::set::how_to_find;
 use crate::text::csv_input;
 use crate::text::near::near;
@@ -32,6 +34,13 @@ pub struct NearQuestion {
     known: Vec<String>,
 }
 
+/// Display units.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DisplayUnitsQuestion {
+    names: Vec<String>,
+}
+
 impl TableQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let texts: Vec<&str> = self.texts.iter().map(String::as_str).collect();
@@ -48,5 +57,12 @@ impl NearQuestion {
     pub(super) fn answer(&self) -> Value {
         let near = near(&self.word, self.known.iter().map(String::as_str));
         json!({"near": near, "find": how_to_find(&self.word)})
+    }
+}
+
+impl DisplayUnitsQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let preferred = DisplayUnits::of(&self.names).map_err(|found| question_error(found.join("\n")))?;
+        Ok(json!({"units": preferred.by_si_unit().collect::<BTreeMap<_, _>>()}))
     }
 }

@@ -46,6 +46,11 @@ impl DisplayUnits {
         self.0.iter().map(|&unit| label(unit))
     }
 
+    /// Names of the units by those of their SI units.
+    pub fn by_si_unit(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.0.iter().map(|&unit| (unit.0.name, label(unit)))
+    }
+
     /// The preferred unit of `row`, if there is one. Differences are never shown in a unit with an offset: 5 K, not 5 degC.
     fn preferred(&self, row: &Variable) -> Option<(Unit, Option<DisplayUnit>)> {
         let unit = row.unit?;
