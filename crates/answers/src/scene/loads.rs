@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::io::Write;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::action::LineOfAction;
@@ -67,11 +67,11 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
     let mut run = SceneRun::start(scene, scene.step.min(every))?;
     let pair = *run.simulation.pair();
     let action = LineOfAction::new(&pair);
-    header(scene, every, &run, out).context("the loads cannot be written")?;
+    header(scene, every, &run, out)?;
     let mut rows = csv::Writer::from_writer(out);
     let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
     let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
-    rows.write_record(head).context("the loads cannot be written")?;
+    rows.write_record(head)?;
     progress.begin_task(0.0, "simulating");
     let (mut records, mut lines) = (0u64, 0u64);
     loop {
@@ -83,7 +83,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
                     lines += 1;
                 }
             });
-            written.context("the loads cannot be written")?;
+            written?;
             records += 1;
         }
         if run.is_over() {
@@ -92,7 +92,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         run.advance()?;
         progress.advance(run.time() / scene.stop_time)?;
     }
-    rows.flush().context("the loads cannot be written")?;
+    rows.flush()?;
     progress.warn(run.warnings());
     Ok(lines)
 }
