@@ -78,7 +78,7 @@ struct Room {
 }
 
 impl Room {
-    /// How far the values `known` may change in their directions; `None` if none of them changes.
+    /// Room in which the values `known` may change in their directions; `None` if none of them changes.
     fn of(now: &Snapshot, known: impl Iterator<Item = (u32, f64)>) -> CallResult<Option<Self>> {
         let (mut size, mut ends) = (0.0f64, [f64::INFINITY; 2]);
         for (reference, change) in known {

@@ -80,7 +80,7 @@ impl Snapshot {
         self.start_from(&self.parameters, &self.inputs, cache)
     }
 
-    /// The same from other parameters and inputs.
+    /// Starts a simulation from other parameters and inputs, or returns every problem with them.
     pub fn start_from(
         &self,
         parameters: &Parameters,

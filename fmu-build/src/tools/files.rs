@@ -30,7 +30,7 @@ pub fn write_whole(file: &Path, content: &[u8]) -> Result<()> {
     })
 }
 
-/// The same of a file that `make` writes to the path that it gets.
+/// Lets `make` write a file to the path that it gets. The file is complete or not there.
 pub fn make_whole(file: &Path, make: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     paths::create_folder(file.parent().unwrap_or(Path::new(".")))?;
     whole_file::write(file, make)

@@ -128,7 +128,7 @@ impl Program {
     }
 }
 
-/// How the program ends after its command: an error is printed, and wrong use and findings have their own exit statuses.
+/// Exit status of the program after its command. An error is printed; wrong use and findings have their own exit statuses.
 pub fn end(outcome: Result<()>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

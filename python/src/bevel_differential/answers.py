@@ -46,7 +46,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
 
 
 def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: Sequence[str] = ()) -> dict[str, Any]:
-    """How a question names a scene: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, and
+    """Name of a scene in a question: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, and
     `display_units` on top."""
     given = {"given": scene.contents()} if hasattr(scene, "contents") else {}
     name = scene.name if given else os.fspath(scene)

@@ -179,7 +179,7 @@ def _set(instance, pairs):
 
 
 def field(variable: Variable, asked: str, kind: Any) -> tuple:
-    """The field of a variable in a structured array; one that was asked for by its former name has both."""
+    """The field of a variable in a structured array. If its former name was requested, the field has both names."""
     return (variable.name if asked == variable.name else (asked, variable.name), kind)
 
 

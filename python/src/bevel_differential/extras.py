@@ -48,7 +48,7 @@ def _pip():
 
 
 def _package():
-    """What pip installs this package from: its folder in a clone, else its name, which pip finds installed."""
+    """Source from which pip installs this package: its folder in a clone, otherwise its name."""
     folder = Path(__file__).absolute().parents[2]
     if not (folder / "pyproject.toml").is_file():
         folder = _installed_from()

@@ -1,5 +1,5 @@
-"""Names that variables once had, as the library of answers lists them. They find their variables still, and the user is told the
-present names."""
+"""Former names of variables, as the library of answers lists them. They still find their variables, and a warning gives the present
+names."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -22,7 +22,7 @@ def present(name: str) -> str:
 
 
 def by_present_names(values: Mapping[str, _Of]) -> dict[str, _Of]:
-    """The same values by present names. Refuses a variable that has two names here."""
+    """Values by present names. Refuses a variable that has two names here."""
     found: dict[str, _Of] = {}
     for written, value in values.items():
         name = present(written)

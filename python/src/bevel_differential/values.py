@@ -264,13 +264,13 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 
 
 def variable_suggestion(name: str, known: Iterable[str]) -> str:
-    """The same for the name of a variable. If no name is near, it says how to find one."""
+    """Suggestion for the name of a variable. If no name is near, it says how to find one."""
     near, find = _near(name, known)
     return near or find
 
 
 def _near(word, known):
-    """What was probably meant, or nothing, and how to find a variable."""
+    """Words that were probably meant, if any, and advice on how to find a variable."""
     try:
         found = reply({"ask": "near", "word": word, "known": list(known)})["answer"]
     except OSError:

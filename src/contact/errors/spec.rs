@@ -63,9 +63,9 @@ spec! {
         pub missing_fraction: f64 = 0.5,
         /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
         pub depth: f64 = 1e-3,
-        /// Whether the piece breaks off at a time; otherwise only by the trigger.
+        /// True if the piece breaks off at `onset`. Otherwise only the trigger breaks it off.
         pub at_onset: bool = false,
-        /// That time [s].
+        /// Time at which the piece breaks off [s].
         pub onset: f64 = 0.0,
     }
 }

@@ -46,7 +46,7 @@ pub struct Direction {
     pub rates: Inputs,
     /// Of the command that the carrier follows [rad/s].
     pub carrier_command: f64,
-    /// Of the temperatures of the nodes [K]. They change only with time.
+    /// Changes of the temperatures of the nodes [K], which change only with time.
     pub temperatures: [f64; NODES],
 }
 

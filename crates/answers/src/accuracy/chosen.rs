@@ -130,7 +130,7 @@ fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
     })
 }
 
-/// Whether a variable stands there by this name.
+/// True if the list names this variable.
 fn stands(set: &Item, name: &str) -> bool {
     let has =
         |item: Option<&Item>, key| item.and_then(Item::as_table_like).is_some_and(|table| table.contains_key(key));

@@ -153,7 +153,7 @@ impl RunQuestion {
     }
 }
 
-/// What `write` returns, after its file is at `path`.
+/// Lets `write` create the file `path`, and returns its result.
 fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     let failed = || format!("{} cannot be written", shown(path));
     whole_file::write(path, |part| {
@@ -188,7 +188,7 @@ impl PatternQuestion {
     }
 }
 
-/// The former names of variables, each with the present one and with what to tell the user who writes it.
+/// Former names of variables, each with the present name and with the message to a user who writes the former one.
 pub(super) fn former_names() -> Value {
     let names = former_names::all().map(|(once, now)| {
         let says = former_names::note(&once);

@@ -1,4 +1,4 @@
-//! What acts in a scene: its variables, and the scene without the values that change nothing in it.
+//! Variables that act in a scene, and the scene without the values that change nothing in it.
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::variables::felt::{self, Situation};
@@ -34,7 +34,7 @@ pub fn names(scene: &Scene) -> Vec<&'static str> {
     rows.map(|(_, row)| row.name).collect()
 }
 
-/// Whether an output is of effects alone that are off in `scene`, and therefore 0.
+/// True if all effects that have this output are off in `scene`, so that it is 0.
 fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
     let owners = EFFECTS.iter().filter(|effect| {
         effect.heat.is_some_and(|heat| heat.output == output)
@@ -45,8 +45,8 @@ fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
     switches.peek().is_some() && switches.all(|switch| switch.is_some_and(|switch| !may_act(switch)))
 }
 
-/// Whether something in `scene` depends on the value of `row`. Of values that only outputs repeat, those act whose unit an output of
-/// the scene has.
+/// True if something in `scene` depends on the value of `row`. A value that is only repeated by outputs acts if an output of the scene
+/// has its unit.
 pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
     let Some(index) = index_of(row.name) else { return true };
     let mut parameters = scene.parameters;

@@ -1,9 +1,9 @@
-//! Names that variables once had. They still find their variables in scenes, on command lines and in the Python package, and the
-//! user is told the present names. The FMU itself knows only these.
+//! Former names of variables. They still find their variables in scenes, on command lines and in the Python package, where a message
+//! gives the present names. The FMU itself accepts only present names.
 
 use bevel_differential::variables::{Variable, table};
 
-/// How names once began, with how they begin now.
+/// Former beginnings of names, with the present ones.
 const BEGINNINGS: [[&str; 2]; 2] = [["planet.spin_", "spin."], ["planet[1].left_pair[", "mesh.pair["]];
 
 /// All former names, with their variables.
@@ -25,12 +25,12 @@ pub fn present(name: &str) -> &str {
     renamed.map_or(name, |row| row.name)
 }
 
-/// What to tell the user about the former names among `names`.
+/// Messages about the former names among `names`.
 pub fn notes<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     names.into_iter().filter(|name| present(name) != *name).map(note).collect()
 }
 
-/// What to tell about the former name `name`.
+/// Message about the former name `name`.
 pub fn note(name: &str) -> String {
     format!("{name} is now named {}; write the new name", present(name))
 }

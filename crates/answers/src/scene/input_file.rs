@@ -35,8 +35,8 @@ struct Column {
     wrong_count: usize,
 }
 
-/// The inputs in `file`, all repeated after `period` [s] if there is one, and what the user is told about former names in it; on
-/// failure all problems of the file.
+/// Inputs in `file`, all repeated after `period` [s] if there is one, and messages about former names in the file. Fails with all
+/// problems of the file.
 pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let shown = text::shown(file);
     let found = match csv_input::read(file, &[]) {
@@ -47,7 +47,7 @@ pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<St
     found.map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
 }
 
-/// The inputs in a file, and what to tell; problems begin with their place in it.
+/// Inputs in a file, and messages about former names. Problems begin with their place in the file.
 fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let header = found.header;
     let (time_place, time_unit, mut columns) = columns(&header)?;

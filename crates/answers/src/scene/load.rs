@@ -149,7 +149,7 @@ fn display_units(names: &[String], problems: &mut Problems) -> DisplayUnits {
     })
 }
 
-/// What the user is told about former names of variables.
+/// Messages about former names of variables.
 fn notes(entry: &File) -> Vec<String> {
     let mut set = Vec::new();
     std::iter::once(&entry.set).chain(&entry.at).for_each(|table| flatten("", table, &mut set));
@@ -273,8 +273,8 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     (complete && rising).then_some(InputTable { row, times, values, period })
 }
 
-/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`. Returns what the user
-/// is told about former names in it.
+/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`. Returns messages about
+/// former names in the file.
 fn add_input_file(
     entry: &InputFileEntry,
     scene: &Path,

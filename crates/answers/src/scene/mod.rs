@@ -57,7 +57,7 @@ pub struct Scene {
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
-    /// What the user is told about former names in it.
+    /// Messages about former names in the scene.
     pub notes: Vec<String>,
     /// Units to show values in, in place of the usual ones.
     pub display_units: DisplayUnits,

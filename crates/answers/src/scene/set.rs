@@ -119,13 +119,13 @@ pub fn output(name: &str) -> Result<&'static Variable, String> {
     }
 }
 
-/// What a wrong name might have been, or how to find it.
+/// Names that a wrong name may mean, or advice on how to find one.
 fn hint<'a>(name: &str, rows: impl Iterator<Item = &'a Variable>) -> String {
     let near = near::hint(name, rows.map(|row| row.name));
     if near.is_empty() { format!("; {}", how_to_find(name)) } else { near }
 }
 
-/// How to find the variable that a wrong name means: by those of its words that a variable has, the last one first.
+/// Advice on how to find the variable that a wrong name means, by those of its words that a variable has.
 pub fn how_to_find(name: &str) -> String {
     let has = |row: &Variable, word: &str| row.name.contains(word) || row.description.to_lowercase().contains(word);
     let mut kept: Vec<String> = Vec::new();

@@ -13,7 +13,7 @@ use std::{fs, io};
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
 
-/// What separates columns, with its name.
+/// Separators of columns, with their names.
 const SEPARATORS: [(u8, &str); 3] = [(b',', "commas"), (b';', "semicolons"), (b'\t', "tabs")];
 /// Begins comments.
 const COMMENT: u8 = b'#';
@@ -179,7 +179,7 @@ fn wrong_length(line: u64, record: &StringRecord, header: &StringRecord, separat
     format!(", line {line}: has {count} cells where the header has {expected}; {why}")
 }
 
-/// How a number is written, as far as one can see.
+/// Notation of a number, as far as it is visible.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     /// A decimal comma.

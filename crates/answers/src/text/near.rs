@@ -16,7 +16,7 @@ const SHARE: f64 = 0.65;
 const TIE: f64 = 0.03;
 /// Weight of the words before the last point, which name the group: a wrong group is a likely slip.
 const GROUP: f64 = 0.5;
-/// What is taken from the score if no word of a name was meant; in proportion if some were.
+/// Deduction from the score if no word of a name was meant; proportional if some were.
 const EXTRA_WORDS: f64 = 0.3;
 
 /// The names that `wrong` probably means, nearest first, at most three.
@@ -56,7 +56,7 @@ pub fn words(name: &str) -> Vec<String> {
     parts.map(str::to_lowercase).collect()
 }
 
-/// How much a word says, by the number of names that have it.
+/// Weights of words: a word that few names have says more.
 struct Weights {
     by_word: HashMap<String, f64>,
     /// Weight of a word that no name has.
@@ -84,8 +84,8 @@ impl Weights {
     }
 }
 
-/// How well the words meant, of group and quantity, are those of a name, from 0 to 1; 0 if they are too different. The order
-/// does not count.
+/// Similarity of the words meant, of group and quantity, to those of a name, from 0 to 1; 0 if they are too different. The
+/// order does not count.
 fn by_words((group, quantity): (&[String], &[String]), words: &[String], weights: &Weights) -> f64 {
     let mut left: Vec<&String> = words.iter().collect();
     let (mut found, mut all) = (0.0, 0.0);

@@ -1,5 +1,5 @@
 """The command `bevel-differential`. Each sub-command is a module with `add_arguments(parser)` and `run(arguments) -> exit status`.
-Only the module that is asked for is imported, and until its `run` no package that only some installations have."""
+Only the requested module is imported. Before its `run`, it imports no package that only some installations have."""
 
 import argparse
 import importlib
@@ -76,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt as interrupt:
         return _said(interrupt if str(interrupt) else "stopped", INTERRUPTED)
     except BrokenPipeError:
-        # whoever read has enough; nothing is left to say
+        # the reader has closed the pipe: nothing is left to say
         _discard_output()
         return FAILED
     except OSError as error:
@@ -87,7 +87,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _discard_output():
-    """What is still to be printed goes nowhere, also at exit."""
+    """Discards all that is still to be printed, also at exit."""
     with suppress(UnsupportedOperation):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

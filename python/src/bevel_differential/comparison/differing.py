@@ -9,7 +9,7 @@ from ..report import words
 from ..scene import Scene
 from ..values import Number, Value, Variable
 
-# a value to compare, and how it is written with so many digits
+# a value to compare, and its texts with `DIGITS` and `ALL_DIGITS` digits
 Cell: TypeAlias = tuple[Any, str, str]
 DIGITS, ALL_DIGITS = 6, 15
 NOTHING: Cell = (None, "–", "–")

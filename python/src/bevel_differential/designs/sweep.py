@@ -161,7 +161,7 @@ def hashed(scene: Scene, what: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) -> str:
-    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: runs that were asked for. Figures are SI, or
+    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: number of requested runs. Figures are SI, or
     in the display units of `fmu`."""
     table, metadata = result.table, result.metadata
     lines = [f"runs      {table.num_rows}"]

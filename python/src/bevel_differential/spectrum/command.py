@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints damage and life, and writes what is asked for. Gears that do not live through the cycle are a finding."""
+    """Prints damage and life, and writes the requested files. Gears that do not live through the cycle are a finding."""
     result = spectrum(arguments.cycle, once("--set", arguments.set), arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.csv, result.save), (arguments.plot, result.plot)):
