@@ -55,6 +55,23 @@ def fmu3(fmu_file):
     return Path(fmu_file).with_name("BevelDifferential3.fmu")
 
 
+@pytest.fixture
+def exchange(fmu3):
+    """exchange(values): an instance for model exchange in event mode, after its first update."""
+    units = []
+
+    def make(values):
+        unit = Unit3(fmu3, "ModelExchange")
+        units.append(unit)
+        unit.initialise(values)
+        unit.update()
+        return unit
+
+    yield make
+    for unit in units:
+        unit.raw.freeInstance()
+
+
 @pytest.fixture(scope="session")
 def plain_outputs(fmu3):
     """Names of the continuous outputs of FMI 3.0 with one real number each."""

@@ -404,23 +404,6 @@ def test_groups_without_members_cause_no_events(fmu3):
         assert places and max(places) <= 3
 
 
-@pytest.fixture
-def exchange(fmu3):
-    """exchange(values): an instance for model exchange in event mode, at the start."""
-    units = []
-
-    def make(values):
-        unit = Unit3(fmu3, "ModelExchange")
-        units.append(unit)
-        unit.initialise(values)
-        unit.update()
-        return unit
-
-    yield make
-    for unit in units:
-        unit.raw.freeInstance()
-
-
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_in_model_exchange_commands_are_events_too(exchange, level, contact):
     unit = exchange(REST | level(contact))

@@ -14,23 +14,6 @@ SCENES = {"study": WHEELS, "turn": {"scene.planet_spin": 2, "spin.command": 3.0}
           "without teeth": {"scene.gear_contact": 1} | WHEELS}
 
 
-@pytest.fixture
-def exchange(fmu3):
-    """exchange(values): an instance for model exchange in event mode, after its first update."""
-    units = []
-
-    def make(values):
-        unit = Unit3(fmu3, "ModelExchange")
-        units.append(unit)
-        unit.initialise(values)
-        unit.update()
-        return unit
-
-    yield make
-    for unit in units:
-        unit.raw.freeInstance()
-
-
 def names(unit):
     return [unknown.variable.derivative.name for unknown in unit.description.derivatives]
 

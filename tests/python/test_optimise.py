@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
+from short_scene import SCENE
 
 from bevel_differential import DifferentialError, Fmu, Scene, cad
 from bevel_differential.command import main
@@ -28,20 +29,6 @@ from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-# a given stiffness saves nine tenths of a start, and changes neither mass nor stress
-SCENE = """description = "one spring per mesh, loaded"
-stop_time = 0.001
-step = 0.001
-outputs = ["safety.root_min"]
-[set]
-scene.gear_contact = "lumped"
-scene.planet_spin = "imposed"
-spin.command = "200 deg/s"
-effects.strength = true
-contact.mesh_stiffness_from_geometry = false
-left.load_torque = "835 N.m"
-right.load_torque = "835 N.m"
-"""
 # two variables: the module and the face width
 TWO = """description = "light or strong"
 scene = "scene.toml"

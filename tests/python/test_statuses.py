@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import stand_in
+from short_scene import SCENE
 from bevel_differential import cad, library
 from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
 from bevel_differential.command import examples as examples_command
@@ -23,19 +24,6 @@ ROOT = Path(__file__).resolve().parents[2]
 accuracy_module = importlib.import_module("bevel_differential.accuracy")
 # a load that bends teeth past each other in the first step, and a folder in which nobody can write
 TOO_MUCH, NOWHERE = "left.load_torque=1e7", "/proc"
-SCENE = """description = "one spring per mesh, loaded"
-stop_time = 0.001
-step = 0.001
-outputs = ["safety.root_min"]
-[set]
-scene.gear_contact = "lumped"
-scene.planet_spin = "imposed"
-spin.command = "200 deg/s"
-effects.strength = true
-contact.mesh_stiffness_from_geometry = false
-left.load_torque = "835 N.m"
-right.load_torque = "835 N.m"
-"""
 PROBLEM = """description = "light or strong"
 scene = "scene.toml"
 objectives = ["minimise gears.mass", "maximise safety.root_min"]
