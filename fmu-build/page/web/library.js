@@ -3,6 +3,8 @@
 const BYTES = { Real: 8, Integer: 4, Boolean: 4 };
 const ERROR = 2; // fmi2Discard and worse
 const CONES = ["pitch", "tip", "root", "base", "outer", "mean", "inner"]; // angles in rad, distances in mm
+// parts of a message that only hosts use: the call that failed before the message, and calls that help after it
+const CALLS = /^fmi2\w+: (?:initialisation failed:\s*)?|; continue with fmi2\w+ or fmi2\w+$/g;
 
 // What the library refused: its own messages.
 export class Refused extends Error {}
@@ -35,7 +37,7 @@ export class Library {
 
   check(status, doing) {
     if (status < ERROR) return;
-    const errors = this.said().filter((message) => message.status >= ERROR).map((message) => message.text);
+    const errors = this.said().filter((message) => message.status >= ERROR).map((message) => message.text.replace(CALLS, ""));
     throw new Refused(errors.join("\n") || `${doing} failed with status ${status}`);
   }
 
