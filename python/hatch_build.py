@@ -21,7 +21,7 @@ PLATFORMS = "BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS"
 
 
 class FmuHook(BuildHookInterface):
-    """Hatch calls `initialize` before it packs the wheel. `parts`: a folder with what the package holds beside Python's files."""
+    """Hatch calls `initialize` before it packs the wheel. `parts`: a folder with the files of the package that are not Python's."""
 
     parts = None
 

@@ -83,7 +83,7 @@ pub fn unset(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Vec<U
     unset_as_shown(parameters, inputs, set, |row| *row)
 }
 
-/// The same values, each with the display unit that `shown` gives to its variable.
+/// These values, each with the display unit that `shown` gives to its variable.
 pub fn unset_as_shown(
     parameters: &Parameters,
     inputs: &Inputs,

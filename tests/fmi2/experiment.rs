@@ -70,12 +70,12 @@ fn without_an_own_stop_time_that_of_the_state_applies_and_messages_say_so() {
     restore(&second, &other);
     other.record_steps(2, 1);
     refuses_beyond(&other, 0.003, &["0.003 s", "restored state"]);
-    // a fresh instance knows nothing but the state
+    // a fresh instance has nothing but the state
     let fresh = Host::new();
     restore(&second, &fresh);
     fresh.record_steps(2, 1);
     refuses_beyond(&fresh, 0.003, &["restored state"]);
-    // a state saved after the own stop time won has it
+    // a state that is saved now contains the stop time of this instance
     let third = started(None, 0.0, Some(0.004));
     restore(&second, &third);
     restore(&third, &fresh);
@@ -165,7 +165,7 @@ fn a_run_may_have_no_length() {
         assert!(host.outputs() == longer.outputs(), "the start is the same at {time} s");
         assert_eq!(host.get("left.shaft_torque"), host.get("left.load_torque"));
         refuses_beyond(&host, time, &[&format!("stop time {time} s")]);
-        // the state can be saved, and goes on where another stop time is announced
+        // the state can be saved, and continues in an instance with a later stop time
         restore(&host, &longer);
         assert_eq!(longer.step(time, 1e-3), Status::Ok);
         assert_eq!(host.terminate(), Status::Ok);

@@ -95,7 +95,7 @@ def started(fmu, scene):
 
 
 def of(get, count):
-    """What a function of FMI writes into an array."""
+    """Values that a function of FMI writes into an array."""
     from ctypes import c_double
 
     values = (c_double * count)()

@@ -51,7 +51,7 @@ def outputs(fmu):
 
 @pytest.fixture(scope="session")
 def fmu3(fmu_file):
-    """Path of the unit for FMI 3.0, which is packaged beside that for FMI 2.0."""
+    """Path of the unit for FMI 3.0, which is in the folder of that for FMI 2.0."""
     return Path(fmu_file).with_name("BevelDifferential3.fmu")
 
 

@@ -1,4 +1,4 @@
-"""What the documents show: links, commands, Python snippets, files to save, and what commands and snippets print."""
+"""Contents of the documents: links, commands, Python snippets, files to save, and outputs of commands and snippets."""
 
 import re
 import shlex
@@ -60,7 +60,7 @@ def commands(program: str) -> list[Command]:
 
 
 def _commands(page: Path) -> list[tuple[int, Command]]:
-    """Where a page has command lines; a comment after two blanks is none of a line."""
+    """Command lines of a page. Text after two blanks is a comment."""
     found = []
     for shown in COMMAND.finditer(page.read_text(encoding="utf-8")):
         line = " ".join(part.strip() for part in shown[1].split("\\\n"))
@@ -76,7 +76,7 @@ def blocks(*kinds: str) -> list[Block]:
 
 
 def printed() -> list[tuple[Command | Block, Block]]:
-    """What pages show of the output of commands and snippets, each with the last of these above it."""
+    """Outputs on pages, each with the last command or snippet above it."""
     found = []
     for block in blocks("text"):
         text = (ROOT / block.page).read_text(encoding="utf-8")

@@ -46,7 +46,7 @@ def written(folder):
 
 
 def content(folder, names):
-    """Those of the files that are there, with what they contain."""
+    """Existing files among `names`, with their contents."""
     found = {}
     for name in names:
         try:
@@ -72,7 +72,7 @@ def forked(work):
 
 
 def killed_after(moment, work):
-    """Kills the work after so many seconds."""
+    """Kills the work after `moment` seconds."""
     process = forked(work)
     time.sleep(moment)
     os.kill(process, signal.SIGKILL)
@@ -102,7 +102,7 @@ def killed(folder, whole, draw):
 
 
 def together(folder, whole):
-    """Two commands at the same time, with a reader beside them."""
+    """Two commands and a reader at the same time."""
     folder.mkdir()
 
     def often():
@@ -124,7 +124,7 @@ def together(folder, whole):
 
 
 def resumed(folder, draw):
-    """A sweep that is killed, and goes on each time, has the rows of one that is not; so have two at the same time."""
+    """A sweep that is killed and resumed has the rows of an uninterrupted one. Two sweeps at the same time have them, too."""
     folder.mkdir()
     # a part for each row
     store.INTERVAL = 0.0

@@ -5,7 +5,7 @@ import pytest
 from bevel_differential import DifferentialError, DifferentialWarning, Scene, compare
 from bevel_differential.command import main
 
-# ideal gears turn freely under the drive alone, so that speeds follow from momentum
+# only the drive acts on ideal gears, so that speeds follow from momentum
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
         "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
 TORQUE = "carrier.torque_command"

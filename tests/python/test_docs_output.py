@@ -89,7 +89,7 @@ def plain(text, wrapped):
 
 
 def shows(block, said):
-    """Whether the block shows what was said."""
+    """True if the block shows the text `said`."""
     wrapped = TIME.search(block) or any(len(line) > WIDEST for line in said.splitlines())
     parts = GAP.split(block)
     return re.fullmatch(r"[\s\S]*?".join(re.escape(plain(part, wrapped)) for part in parts), plain(said, wrapped)) is not None
@@ -121,7 +121,7 @@ def now(block, said):
 
 
 def check(source, said):
-    """All blocks that show the output of a command or snippet; renews them if that is asked for."""
+    """All blocks that show the output of a command or snippet. With RENEW=1, they are renewed."""
     for shown in SHOWN.get(source, []):
         heard = said if "warning: " in shown.text else re.sub(r"^warning: .*\n", "", said, flags=re.MULTILINE)
         if shows(shown.text, heard):

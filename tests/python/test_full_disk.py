@@ -142,7 +142,7 @@ def refused(case, inputs, fmu_file, capsys):
 
 
 def judged(case, folder, before, line, cause):
-    """What was there stays, what is new is complete and allowed, and the line names a file and the cause."""
+    """Old files stay, new files are complete and allowed, and the message names a file and the cause."""
     after = content(folder)
     new = after.keys() - before.keys()
     assert new <= set(CASES[case][3]) and {name: after[name] for name in before} == before, (new, line)

@@ -16,6 +16,6 @@ def test_killed_commands_and_two_at_the_same_time_leave_whole_files(fmu_file, tm
                                                                               "TMPDIR": str(tmp_path)})
     assert program.returncode == 0, program.stderr
     killed, together, sweep = program.stdout.splitlines()
-    # some are killed on the way: the test has found what it looks for
+    # some processes are killed: the test has found its result before
     counts = [int(count) for count in re.search(r"\[(.*)\]", killed)[1].split(", ")]
     assert len(counts) == 10 and min(counts) < 19 and together.startswith("together: ") and sweep.startswith("sweep: ")

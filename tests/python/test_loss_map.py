@@ -107,7 +107,7 @@ def test_loss_is_power_in_less_power_out(measured, loaded):
 
 
 def test_mirrored_points_have_mirrored_torques(measured, loaded, backward):
-    """With all signs negated, and with left and right exchanged, torques and loss are the same but for their signs and sides."""
+    """If all signs are negated, or left and right exchanged, torques and loss only change their signs and sides."""
     # points that both maps have
     points = np.array([[900.0, 40.0, 15.0, 300.0], [-900.0, 10.0, -0.5, 350.0], [900.0, 10.0, 0.0, 300.0], [0.0, 40.0, 0.5, 350.0]])
     torque, speed, difference, temperature = points.T

@@ -38,11 +38,11 @@ class Node:
         self.below.setdefault(word, Node()).add(rest)
 
     def shape(self):
-        """All that is below."""
+        """All variables below this node."""
         return frozenset((word, node.shape()) for word, node in self.below.items())
 
     def faults(self, name):
-        """What a tree of records and arrays cannot have."""
+        """Faults that a tree of records and arrays cannot have."""
         if len(self.kinds) > 1:
             yield f"{name} is {' and '.join(sorted(self.kinds))}"
         if "array" in self.kinds and len({node.shape() for node in self.below.values()}) > 1:
@@ -52,7 +52,7 @@ class Node:
 
 
 def faults(names):
-    """Of the tree of all names; derivatives make a tree of their own."""
+    """Faults of the tree of all names; derivatives have a separate tree."""
     trees = {"": Node(), "der": Node()}
     for name in names:
         inner = re.fullmatch(r"der\((.*)\)", name)
@@ -80,7 +80,7 @@ def test_names_make_a_tree_of_records_and_arrays(fmu_file, fmu3, version):
 
 
 def told(caught):
-    """What warnings say of former names."""
+    """Warnings about former names."""
     return {str(warning.message) for warning in caught
             if issubclass(warning.category, DifferentialWarning) and "is now named" in str(warning.message)}
 
@@ -148,7 +148,7 @@ file = "inputs.csv"
 
 @pytest.fixture
 def scene_file(tmp_path):
-    """scene_file(text): a file with former names, its CSV file beside it; and the same with present names."""
+    """scene_file(text): a scene file with former names and its CSV file, and a second pair with present names."""
     def made(text, folder="old"):
         place = tmp_path / folder
         place.mkdir(exist_ok=True)

@@ -49,7 +49,7 @@ def two(fmu, values, start, names=OUTPUTS):
 
 
 def three(fmu3, values, start):
-    """The same, FMI 3.0, and what happened when: in event mode a step ends where the tooth breaks."""
+    """Record and events of FMI 3.0: in event mode, a step ends when the tooth breaks."""
     rows, events = [], []
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
         unit.initialise(values, start=start)
@@ -107,7 +107,7 @@ def test_a_tooth_breaks_at_any_time_with_the_bits_of_a_run_that_begins_at_zero(f
 
 
 def test_an_epoch_time_is_rounded_by_half_a_unit_in_its_last_place():
-    """What an onset of 0.1 s in an epoch is off: 2^-23 s, and as much the start of the run."""
+    """Bound of the change that rounding causes: an onset of 0.1 s in an epoch is off by 2^-23 s, and so is the start of the run."""
     start, onset = CASES["epoch"]
     for time, meant in ((start, Fraction(9, 100)), (onset, Fraction(1, 10))):
         assert abs(Fraction(time) - (17 * 10**8 + meant)) <= Fraction(1, 2**23)
@@ -142,7 +142,7 @@ def test_model_exchange_announces_the_time(fmu, onset):
 @pytest.mark.parametrize("late", [0.0, 2.0**-20, 5.0, 1e6])
 @pytest.mark.parametrize("onset", [0.0, -3.0, EPOCH])
 def test_a_run_that_starts_later_starts_with_the_broken_tooth(fmu, fmu3, onset, late):
-    """As if the trigger broke it before the start, from which the teeth are preloaded."""
+    """A late start has the results of a trigger that broke the tooth before the start."""
     wanted = two(fmu, FAULT | {"fault.trigger": 1.0}, 0.0)
     assert not np.array_equal(wanted[0], two(fmu, FAULT, 0.0)[0])
     np.testing.assert_array_equal(two(fmu, at(onset), onset + late), wanted)

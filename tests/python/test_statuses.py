@@ -137,6 +137,14 @@ def test_ctrl_c_ends_every_command_with_its_status(name, prepared, monkeypatch, 
     assert "stopped" in capsys.readouterr().err
 
 
+def test_a_missing_library_of_answers_is_a_failure_that_is_named(prepared, monkeypatch, capsys):
+    prepared(DONE)
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_ANSWERS", "none.so")
+    library._library.cache_clear()
+    assert main(["plan", "study_turning"]) == FAILED
+    assert "none.so is missing" in capsys.readouterr().err
+
+
 def test_the_overview_and_one_page_state_the_statuses(capsys):
     assert main(["--help"]) == DONE
     line = capsys.readouterr().out.splitlines()[-1]

@@ -260,7 +260,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     # an interrupt while a part is written may write its rows twice; they count once
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
-    # it may go on with other workers; gears that cannot be assembled are a finding
+    # a resumed sweep may have other workers; gears that cannot be assembled are a finding
     assert main([*arguments(scene, out, wants, "--resume", "--workers", "0"), "--fmu", fmu_file]) == 3
     told = capsys.readouterr()
     assert not errors(told.err) and f"{kept} runs were kept from before" in told.out

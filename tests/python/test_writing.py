@@ -143,12 +143,18 @@ def hold(file, begun, ended):
         ended.wait()
 
 
-def test_who_wants_the_same_results_waits_and_says_so(tmp_path):
+def holder(file):
+    """A process that has the lock of `file`, and the event that ends it."""
     spawn = multiprocessing.get_context("spawn")
     begun, ended = spawn.Event(), spawn.Event()
-    other = spawn.Process(target=hold, args=(tmp_path / "results", begun, ended))
+    other = spawn.Process(target=hold, args=(file, begun, ended))
     other.start()
     assert begun.wait(60)
+    return other, ended
+
+
+def test_who_wants_the_same_results_waits_and_says_so(tmp_path):
+    other, ended = holder(tmp_path / "results")
     # the other process ends as soon as this one has said that it waits
     with pytest.warns(match="results: another command writes there; waiting") as caught:
         caught_by = writing.warn
@@ -168,11 +174,7 @@ def test_who_wants_the_same_results_waits_and_says_so(tmp_path):
 
 
 def test_the_lock_of_a_killed_process_is_free(tmp_path):
-    spawn = multiprocessing.get_context("spawn")
-    begun, never = spawn.Event(), spawn.Event()
-    other = spawn.Process(target=hold, args=(tmp_path / "results", begun, never))
-    other.start()
-    assert begun.wait(60)
+    other, _ = holder(tmp_path / "results")
     other.kill()
     other.join()
     start = time.monotonic()
@@ -188,7 +190,7 @@ OWN = {"scene.to_csv", "scene.to_parquet", "style.save", "save", "to_csv", "copy
 
 
 def writes(call):
-    """Whether a call writes a file, as far as its name and its arguments tell."""
+    """True if a call writes a file, judged by its name and its arguments."""
     function = ast.unparse(call.func)
     name = function.rpartition(".")[2]
     if name == "open":

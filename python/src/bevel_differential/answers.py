@@ -37,7 +37,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
         try:
             found = reply(question, numbers, on_progress)
         except OSError as missing:
-            raise DifferentialError(str(missing)) from None
+            raise DifferentialError(str(missing), kind="failed") from None
     warn(found.get("warnings", ()))
     if "answer" not in found:
         message = "\n".join(problem["message"] for problem in found["problems"])

@@ -94,7 +94,7 @@ class Fmu:
         return Fmu.by_hash, (str(self.file), self.sha256, tuple(self.display_units.values()))
 
     def displaying(self, units: Sequence[str]) -> "Fmu":
-        """The same FMU, which shows values in `units`, such as ["rpm", "kN"]. Each replaces the usual unit of all variables of its
+        """This FMU with values shown in `units`, such as ["rpm", "kN"]. Each replaces the usual unit of all variables of its
         dimension; other variables are shown as before. Numbers that go in and come out of it stay SI."""
         preferred = {**self.display_units, **self._preferred(units)}
         if preferred == self.display_units:

@@ -12,7 +12,7 @@ ENDINGS = {"table": (".csv", *PARQUET), "CSV file": (".csv",), "Parquet file": P
 
 
 def checked(file, kind: str | None = None) -> Path | None:
-    """The path of a file that can be written as far as its folder tells; None stays None. Its ending must be one of its kind, of
+    """The path of a file that can be written, as a trial in its folder shows; None stays None. Its ending must be one of its kind in
     `ENDINGS`."""
     if file is None:
         return None

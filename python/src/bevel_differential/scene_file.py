@@ -32,7 +32,7 @@ def find_beside(file: Path, what: str) -> Path:
 
 
 def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
-    """The arguments of `Scene` that a file holds, with another end if `stop` is given. All errors are reported at once."""
+    """The arguments of `Scene` in a file, with another end if `stop` is given. All errors are reported together."""
     found = ask({"ask": "scene", "of": about(file, {} if stop is None else {"stop_time": stop})})
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],

@@ -63,7 +63,7 @@ def panels(rows, columns, height, **options):
 
 
 def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
-    """What to see, in lines under the panels; `above` the panels so many inches stay free. `density`: characters per inch of width."""
+    """Adds a caption in lines under the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
     lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
     share = 0.99 - height - above / picture.get_figheight()

@@ -161,7 +161,7 @@ class Variable:
         raise DifferentialError(f"{self.name}: {text} is outside [{ends[0]:.6g}, {ends[1]:.6g}] {unit}".rstrip())
 
     def shown_in(self, unit: str | None) -> Self:
-        """The same variable, which is usually shown in `unit`, one of `units`. Differences are never shown in a unit with an offset:
+        """This variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset:
         5 K, not 5 degC."""
         found = copy.copy(self)
         if unit is not None and not (self.is_relative and unit in self._with_offset):

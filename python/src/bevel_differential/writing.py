@@ -25,7 +25,7 @@ else:
 
 # characters of a name that a temporary name repeats: names have at most 255 bytes
 KEPT = 50
-# time between two looks at a lock of another process, s
+# time between two checks of a lock of another process, s
 PAUSE = 0.1
 
 
@@ -76,7 +76,7 @@ class _Tried(Exception):
 
 
 def try_whole(file: FileName) -> None:
-    """Raises `OutputError` if `file` cannot be written, as far as a new file in its folder tells. Nothing is left."""
+    """Raises `OutputError` if `file` cannot be written, as a trial file in its folder shows. The trial file is removed."""
     with suppress(_Tried), whole(file):
         raise _Tried
 

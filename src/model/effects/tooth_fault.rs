@@ -37,7 +37,7 @@ impl Declare for ToothFaultSpec {
                 (0.0, 1e-2),
                 |p| &mut p.depth,
             ),
-            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; otherwise by fault.trigger alone")
+            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; otherwise only by fault.trigger")
                 .when("tooth_fault.gear != none")
                 .switch(|p| &mut p.at_onset),
             row("tooth_fault.onset", "Time at which the piece breaks off; a run that starts later starts without it")

@@ -19,7 +19,7 @@ const SEPARATORS: [(u8, &str); 3] = [(b',', "commas"), (b';', "semicolons"), (b'
 const COMMENT: u8 = b'#';
 /// Byte order mark, with which some programs begin UTF-8 files.
 const MARK: char = '\u{feff}';
-/// First line by which a file tells spreadsheets its separator.
+/// First line that names the separator for spreadsheet programs.
 const SEPARATOR_LINE: &str = "sep=";
 
 /// The cells of a file, without comments and blank lines; numbers have decimal points.

@@ -38,7 +38,7 @@ pub fn write<T>(path: &Path, make: impl FnOnce(&Path) -> Result<T>) -> Result<T>
     done
 }
 
-/// A new file beside `target`, which no other process or thread has.
+/// A new file in the folder of `target`, which no other process or thread uses.
 fn created(target: &Path) -> std::io::Result<PathBuf> {
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let kept: String = name.chars().take(KEPT).collect();

@@ -101,9 +101,9 @@ def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: fl
 
     `scene`: a file, the name of a shipped scene, or a `Scene`. `want`: one or several "OUTPUT:STATISTIC", such as
     "left.speed:mean"; without it all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this time
-    on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `timed`: whether processor times are measured, too. `file`: the intended
-    place of a scene file with the setting, which is not written: its text is `answer["file"]`. Ctrl-C stops the work. Raises
-    `DifferentialError`."""
+    on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `timed`: whether processor times are
+    measured, too. `file`: the intended place of a scene file with the setting, which is not written: its text is `answer["file"]`.
+    Ctrl-C stops the work. Raises `DifferentialError`."""
     question = {"ask": "accuracy", "of": about(scene, set, display_units), "want": [want] if isinstance(want, str) else list(want),
                 "within": str(within), "from": None if from_ is None else str(from_), "timed": timed,
                 "file": None if file is None else Path(file)}

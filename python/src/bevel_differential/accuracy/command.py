@@ -6,6 +6,9 @@ import time
 from ..command import DONE, FINDING
 from ..command.arguments import add_file, add_progress, add_quick, add_scene, add_units, changes
 
+# what --quick leaves out
+LEFT_OUT = "no times are measured, and no other solver is tried"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
@@ -20,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_file(parser, "--write", "scene", "write the scene with the chosen setting")
     add_file(parser, "--ssv", "parameter set", "write the start values of the chosen setting for hosts of the FMU")
     add_file(parser, "--python", "Python script", "write the scene with the chosen setting as a script")
-    add_quick(parser, "no times are measured, and no other solver is tried")
+    add_quick(parser, LEFT_OUT)
     add_progress(parser)
 
 
@@ -45,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     each = "" if arguments.quick else f" of {found.reference.seconds:.2g} s each"
     print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs{each}: {time.monotonic() - begin:.2g} s in all")
     if arguments.quick:
-        print("quick: no times are measured, and no other solver is tried")
+        print(f"quick: {LEFT_OUT}")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:

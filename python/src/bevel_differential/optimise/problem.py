@@ -110,7 +110,7 @@ class Problem:
 
     @classmethod
     def load(cls, file: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None) -> "Problem":
-        """The problem of a file; `stop`: another end of its scene. All errors in it are reported at once."""
+        """The problem of a file; `stop`: another end of its scene. All errors in the file are reported together."""
         return _Reader(Path(file), Fmu.of(fmu), stop).problem()
 
     def known(self, values: Mapping[str, Number]) -> dict[str, Number]:
