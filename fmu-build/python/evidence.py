@@ -1,111 +1,118 @@
-"""Makes the evidence that the FMU carries: parameter sets, inputs, results and tolerances of the shipped scenes, and of others in which
-what no shipped scene needs acts.
+"""Writes the evidence of the FMU: start values, inputs, results and tolerances of the shipped scenes, and of others for laws, levels and
+effects that no shipped scene uses.
 
 usage: evidence.py FMU SCENES FOLDER
 
-SCENES is the folder of the other scenes, FOLDER the content of extra/org.fmi-standard.fmi-ls-ref. Results come from runs at a tight
-solver tolerance. The tolerance of each variable comes from runs at the unit's own one, which a test keeps."""
+SCENES is the folder of the other scenes and of the template of the document, FOLDER the content of extra/org.fmi-standard.fmi-ls-ref.
+Results come from runs at a tight solver tolerance. The tolerance of each output comes from the difference to a run at the unit's own
+one."""
 
+import csv
+import io
 import math
 import shutil
 import sys
 from pathlib import Path
+from string import Template
 
 import numpy as np
 from bevel_differential.answers import about, ask
 from bevel_differential.fmu import Fmu
 from bevel_differential.scene_file import find, read_scene, shipped_scenes
 from bevel_differential.text import aligned
-from bevel_differential.verify.experiment import Experiment, Unit
-from bevel_differential.verify.parameter_sets import parameter_set
-from bevel_differential.verify.tables import table
-from evidence_files import manifest, requirements, write_table
+from bevel_differential.verify import COLUMNS, MANIFEST, TOLERANCES, record, start_values, table
+from lxml import etree
 
 SOLVER = "solver.relative_tolerance"
 TIGHT = 1e-9
-# a tolerance by the difference between both runs: other platforms, and hosts that place communication points otherwise, have other
-# differences of the same size
+# a tolerance by the difference between both runs: other platforms, and hosts with other communication points, have other differences of
+# the same size
 MARGIN = 5.0
-# parts of the largest magnitude: what the digits of the files cost, and a difference that shows another motion
+# fractions of the largest magnitude: rounding to the digits of the files, and a difference that shows another motion
 ROUNDING, LOST = 1e-9, 1e-3
 # what should be 0 is small or large by a heat, which is an energy as well
 MEASURES = {"solver.energy_residual": "heat.contact"}
 # seconds of a long scene that are compared
 LONGEST = 60.0
-# rows of a result, and the part of a scene that a smoke test runs
-ROWS = {"validation": 200, "smoke test": 40}
-SMOKE = 0.1
+# intervals between rows of a result, at most; one more row has the first communication step
+ROWS = 200
+# the document as FMI-LS-REF names it in the folder of documentation, and its template
+DOCUMENT, TEMPLATE = "fmi-ls-ref.txt", "fmi-ls-ref.md"
+# the version of the standard, and words that it fixes
+VERSION = "1.0.0-beta.1"
+NAME = "org.fmi-standard.fmi-ls-ref"
+DESCRIPTION = "Layered Standard providing information on related files included in an FMU."
+NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 
 
 def main(fmu, others, folder):
-    """Writes the folder anew."""
-    folder = Path(folder)
+    """Writes the folder."""
+    fmu, others, folder = Fmu.of(fmu), Path(others), Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     for part in ("parameters", "inputs", "results"):
         (folder / part).mkdir(parents=True)
-    known = Fmu.of(fmu)
-    unit = Unit(Path(fmu), Path(known.folder), known.description)
-    usual = float(unit.variables[SOLVER].start)
-    files = sorted([*map(find, shipped_scenes()), *Path(others).glob("*.toml")], key=lambda file: file.stem)
+    files = sorted([*map(find, shipped_scenes()), *others.glob("*.toml")], key=lambda file: file.stem)
     runs = []
     for number, file in enumerate(files):
         print(f"progress {number / len(files):.4f} {file.stem}", file=sys.stderr, flush=True)
-        runs.append(Run(file, unit, known, folder, usual))
+        runs.append(Run(file, fmu, folder))
     shipped = [run for run in runs if run.name in shipped_scenes()]
-    # heavy loads in the other scenes shall not widen the tolerances of shipped ones
-    parts = [part for run in runs for part in run.parts(largest(shipped if run in shipped else runs))]
-    for part in parts:
-        write_table(folder / part["result"], part["rows"])
-    rows = [(part["name"], name, unit.variables[name].unit or "1", f"{value:.1e}")
-            for part in parts for name, value in part["tolerances"].items()]
-    write_table(folder / "tolerances.csv", [("experiment", "variable", "unit", "tolerance"), *rows])
-    for name, content in manifest(parts, SMOKE).items():
-        (folder / name).write_bytes(content)
-    (folder / "requirements.md").write_text(requirements(parts, usual, TIGHT, MARGIN, ROUNDING, LOST, SMOKE), encoding="utf-8")
-    print(summary(parts))
+    tolerances, said = [COLUMNS], [("scene", "rows", "compared until, s", "largest tolerance by magnitude")]
+    for run in runs:
+        # heavy loads in the other scenes shall not widen the tolerances of shipped ones
+        scales = largest(shipped if run in shipped else runs)
+        rows, allowed = run.result(scales)
+        write_table(folder / run.file("results"), rows)
+        tolerances += [(run.name, name, fmu.variable(name).unit or "1", f"{value:.1e}") for name, value in allowed.items()]
+        said.append((run.name, str(len(rows) - 1), rows[-1][0], f"{max(value / scales[name] for name, value in allowed.items()):.1e}"))
+    write_table(folder / TOLERANCES, tolerances)
+    (folder / MANIFEST).write_bytes(manifest(runs))
+    template = Template((others / TEMPLATE).read_text(encoding="utf-8"))
+    (folder / DOCUMENT).write_text(template.substitute(
+        version=VERSION, tight=f"{TIGHT:g}", usual=fmu.variable(SOLVER).start, margin=f"{MARGIN:g}", rounding=f"{ROUNDING:g}", lost=f"{LOST:g}",
+        scenes="\n".join(f"- `{run.name}`: {run.description}" for run in runs)), encoding="utf-8")
+    print("\n".join(aligned(said, 1)))
 
 
 class Run:
-    """A scene: its parameter set and inputs as files, and its records at both solver tolerances."""
+    """A scene: its start values and inputs as files, and its records at both solver tolerances."""
 
-    def __init__(self, file, unit, fmu, folder, usual):
-        scene, name = read_scene(file), file.stem
+    def __init__(self, file, fmu, folder):
+        scene, self.name = read_scene(file), file.stem
+        self.description, self.step = scene["description"], scene["step"]
         scene["stop"] = min(scene["stop"], LONGEST)
-        self.name, self.description, self.stop, self.step = name, scene["description"], scene["stop"], scene["step"]
-        parameters = folder / "parameters" / f"{name}.ssv"
-        parameters.write_text(ask({"ask": "export", "of": about(file), "format": "ssv"})["text"], encoding="utf-8")
-        values = parameter_set(name, parameters, unit.variables)
-        points = signals(scene, fmu, values)
-        self.inputs = f"inputs/{name}.csv" if points else None
-        run = Experiment(name, folder, start=0.0, stop=self.stop, step=self.step)
-        run.expected = np.zeros(1, [("time", float), *((output, float) for output in scene["outputs"])])
+        (folder / self.file("parameters", "ssv")).write_text(ask({"ask": "export", "of": about(file), "format": "ssv"})["text"], encoding="utf-8")
+        start = start_values(fmu, folder / self.file("parameters", "ssv"), file)
+        points, inputs = signals(scene, fmu, start), None
+        self.has_inputs = bool(points)
         if points:
-            write_table(folder / self.inputs, points)
-            run.signals = table(name, folder / self.inputs, unit.variables, [])
-        self.usual, self.tight = (self._record(run, unit, values, tolerance) for tolerance in (values.get(SOLVER, usual), TIGHT))
+            write_table(folder / self.file("inputs"), points)
+            inputs = table(fmu, folder / self.file("inputs"), file)
+        usual = start.get(SOLVER, fmu.variable(SOLVER).start)
+        self.usual, self.tight = (record(fmu, start | {SOLVER: tolerance}, inputs, scene["stop"], self.step, scene["outputs"], [])
+                                  for tolerance in (usual, TIGHT))
 
     @property
     def outputs(self):
         """Names of all outputs."""
         return self.tight.dtype.names[1:]
 
-    def parts(self, scales):
-        """The smoke test and the validation as files of experiments and tables name them."""
+    def file(self, folder, ending="csv"):
+        """Path of a file of the scene."""
+        return f"{folder}/{self.name}.{ending}"
+
+    def result(self, scales):
+        """Rows of the result, the names first, and the tolerance of each output. `scales`: magnitudes by output.
+
+        Adds to the description if the result ends early."""
         differences = {name: np.abs(self.usual[name] - self.tight[name]) for name in self.outputs}
         lost = np.flatnonzero(np.any([differences[name] > LOST * scales[name] for name in self.outputs], axis=0))
-        for kind, ending, stop in (("smoke test", "_smoke", SMOKE * self.stop), ("validation", "", self.stop)):
-            end = min([int(np.searchsorted(self.tight["time"], stop * (1.0 + 1e-9))), *lost[:1].tolist()])
-            kept = thinned(end, ROWS[kind])
-            tolerances = {name: rounded_up(MARGIN * differences[name][:end].max() + ROUNDING * scales[name]) for name in self.outputs}
-            until = self.tight["time"][end - 1] if len(lost) and end == lost[0] else None
-            yield {"name": f"{self.name}{ending}", "kind": kind, "description": self.description, "scene": self.name, "inputs": self.inputs,
-                   "result": f"results/{self.name}{ending}.csv", "stop": stop, "step": self.step, "until": until,
-                   "tolerances": tolerances, "relative": max(tolerances[name] / scales[name] for name in self.outputs),
-                   "rows": [("time", *self.outputs), *([f"{cell:.10g}" for cell in self.tight[place]] for place in kept)]}
-
-    def _record(self, run, unit, values, tolerance):
-        run.values = values | {SOLVER: tolerance}
-        return run.run(unit)
+        end = min([len(self.tight), *lost[:1].tolist()])
+        if len(lost):
+            self.description += f" (the result ends at {self.tight['time'][end - 1]:.6g} s: later the motion depends on the tolerance of the solver)"
+        kept = sorted({1, *range(0, end, max(1, math.ceil((end - 1) / ROWS))), end - 1})
+        rows = [("time", *self.outputs), *([f"{cell:.10g}" for cell in self.tight[place]] for place in kept)]
+        return rows, {name: rounded_up(MARGIN * differences[name][:end].max() + ROUNDING * scales[name]) for name in self.outputs}
 
 
 def signals(scene, fmu, values):
@@ -161,24 +168,34 @@ def largest(runs):
     return found | {name: found[measure] for name, measure in MEASURES.items() if name in found}
 
 
-def thinned(count, most):
-    """Places of rows that are kept: every so many, and the last one."""
-    every = max(1, math.ceil((count - 1) / most))
-    return sorted({*range(0, count, every), count - 1})
-
-
 def rounded_up(value):
     """The value with two digits, not below it."""
     size = 10.0 ** (math.floor(math.log10(value)) - 1)
     return math.ceil(value / size) * size
 
 
-def summary(parts):
-    """What was made."""
-    rows = [("experiment", "kind", "rows", "compared until, s", "largest tolerance by magnitude")]
-    for part in parts:
-        rows.append((part["name"], part["kind"], str(len(part["rows"]) - 1), f"{float(part['rows'][-1][0]):.6g}", f"{part['relative']:.1e}"))
-    return "\n".join(aligned(rows))
+def manifest(runs):
+    """The manifest of FMI-LS-REF as XML."""
+    root = etree.Element("fmiReferences", nsmap={"fmi-ls": NAMESPACE})
+    for key, value in (("name", NAME), ("version", VERSION), ("description", DESCRIPTION)):
+        root.set(f"{{{NAMESPACE}}}fmi-ls-{key}", value)
+    listed = [("text/markdown", f"../../documentation/{DOCUMENT}", "document", "How to test with these files"),
+              ("text/csv", TOLERANCES, "testcase", "Tolerance of each output in each scene")]
+    for run in runs:
+        listed.append(("application/x-ssp-parameter-set", run.file("parameters", "ssv"), "parameter", run.description))
+        if run.has_inputs:
+            listed.append(("text/csv", run.file("inputs"), "testcase", f"Inputs of {run.name} over time"))
+        listed.append(("text/csv", run.file("results"), "result", f"Results of {run.name}, communication step {run.step:g} s"))
+    for values in listed:
+        etree.SubElement(root, "Related", dict(zip(("type", "source", "role", "description"), values)))
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
+
+
+def write_table(file, rows):
+    """Writes a table as CSV."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    file.write_text(text.getvalue(), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -81,7 +81,7 @@ CASES = {
                "a.csv", 0, ()),
     "bench": (["winter_start", "--out", "out", "--workers", "0"], "out/winter_start.toml", 150_000, ()),
     "study": (["--out", "out"], "out/table.md", 190_000, ()),
-    "verify": (["--quick", "--csv", "a.csv"], "a.csv", 0, ()),
+    "verify": (["--csv", "a.csv"], "a.csv", 0, ()),
     "variables": (["--csv", "a.csv"], "a.csv", 0, ()),
     "examples": (["--out", "."], None, 12_288, ()),
 }

@@ -8,16 +8,14 @@ from pathlib import Path
 
 import pytest
 
-import stand_in
+from evidence_unit import packed
 from short_scene import SCENE
-from bevel_differential import cad, library
+from bevel_differential import cad, library, verify
 from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
 from bevel_differential.command import examples as examples_command
 from bevel_differential.command import page as page_command
 from bevel_differential.fmu import Fmu
 from bevel_differential.instance import Instance
-from bevel_differential.verify import experiment
-from bevel_differential.verify.evidence import MANIFEST
 
 ROOT = Path(__file__).resolve().parents[2]
 # the package has a function of the same name
@@ -85,18 +83,25 @@ CASES = {
 EACH = [(status, line) for cases in CASES.values() for status, line in cases.items()]
 
 
+@pytest.fixture(scope="module")
+def units(fmu_file, tmp_path_factory):
+    """FMUs with one scene of evidence, which is met in good.fmu and not in bad.fmu."""
+    folder = tmp_path_factory.mktemp("units")
+    for name, changes in (("good", {}), ("bad", {"results/one_wheel_on_ice.csv": lambda text: text.replace("\n0,", "\n0,1", 1)})):
+        packed(fmu_file, folder / f"{name}.fmu", ["one_wheel_on_ice"], changes)
+    return folder
+
+
 @pytest.fixture
-def prepared(fmu_file, tmp_path, monkeypatch):
+def prepared(fmu_file, units, tmp_path, monkeypatch):
     """prepared(status): a folder with the files of the command lines, and what a command meets that ends with this status."""
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
         Path(name).write_text(text, encoding="utf-8")
     main(["examples", "--out", "there"])
-    entries = stand_in.manifest(stand_in.related("out.csv"))
-    for name, result in (("good", stand_in.DEFAULT), ("bad", stand_in.DEFAULT.replace("0.5,0.5", "0.5,0.6"))):
-        stand_in.packed(tmp_path / f"{name}.fmu", {MANIFEST: entries, "out.csv": result})
-    monkeypatch.setattr(experiment, "simulate_fmu", stand_in.StandIn())
+    for unit in units.iterdir():
+        Path(unit.name).symlink_to(unit)
     # files for CAD are another test's
     monkeypatch.setattr(cad, "available", lambda: False)
     monkeypatch.setattr(page_command, "page_file", lambda: tmp_path / "there.toml")
@@ -130,7 +135,7 @@ def test_ctrl_c_ends_every_command_with_its_status(name, prepared, monkeypatch, 
         raise KeyboardInterrupt
 
     prepared(DONE)
-    for owner, function in ((library, "_library"), (Instance, "start"), (experiment, "simulate_fmu"), (examples_command, "write_whole"), (Fmu, "find"),
+    for owner, function in ((library, "_library"), (Instance, "start"), (verify, "simulate_fmu"), (examples_command, "write_whole"), (Fmu, "find"),
                             (webbrowser, "open")):
         monkeypatch.setattr(owner, function, interrupted)
     assert main(CASES[name][DONE].split()) == INTERRUPTED
@@ -185,7 +190,7 @@ def test_a_quick_answer_says_what_it_left_out(name, prepared, capsys):
 
 def test_commands_that_simulate_a_scene_or_leave_something_out_have_the_options():
     assert having("--stop") == {"run", "plan", "loads", "accuracy", "report", "pattern", "sweep", "losses", "optimise", "tolerance"}
-    assert having("--quick") == {"accuracy", "report", "pattern", "losses", "optimise", "tolerance", "study", "verify"}
+    assert having("--quick") == {"accuracy", "report", "pattern", "losses", "optimise", "tolerance", "study"}
 
 
 @pytest.mark.parametrize("name", sorted(having("--stop")))

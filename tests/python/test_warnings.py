@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from evidence_unit import packed
+
 from bevel_differential import DifferentialWarning, Scene
 from bevel_differential.command import COMMANDS, main
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
@@ -113,11 +115,11 @@ def test_a_car_passes_on_warnings(fmu_file):
     assert {one.filename for one in caught} == {__file__}
 
 
-def test_verify_names_the_experiments_of_each_warning_and_prints_it_once(fmu_file, capsys):
-    assert main(["verify", fmu_file, "--quick"]) == 0
+def test_verify_names_the_scenes_of_each_warning_and_prints_it_once(fmu_file, tmp_path, capsys):
+    assert main(["verify", packed(fmu_file, tmp_path / "few.fmu")]) == 0
     printed = capsys.readouterr()
     said = [line for line in printed.err.splitlines() if line.startswith("warning: ")]
-    assert len(set(said)) == len(said) and sum(WIDE in line and " experiments: " in line for line in said) == 1, said
+    assert len(set(said)) == len(said) and sum(WIDE in line and " scenes: " in line for line in said) == 1, said
     assert WIDE not in printed.out
 
 

@@ -21,7 +21,7 @@ const INTRODUCTION: &str = "Dynamics of a bevel gear differential as an FMU for 
      to four planets and two side gears with straight spherical-involute teeth, in contact pair by pair along the exact path \
      of contact, with backlash and tip-corner contact.";
 const LIVE: &str = "The differential live in a browser: scenes, parameters and effects, with the gears in motion.";
-const TESTS: &str = "Scenes with results that the FMU carries, and what a test by them requires.";
+const TESTS: &str = "Scenes with expected results in the FMU, and how to test with them.";
 const USE: [&str; 5] = [
     "Import the FMU into any host of FMI 2.0 on one of the platforms below.",
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
@@ -80,7 +80,7 @@ pub const FIGURES: [Figure; 3] = [
 pub struct Beside {
     /// The differential in motion.
     pub live: Option<&'static str>,
-    /// What tests by the evidence require.
+    /// How to test with the evidence.
     pub tests: Option<&'static str>,
 }
 

@@ -1,4 +1,4 @@
-//! The evidence that the FMU carries: parameter sets, inputs and results of scenes, as data in the repository. A script
+//! Evidence in the FMU: start values, inputs, results and tolerances of scenes, as data in the repository. A script
 //! makes them; packaging copies them.
 
 use std::fs;
@@ -16,9 +16,7 @@ use crate::tools::{paths, script};
 
 /// The folder in the archive. FMI-LS-REF gives its name.
 const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
-/// The file that states what a test with the evidence requires.
-const REQUIREMENTS: &str = "requirements.md";
-/// Name of its copy in the FMU's documentation, as FMI-LS-REF recommends.
+/// Document that states how to test with the evidence. FMI-LS-REF recommends its name, in the FMU's folder of documentation.
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 /// The script that makes the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
@@ -73,16 +71,12 @@ pub fn files() -> Result<Vec<(String, Vec<u8>)>> {
     Ok(found)
 }
 
-/// Contents of `DOCUMENT`, if there are these files of evidence.
-pub fn document(files: &[(String, Vec<u8>)]) -> Option<&[u8]> {
-    let path = format!("{IN_ARCHIVE}/{REQUIREMENTS}");
-    files.iter().find(|(of, _)| *of == path).map(|(_, content)| &content[..])
-}
-
 fn collect(folder: &Path, in_archive: &str, found: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
     for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", paths::shown(folder)))? {
         let entry = entry?.path();
-        let name = format!("{in_archive}/{}", entry.file_name().unwrap_or_default().to_string_lossy());
+        let name = entry.file_name().unwrap_or_default().to_string_lossy();
+        let folder = if name == DOCUMENT { "documentation" } else { in_archive };
+        let name = format!("{folder}/{name}");
         if entry.is_dir() {
             collect(&entry, &name, found)?;
         } else {

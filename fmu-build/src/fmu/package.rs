@@ -160,13 +160,10 @@ fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing
         }
     }
     let licences = licences::collected(CRATES[0], libraries)?;
-    let tests = evidence::document(&evidence);
-    let beside = documentation::Beside { live: page.map(|_| page::FILE), tests: tests.map(|_| evidence::DOCUMENT) };
+    let tests = (!evidence.is_empty()).then_some(evidence::DOCUMENT);
+    let beside = documentation::Beside { live: page.map(|_| page::FILE), tests };
     let index = documentation::page(libraries, &licences.linked, &beside)?;
     add("documentation/index.html", index.as_bytes(), PLAIN)?;
-    if let Some(tests) = tests {
-        add(&format!("documentation/{}", evidence::DOCUMENT), tests, PLAIN)?;
-    }
     if let Some(page) = page {
         add(&format!("documentation/{}", page::FILE), page, PLAIN)?;
     }

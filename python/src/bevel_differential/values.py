@@ -22,6 +22,8 @@ FileName: TypeAlias = str | os.PathLike[str]
 
 _Shown = TypeVar("_Shown", float, np.ndarray)
 
+# kinds of FMI 3.0 by the names of FMI 2.0
+_KINDS = {"Float64": "Real", "Int32": "Integer", "UInt64": "Integer"}
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
 # between the middle of a band and its half
@@ -85,7 +87,7 @@ class Variable:
 
     def __init__(self, described: "ScalarVariable", units: "Mapping[str, Unit]"):
         self.name = described.name
-        self.kind = described.type
+        self.kind = _KINDS.get(described.type, described.type)
         self.causality = described.causality
         self.variability = described.variability
         self.reference = described.valueReference

@@ -1,4 +1,4 @@
-"""Holds units with a wrong coefficient to the evidence that they carry: all in one build, each woken by an environment variable.
+"""Tests units with a wrong coefficient by their evidence: all in one build, each woken by an environment variable.
 
 usage: wrong_units.py REPOSITORY FMU FOLDER COUNT SEED
 
@@ -18,7 +18,7 @@ from build import WATCH, built
 from changes import drawn
 from coefficients import LARGER, MODULES, coefficients, opened
 
-HEAD = ("coefficient", "value", "noticed", "experiment", "variable", "time_s", "off_by", "unit", "times_tolerance", "remark")
+HEAD = ("coefficient", "value", "noticed", "scene", "variable", "time_s", "off_by", "unit", "times_tolerance", "remark")
 
 
 def main():
@@ -76,7 +76,7 @@ def packed(fmu, library, file):
 
 
 def verified(unit, number, folder):
-    """Rows of the table that `verify` writes with a change awake: one for each variable of each experiment."""
+    """Rows of the table that `verify` writes with a change awake: one for each variable of each scene."""
     table = folder / f"verify{number}.csv"
     done = subprocess.run([sys.executable, "-m", "bevel_differential", "verify", str(unit), "--csv", str(table)], capture_output=True, text=True,
                           env=awake(number))
@@ -88,7 +88,7 @@ def verified(unit, number, folder):
 
 
 def digests(unit, number):
-    """Digests of all outputs by experiment."""
+    """Digests of all outputs by scene."""
     done = subprocess.run([sys.executable, str(Path(__file__).with_name("record.py")), str(unit)], capture_output=True, text=True, check=True,
                           env=awake(number))
     return json.loads(done.stdout)
@@ -100,20 +100,25 @@ def awake(number):
 
 
 def ratio_of(row):
-    """The deviation by the tolerance; 0 of an experiment that breaks off, which says no more than that."""
-    return float(row["deviation"]) / float(row["tolerance"]) if row["deviation"] else 0.0
+    """The deviation divided by the tolerance; 0 of a scene that cannot be compared."""
+    return deviation_of(row) / float(row["tolerance"]) if row["value"] else 0.0
+
+
+def deviation_of(row):
+    """The deviation of a variable."""
+    return abs(float(row["value"]) - float(row["expected"]))
 
 
 def row_of(change, worst, differ, said):
-    """A line of the table. `differ`: experiments whose bits differ where none fails; `said`: why some are not noticed."""
+    """A line of the table. `differ`: scenes whose bits differ if none fails; `said`: why some are not noticed."""
     begin = [f"{change.file}:{change.line}", change.before, "yes" if differ is None else "no"]
     why = next((each["why"] for each in said if (each["file"], each["value"]) == (change.file, change.before)), "not explained")
     if differ == []:
-        return [*begin, *[""] * 6, f"equal bits of all outputs in all experiments; {why}"]
-    if not worst["deviation"]:
-        return [*begin, worst["experiment"], *[""] * 5, "the run breaks off"]
-    found = [f"{float(worst['time']):.6g}", f"{float(worst['deviation']):.3g}", worst["unit"], f"{ratio_of(worst):.3g}"]
-    return [*begin, worst["experiment"], worst["variable"], *found, f"bits differ in {', '.join(differ)}; {why}" if differ else ""]
+        return [*begin, *[""] * 6, f"equal bits of all outputs in all scenes; {why}"]
+    if not worst["value"]:
+        return [*begin, worst["scene"], *[""] * 5, "the run breaks off"]
+    found = [f"{float(worst['time']):.6g}", f"{deviation_of(worst):.3g}", worst["unit"], f"{ratio_of(worst):.3g}"]
+    return [*begin, worst["scene"], worst["variable"], *found, f"bits differ in {', '.join(differ)}; {why}" if differ else ""]
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ COMMANDS = {
     "losses": (".losses.command", "sweep", "map power loss and torque bias over torque, speeds and oil temperature, its error measured"),
     "bench": (".bench.command", "sweep", "put a differential on a virtual bench: torque bias, breakaway, judder, hot lap, winter start"),
     "study": (".study.command", "report", "simulate the two cases of the study and compare the results with the study and with theory"),
-    "verify": (".verify.command", None, "run an FMU against the evidence that it carries: experiments, results and their tolerances"),
+    "verify": (".command.verify", None, "simulate the scenes of an FMU's evidence and compare with its results within their tolerances"),
     "examples": (".command.examples", None, "copy the example files of designs, tolerances, duty cycles and cars into a folder"),
     "page": (".command.page", None, "open the differential live in a browser"),
 }
