@@ -20,7 +20,7 @@ const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 /// The script that makes the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
-/// Scenes for the evidence alone, with the laws, levels of gear contact and effects that no shipped scene uses.
+/// Scenes only for the evidence, with the laws, levels of gear contact and effects that no shipped scene uses.
 const SCENES: &str = "fmu-build/evidence";
 
 /// Simulates the shipped scenes and those of fmu-build/evidence, and writes their results to modelDescription/evidence, for `bevel-differential verify`
@@ -60,7 +60,7 @@ fn take(made: &Path) -> Result<()> {
     fs::rename(made, &old).with_context(|| format!("{} cannot be written", paths::shown(&old)))
 }
 
-/// Paths in the archive and contents, in a fixed order. None without the folder: the FMU that makes the first evidence carries none.
+/// Paths in the archive and contents, in a fixed order. Empty without the folder, because the FMU that makes the first evidence has none.
 pub fn files() -> Result<Vec<(String, Vec<u8>)>> {
     let (_alone, root) = (lock()?, paths::evidence());
     let mut found = Vec::new();

@@ -72,7 +72,7 @@ pub fn model_description() -> PathBuf {
     workspace().join("modelDescription").join("modelDescription.xml")
 }
 
-/// The evidence kept in the repository, which the FMU carries.
+/// The evidence kept in the repository, which the FMU contains.
 pub fn evidence() -> PathBuf {
     workspace().join("modelDescription").join("evidence")
 }

@@ -2,8 +2,8 @@
 
 A coefficient is a decimal number of a formula: one that is added, subtracted, multiplied or divided, the exponent of a power, or a
 constant of `CONSTANTS`. None are 0.5, 1 and 2, which are algebra, and powers of ten, which are units or tolerances. None are limits,
-which are compared, or arguments of min, max and clamp, or bounds of a range; start values and ranges of parameters, which an
-experiment sets; what messages say; the mathematics in `METHODS`."""
+which are compared, or arguments of min, max and clamp, or bounds of a range; start values and ranges of parameters, which a
+scene sets; what messages say; the mathematics in `METHODS`."""
 
 from pathlib import Path
 

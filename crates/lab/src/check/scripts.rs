@@ -137,7 +137,7 @@ pub const MUTANTS: Script = Script {
     ..DEFAULTS
 };
 
-/// Units with a wrong coefficient, held to the evidence that they carry.
+/// Units with a wrong coefficient, tested with their evidence.
 pub const COEFFICIENTS: Script = Script {
     name: "coefficients",
     about: "Makes coefficients of the physics 2 % larger, one at a time, and lists what `verify` notices",
