@@ -1,7 +1,8 @@
 """Evidence of an FMU: scenes with start values, inputs, results and tolerances. `verify` simulates each scene with fmpy and compares.
 
 The files are listed in the manifest of FMI-LS-REF. Files of one scene have its name: parameters/NAME.ssv with the role `parameter`,
-inputs/NAME.csv (`testcase`) if inputs change, results/NAME.csv (`result`). tolerances.csv (`testcase`) has a line for each result."""
+inputs/NAME.csv (`testcase`) if inputs change, results/NAME.csv (`result`). tolerances.csv (`testcase`) has a line for each output of
+each scene."""
 
 import io
 from collections.abc import Iterator
