@@ -6,9 +6,12 @@ import os
 import random
 import signal
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
+
+from tqdm import tqdm
 
 from bevel_differential import Scene, answers, style
 from bevel_differential.command import main
@@ -62,6 +65,8 @@ def forked(work):
     if process:
         return process
     status = 1
+    # forked processes share the lock of progress bars, and whoever is killed with it would stop all others
+    tqdm.set_lock(threading.RLock())
     try:
         work()
         status = 0
@@ -149,6 +154,8 @@ def resumed(folder, draw):
 def begin(folder, seed):
     """Runs it all."""
     draw = random.Random(seed)
+    # no thread of progress bars: forks of a process with threads may stop
+    tqdm.monitor_interval = 0
     answers.ask = remembered(answers.ask)
     (folder / "whole").mkdir()
     written(folder / "whole")
