@@ -9,11 +9,10 @@ use fmu_build::tools::progress::Progress;
 
 use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number, path};
 
-/// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by
-/// quantity, contact laws, and levels of gear contact.
+/// Cost of accuracy: methods over tolerances and steps, the cheapest setting by quantity, contact laws, and levels of gear contact.
 pub const COST: Script = Script {
     name: "cost",
-    about: "Measures what accuracy costs: methods, levels of gear contact, settings and communication steps",
+    about: "Measures what accuracy costs: methods, levels of gear contact and settings",
     options: || {
         vec![
             flag("quick", "Take under a minute: fewer tolerances, steps and runs"),
@@ -75,7 +74,6 @@ pub const SURVEY: Script = Script {
 /// This program against other simulators, on the study's two cases.
 pub const SIMULATORS: Script = Script {
     name: "compare-simulators",
-    alias: Some("peers"),
     about: "Compares MuJoCo and Drake with this program on the study's cases (a few minutes)",
     options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/compare.md")],
     needs: Needs::Own(["benches/peers", "peers/venv", "MuJoCo, Drake, fmpy"]),
@@ -91,7 +89,6 @@ pub const SIMULATORS: Script = Script {
 /// This program's methods against solvers of other authors, on the same equations.
 pub const SOLVERS: Script = Script {
     name: "compare-solvers",
-    alias: Some("foreign"),
     about: "Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)",
     options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/compare.md")],
     needs: Needs::Own(["benches/foreign", "foreign", "scipy, scikit-SUNDAE"]),

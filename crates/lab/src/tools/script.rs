@@ -21,8 +21,6 @@ use super::command::Command;
 pub struct Script {
     /// Name of the command.
     pub name: &'static str,
-    /// A former name of the command.
-    pub alias: Option<&'static str>,
     /// The help text in one line.
     pub about: &'static str,
     /// A second paragraph of the long help text.
@@ -48,7 +46,6 @@ pub struct Script {
 /// Defaults of a script.
 pub const DEFAULTS: Script = Script {
     name: "",
-    alias: None,
     about: "",
     more: None,
     options: Vec::new,
@@ -123,7 +120,7 @@ fn is_set(options: &ArgMatches, name: &str) -> bool {
 impl Script {
     /// The script as a command of the program.
     pub fn command(self) -> Command {
-        let declared = clap::Command::new(self.name).about(self.about).aliases(self.alias).args((self.options)());
+        let declared = clap::Command::new(self.name).about(self.about).args((self.options)());
         let declared = match self.more {
             Some(more) => declared.long_about(format!("{}\n\n{more}", self.about)),
             None => declared,
