@@ -86,6 +86,6 @@ mod tests {
 
     #[test]
     fn a_repeated_option_counts_last() {
-        assert!(parsed(&["cost", "--quick", "--quick", "--out", "a", "--out", "b"]).is_ok());
+        assert!(parsed(&["survey", "--write", "--write", "--seed", "1", "--seed", "2"]).is_ok());
     }
 }

@@ -25,7 +25,7 @@ pub struct Script {
     pub about: &'static str,
     /// A second paragraph of the long help text.
     pub more: Option<&'static str>,
-    /// Options of the command. A switch `write` renews the documents, a path `out` replaces the folder of results.
+    /// Options of the command. A switch `write` renews the documents.
     pub options: fn() -> Vec<Arg>,
     /// Python environment of the script.
     pub needs: Needs,
@@ -177,11 +177,8 @@ impl Script {
         Ok(printed)
     }
 
-    /// Folder of results: the value of the option `out`, else `folder`.
+    /// Folder of results.
     fn folder(&self, options: &ArgMatches) -> Option<PathBuf> {
-        if let Ok(Some(named)) = options.try_get_one::<PathBuf>("out") {
-            return Some(named.clone());
-        }
         let values = options.ids().map(|id| (format!("{{{id}}}"), value(options, id.as_str())));
         let named = |own: &str| values.fold(own.to_owned(), |folder, (option, value)| folder.replace(&option, &value));
         self.folder.map(|own| paths::target().join(named(own)))
