@@ -48,17 +48,15 @@ def signed_percent(fraction: float) -> str:
 
 def _rows(forms, runs):
     start, straight, turning = forms.start, runs["straight"], runs["turning"]
-    stiffness = start["contact.stiffness"]
     found, turn = straight.results, turning.results
-    load = f"{stated.LOAD:.2f}"
     return [
         _row("input: carrier at 60 km/h, deg/s", INPUTS, f"{straight.case.carrier_speed:.2f}", theory.carrier_speed(straight.case),
              degrees(start["carrier.speed_command"]), _fixed(2)),
         _row("input: carrier at 20 km/h, deg/s", INPUTS, f"{turning.case.carrier_speed:.2f}", theory.carrier_speed(turning.case),
              turn["carrier_speed"], _fixed(2)),
-        _row("input: load per half-shaft, N.m", INPUTS, load, theory.load_torque(), start["left.load_torque"], _fixed(2)),
+        _row("input: load per half-shaft, N.m", INPUTS, f"{stated.LOAD:.2f}", theory.load_torque(), start["left.load_torque"], _fixed(2)),
         _row("input: stiffness K, N/mm^1.5", STIFFNESS, _scientific(stated.STIFFNESS_PRINTED), _per_mm(forms.hertz_stiffness),
-             _per_mm(stiffness), _scientific),
+             _per_mm(start["contact.stiffness"]), _scientific),
         *_speed_rows("straight", straight),
         _row("straight: ripple, peak to peak", RIPPLE, f"{2.0 * stated.RIPPLE:g} %", "0.00 %", f"{found['ripple'][0]:.2f} %"),
         *_speed_rows("turn", turning),
