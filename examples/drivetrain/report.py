@@ -1,5 +1,6 @@
 """What was measured, as Markdown."""
 
+from bevel_differential.text import markdown as table
 from checks import expected, observed
 from masters import ALL
 from measure import QUANTITIES
@@ -15,19 +16,11 @@ def markdown(found):
     return "\n".join(parts)
 
 
-def rows_of(head, rows):
-    """A table, its first column to the left and numbers to the right."""
-    width = [max(len(line[i]) for line in (head, *rows)) for i in range(len(head))]
-    lines = [head, ["-" * (width[0])] + ["-" * (w - 1) + ":" for w in width[1:]], *rows]
-    lines = [[cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, width))] for line in lines]
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
-
-
 def hosts(found):
     names = list(found["ideal"])
     rows = [[name, *(f"{found[contact][name]:.1e}" if name != "FMPy" else "0" for contact in found)] for name in names]
     return (f"Same archive, steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, over its largest value.\n\n"
-            + rows_of(["host", *(f"`{contact}`" for contact in found)], rows))
+            + table([["host", *(f"`{contact}`" for contact in found)], *rows]))
 
 
 def limits(found):
@@ -39,7 +32,7 @@ def limits(found):
         rows.append([master.label, f"{row['predicted'] * 1e3:.2f}", measured, around])
     return ("Longest communication step, ms, at which nothing grows (with rollback: repetitions converge), and what a disturbance\n"
             "becomes in 0.2 s at 0.85 / 1.15 of the prediction.\n\n"
-            + rows_of(["master", "predicted", "found", "at 0.85 / at 1.15"], rows))
+            + table([["master", "predicted", "found", "at 0.85 / at 1.15"], *rows]))
 
 
 def errors(contact, found):
@@ -64,7 +57,7 @@ def errors(contact, found):
     doubt, methods = found["references"][contact].doubt, found["references"][contact].methods
     return (f"`{contact}`: largest error of any quantity by communication step, ms (in brackets: runs of a step with rollback).\n"
             f"Reference: {methods[0]} on all equations at once; {methods[1]} differs from it by {doubt:.0e}.\n\n"
-            + rows_of(["step, ms", *(master.label for master in ALL.values())], [*lines, order, theory]))
+            + table([["step, ms", *(master.label for master in ALL.values())], *lines, order, theory]))
 
 
 def error_cell(row):
@@ -78,7 +71,7 @@ def quantities(found):
     lines = [[master.label, *(f"{row[q]:.1e}" for q in QUANTITIES), f"{row['seconds']:.1f}"]
              for name, master in ALL.items() for row in rows if (row["master"], row["step"]) == (name, step)]
     return (f"`{contact}`, steps of {step * 1e3:g} ms: largest error of each quantity over its largest value, and CPU time.\n\n"
-            + rows_of(["master", *QUANTITIES, "s"], lines))
+            + table([["master", *QUANTITIES, "s"], *lines]))
 
 
 def mesh(found, limits):

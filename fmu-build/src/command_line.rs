@@ -9,46 +9,10 @@ use crate::fmu::BuildCommand;
 use crate::study::StudyCommand;
 use crate::tools::program::{Program, Stop};
 
-/// How users call this program, and the laboratory.
+/// How users call this program.
 pub const PROGRAM: &str = "cargo run --release --";
-/// The same of the laboratory, which is a program of its own.
+/// How users call the laboratory, which is a program of its own.
 pub const LABORATORY: &str = "cargo run -p lab --release --";
-/// The same without a command.
-const PROGRAM_ALONE: &str = "cargo run --release";
-/// How users call the Python package.
-pub const PACKAGE: &str = "bevel-differential";
-/// The commands of the Python package; those who type one here are told where it is.
-pub const IN_THE_PACKAGE: [&str; 6] = ["scene", "loads", "report", "accuracy", "geometry", "pattern"];
-/// The commands of the laboratory; those who type one here are told where it is.
-pub const IN_THE_LABORATORY: [&str; 27] = [
-    "cost",
-    "solids",
-    "stiffness",
-    "survey",
-    "compare-simulators",
-    "peers",
-    "compare-solvers",
-    "foreign",
-    "drivetrain",
-    "patterns",
-    "test-python",
-    "drives",
-    "test-wheel",
-    "test-page",
-    "zero-cost",
-    "off",
-    "prices",
-    "real-time",
-    "fuzz",
-    "memcheck",
-    "questions",
-    "memory",
-    "mutants",
-    "coefficients",
-    "hosts",
-    "platforms",
-    "sources",
-];
 
 #[derive(Parser)]
 #[command(name = "fmu-build", version, disable_help_subcommand = true)]
@@ -89,18 +53,6 @@ impl AnyCommand {
 
 /// The command that `arguments`, the program's name first, ask for: the study if they name none.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand, Stop> {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let named = arguments.iter().skip(1).find(|word| *word != "help");
-    if let Some(name) = named.and_then(|word| IN_THE_LABORATORY.iter().find(|name| word == *name)) {
-        return Err(Stop::Wrong(format!("{name} is in the laboratory: {LABORATORY} {name}")));
-    }
-    if let Some(name) = named.and_then(|word| IN_THE_PACKAGE.iter().find(|name| word == *name)) {
-        let there = if *name == "scene" { "plan" } else { name };
-        return Err(Stop::Wrong(format!(
-            "{name} is a command of the Python package now: {PACKAGE} {there}. In this checkout run {PROGRAM_ALONE} once, then \
-             target/python/bin/{PACKAGE} {there}"
-        )));
-    }
     let program = program();
     let matches = program.parse(arguments)?;
     let CommandLine { command, study } =
@@ -123,7 +75,8 @@ fn program() -> Program {
         ],
         end: format!(
             "Without a command: study. Options of a command: {PROGRAM} COMMAND --help\n\
-             What measures and checks is in the laboratory: {LABORATORY} help"
+             What measures and checks is in the laboratory: {LABORATORY} help\n\
+             What users ask of gears and scenes is in the Python package: target/python/bin/bevel-differential --help"
         ),
     }
 }
@@ -151,18 +104,9 @@ mod tests {
 
     #[test]
     fn without_a_command_the_study_runs() {
-        for (words, write) in
-            [(&[][..], false), (&["--write"], true), (&["study", "--write"], true), (&["--readme"], true)]
-        {
+        for (words, write) in [(&[][..], false), (&["--write"], true), (&["study", "--write"], true)] {
             let found = parsed(words);
             assert!(matches!(&found, Ok(AnyCommand::Study(study)) if study.write == write), "{words:?}");
-        }
-    }
-
-    #[test]
-    fn a_command_of_the_laboratory_is_told_where_it_is() {
-        for words in [&["cost"][..], &["cost", "--quick"], &["help", "cost"]] {
-            assert_eq!(usage_error(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
         }
     }
 

@@ -21,7 +21,7 @@ const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end --
 #[derive(Args, Clone, Debug, Default)]
 pub struct StudyCommand {
     /// Also write the comparison into docs/study.md, and renew the pictures
-    #[arg(long, alias = "readme")]
+    #[arg(long)]
     pub write: bool,
 }
 

@@ -14,7 +14,6 @@ from bevel_differential.text import markdown
 
 sys.path.append(str(Path(__file__).parents[2] / "crates" / "lab" / "python"))
 import counting  # noqa: E402
-import coupling  # noqa: E402
 import drives  # noqa: E402
 import fuzz  # noqa: E402
 import hosts  # noqa: E402
@@ -119,29 +118,6 @@ def test_every_rung_of_the_ladder_is_richer_than_the_one_before():
     for name, (_, more) in ladder.RUNGS.items():
         assert more.items() - values.items(), name
         values |= more
-
-
-@pytest.fixture(scope="module")
-def host(tmp_path_factory):
-    return coupling.Host(Fmu.of(), tmp_path_factory.mktemp("host"))
-
-
-def test_plain_stepping_is_of_order_one_and_rollback_of_order_two(host):
-    # ideal gears are a closed form between communication points: all error is that of the coupling
-    exact = host.reference("0", "ideal")
-    for how, order in (("0", 1.0), ("2", 2.0)):
-        small, large = (precision.errors(exact, host.run(how, "ideal", step)[0])[0] for step in (1e-4, 2e-4))
-        assert math.log2(large / small) == pytest.approx(order, abs=0.1)
-
-
-def test_constant_inputs_need_no_communication(host):
-    few, many = (host.run("constant", "ideal", step)[0] for step in (0.1, 1e-3))
-    assert precision.errors(few, many)[0] < 1e-12
-
-
-def test_a_host_that_the_fmu_refuses_fails(host):
-    with pytest.raises(ValueError, match="status"):
-        host.run("0", "ideal", 0.1, tolerance=-1.0)
 
 
 def test_cases_run_and_end_on_time():

@@ -5,7 +5,6 @@
 //! - [`accuracy`]: the cheapest model that is accurate enough
 //! - [`geometry`]: dimensions, curves and solids of the gears, interference
 //! - [`pattern`]: where flanks carry, and how much
-//! - [`study`]: the study that the start values come from, beside theory
 //! - [`ask`]: all of these by one function, from C and Python too
 //! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`progress`]: reports to a caller, who may stop the work
 
@@ -20,5 +19,4 @@ pub mod pattern;
 pub mod problem;
 pub mod progress;
 pub mod scene;
-pub mod study;
 pub mod text;

@@ -16,7 +16,7 @@ int main(int count, char **given) {
         if (sscanf(part, "%lf:%lf", &ends[n_stretches], &sizes[n_stretches]) != 2) return fprintf(stderr, "%s is no stretch\n", part), 2;
     for (int k = 6; k < count && n_outputs < MOST; ++k) outputs[n_outputs++] = (Reference)atoi(given[k]);
 
-    Component it = made(given[1], given[2], 1);
+    Component it = made(given[1], given[2]);
     for (int run = 0; run < runs; ++run) {
         double begin = now(CLOCK_MONOTONIC);
         if (run) check(fmi.reset(it), "reset");

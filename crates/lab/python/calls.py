@@ -14,13 +14,13 @@ TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right
        "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 
 
-def compiled(folder, name, *libraries):
-    """A host in C, built in a folder."""
-    program = Path(folder) / name
+def compiled(folder):
+    """calls.c, built in a folder."""
+    program = Path(folder) / "calls"
     try:
-        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name(f"{name}.c"), "-ldl", *libraries], check=True)
+        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
     except FileNotFoundError:
-        raise SystemExit("a C compiler builds the hosts that are timed: install one (apt-get install gcc)") from None
+        raise SystemExit("a C compiler builds the host that is timed: install one (apt-get install gcc)") from None
     return program
 
 
@@ -59,7 +59,7 @@ class Calls:
     """The C program; `folder` is where it is built and finds its start values."""
 
     def __init__(self, folder):
-        self.folder, self.program = Path(folder), compiled(folder, "calls")
+        self.folder, self.program = Path(folder), compiled(folder)
 
     def seconds(self, fmu, values, outputs, stretches, runs=1, later=None):
         """Seconds of each run of `fmu`, and those of the processor that its steps took. `stretches`: pairs of their end and step [s],

@@ -1,4 +1,4 @@
-"""What accuracy costs: methods, the communication step, decisions, the ladder of fidelities, pictures, and the summary.
+"""What accuracy costs: methods, decisions, the ladder of fidelities, pictures, and the summary.
 
 usage: cost.py FMU FOLDER [--quick | --decisions]
 
@@ -7,12 +7,10 @@ Writes decisions.md, with the laws unless it is quick, and summary.md, unless de
 import sys
 from pathlib import Path
 
-import coupling
 import ladder
 import precision
 from bevel_differential import Fmu, style
 from cost_decisions import ALL, decisions
-from cost_figures.communication_step import communication_step
 from cost_figures.fidelity_ladder import fidelity_ladder
 from cost_figures.other_solvers import other_solvers
 from cost_figures.work_precision import counts, forces, speeds
@@ -20,9 +18,9 @@ from cost_laws import laws
 from cost_summary import summary
 from tools import machine, say
 
-PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder, communication_step]
+PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder]
 # where the parts of the bar begin
-METHODS, COUPLING, LADDER, DECISIONS, DRAWING = 0.1, 0.5, 0.65, 0.75, 0.95
+METHODS, LADDER, DECISIONS, DRAWING = 0.1, 0.6, 0.75, 0.95
 
 
 def main():
@@ -31,8 +29,7 @@ def main():
     fmu, folder, measured = Fmu.of(fmu), Path(folder), f"\nMeasured on {machine()}.\n"
     of_laws = "" if quick else laws(fmu, 0.0, METHODS)
     if not alone:
-        precision.measure(fmu, folder, precision.QUICK if quick else precision.FULL, METHODS, COUPLING)
-        coupling.measure(fmu, folder, coupling.QUICK if quick else coupling.FULL, 1 if quick else 3, COUPLING, LADDER)
+        precision.measure(fmu, folder, precision.QUICK if quick else precision.FULL, METHODS, LADDER)
         ladder.measure(fmu, folder, quick, LADDER, DECISIONS)
     table = decisions(folder, 1 if quick else len(ALL), not quick, METHODS if alone else DECISIONS, 1.0 if alone else DRAWING)
     tell(f"{table}\n{of_laws}{measured}", folder / "decisions.md")

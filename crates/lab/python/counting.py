@@ -19,7 +19,7 @@ COUNTED = (100, 300)
 BRANCH, FLOAT, ARRANGED = "branches and calls", "floating-point operations", "arranged"
 MOVES = ("mov", "xor", "broadcast", "unpck", "perm", "insert", "extract", "shuf", "blend")
 # keeps a program from wider vectors, of which old valgrinds do not know all instructions
-WIDE, NARROW = {}, {"BEVEL_DIFFERENTIAL_VECTORS": "narrow"}
+NARROW = {"BEVEL_DIFFERENTIAL_VECTORS": "narrow"}
 
 
 def stepping(folder, effects, name):
@@ -49,10 +49,10 @@ def completed(command, missing, settings=None, **options):
     return done
 
 
-def callgrind(program, vectors, arguments, options=(), out="/dev/null"):
+def callgrind(program, arguments, options=(), out="/dev/null"):
     """Runs a program under callgrind, and returns what callgrind reported."""
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
-    return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
+    return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", NARROW).stderr
 
 
 def counts(folder, first=2):
@@ -77,10 +77,10 @@ def per_step(count, arguments):
     return {kind: (many[kind] - few.get(kind, 0)) / (COUNTED[1] - COUNTED[0]) for kind in many}
 
 
-def instructions(program, vectors, *arguments):
+def instructions(program, *arguments):
     """Instructions per communication step in a scene with options."""
     def count(words):
-        report = callgrind(program, vectors, words)
+        report = callgrind(program, words)
         found = [line.partition("Collected :")[2] for line in report.splitlines() if "Collected :" in line]
         if not found:
             raise SystemExit("valgrind reported no count")
@@ -89,13 +89,13 @@ def instructions(program, vectors, *arguments):
     return per_step(count, arguments)["all"]
 
 
-def executed(program, vectors, *arguments):
+def executed(program, *arguments):
     """The same by kind of instruction, {kind: number}."""
     named = mnemonics(program)
 
     def count(words):
         out = program.with_name("executed.callgrind")
-        callgrind(program, vectors, words, ["--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"], out)
+        callgrind(program, words, ["--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"], out)
         found = of_profile(out.read_text(encoding="utf-8"), str(program), named)
         out.unlink()
         if not found[FLOAT]:

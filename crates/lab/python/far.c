@@ -34,7 +34,7 @@ static int called(Component it, char call, const Reference *of, unsigned count, 
 
 int main(int count, char **given) {
     if (count != 3) return fprintf(stderr, "far LIBRARY GUID\n"), 2;
-    Component it = made(given[1], given[2], 1);
+    Component it = made(given[1], given[2]);
     for (char call;;) {
         unsigned many;
         take(&call, 1);

@@ -22,10 +22,6 @@ static struct {
     int (*get_integer)(Component, const Reference *, size_t, int *);
     int (*get_boolean)(Component, const Reference *, size_t, int *);
     int (*step)(Component, double, double, int);
-    int (*get_state)(Component, void **), (*set_state)(Component, void *);
-    int (*events)(Component, void *), (*continuous)(Component);
-    int (*get_states)(Component, double *, size_t), (*get_rates)(Component, double *, size_t);
-    int (*set_states)(Component, const double *, size_t);
 } fmi;
 
 /* Start values: Reals, those that are set after initialisation, Integers, Booleans. */
@@ -71,18 +67,16 @@ static void read_start(const char *name) {
     fclose(file);
 }
 
-/* An instance of the library for model exchange (0) or co-simulation (1). */
-static Component made(const char *path, const char *guid, int kind) {
+/* An instance of the library for co-simulation. */
+static Component made(const char *path, const char *guid) {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library) { fprintf(stderr, "%s\n", dlerror()); exit(1); }
 #define LOAD(field, name) fmi.field = find(library, "fmi2" name)
     LOAD(instantiate, "Instantiate"); LOAD(reset, "Reset"); LOAD(setup, "SetupExperiment"); LOAD(enter, "EnterInitializationMode");
     LOAD(leave, "ExitInitializationMode"); LOAD(set_real, "SetReal"); LOAD(set_integer, "SetInteger"); LOAD(set_boolean, "SetBoolean");
-    LOAD(get_real, "GetReal"); LOAD(get_integer, "GetInteger"); LOAD(get_boolean, "GetBoolean"); LOAD(step, "DoStep"); LOAD(get_state, "GetFMUstate"); LOAD(set_state, "SetFMUstate");
-    LOAD(events, "NewDiscreteStates"); LOAD(continuous, "EnterContinuousTimeMode"); LOAD(get_states, "GetContinuousStates");
-    LOAD(get_rates, "GetDerivatives"); LOAD(set_states, "SetContinuousStates");
+    LOAD(get_real, "GetReal"); LOAD(get_integer, "GetInteger"); LOAD(get_boolean, "GetBoolean"); LOAD(step, "DoStep");
 #undef LOAD
-    Component it = fmi.instantiate("host", kind, guid, "", NULL, 0, 0);
+    Component it = fmi.instantiate("host", 1, guid, "", NULL, 0, 0);
     if (!it) { fprintf(stderr, "no instance\n"); exit(1); }
     return it;
 }

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from bevel_differential.text import markdown
 import real_time_sources
-from counting import NARROW, callgrind, counts, stepping
+from counting import callgrind, counts, stepping
 from tools import Finding, say
 
 # scenes, by the names that the stepping program knows
@@ -32,7 +32,7 @@ def main():
             say((len(rows) - 1) / (len(SCENES) * len(sizes)), f"counting {name}, steps of {size} s")
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
-            callgrind(program, NARROW, [scene, STEPS, "unread", f"fixed_step={size}", *options],
+            callgrind(program, [scene, STEPS, "unread", f"fixed_step={size}", *options],
                       ["--dump-after=*one_communication_step*"], folder / "count")
             found = counts(folder)
             median, most = statistics.median(found), max(found)

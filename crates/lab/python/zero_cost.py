@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from bevel_differential.text import markdown
-from counting import BRANCH, COUNTED, FLOAT, NARROW, WIDE, completed, executed, instructions, stepping
+from counting import BRANCH, COUNTED, FLOAT, completed, executed, instructions, stepping
 from tools import Finding, say
 
 SCENES = ("straight", "turn")
@@ -16,9 +16,9 @@ WORK = (FLOAT, BRANCH)
 ARRANGEMENT = 0.01
 
 
-def measured(program, vectors):
+def measured(program):
     """By scene the bits of a run, and its instructions per communication step by kind."""
-    return {scene: (completed([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, vectors, scene))
+    return {scene: (completed([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, scene))
             for scene in SCENES}
 
 
@@ -42,17 +42,13 @@ def main():
     say(0.2, "building without effects")
     less = stepping(folder, False, "less")
     say(0.4, "counting instructions")
-    try:
-        vectors, off, left_out = WIDE, measured(full, WIDE), measured(less, WIDE)
-    except SystemExit:
-        # valgrind may not know an instruction on wider vectors
-        vectors, off, left_out = NARROW, measured(full, NARROW), measured(less, NARROW)
+    off, left_out = measured(full), measured(less)
     both = [left_out["turn"][1], off["turn"][1]]
     totals = [sum(counts.values()) for counts in both]
     rows = [["effect", "on", "on / off"]]
     for done, effect in enumerate(effects):
         say(0.5 + 0.5 * done / len(effects), f"counting instructions of {effect}")
-        on = instructions(full, vectors, "turn", effect)
+        on = instructions(full, "turn", effect)
         rows.append([f"`{effect}`", f"{on:.0f}", f"{on / totals[1]:.2f}"])
     for scene in SCENES:
         check(scene, off[scene], left_out[scene])

@@ -13,7 +13,6 @@ pub mod c;
 mod gears;
 mod scenes;
 mod source;
-mod study;
 mod text;
 
 use anyhow::Result;
@@ -49,8 +48,6 @@ pub enum Question {
     Pattern(scenes::PatternQuestion),
     /// Dimensions, interference and curves of gears.
     Geometry(gears::GeometryQuestion),
-    /// The study that the start values come from.
-    Study(study::StudyQuestion),
     /// What a word for a statistic means.
     Word(accuracy_and_statistics::StatisticNameQuestion),
     /// Figures of series over time.
@@ -77,7 +74,6 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Accuracy(question) => question.answer(progress),
         Question::Pattern(question) => question.answer(progress),
         Question::Geometry(question) => question.answer(progress),
-        Question::Study(question) => question.answer(),
         Question::Word(question) => question.answer(),
         Question::Statistics(question) => question.answer(numbers),
         Question::Table(question) => question.answer(),

@@ -32,16 +32,6 @@ pub fn short(value: f64, digits: u32) -> String {
     trimmed(&format!("{value:.*}", decimals(value, digits)))
 }
 
-/// A fraction in percent with two significant digits and its sign.
-pub fn signed_percent(fraction: f64) -> String {
-    let percent = fraction * 100.0;
-    if percent.abs() < 1e-12 {
-        return "0 %".to_owned();
-    }
-    let decimals = decimals(percent, 2);
-    if decimals > 5 { format!("{percent:+.1e} %") } else { format!("{percent:+.decimals$} %") }
-}
-
 /// Decimals that show `digits` significant digits.
 fn decimals(value: f64, digits: u32) -> usize {
     (f64::from(digits) - 1.0 - value.abs().log10().floor()).max(0.0) as usize
@@ -99,14 +89,6 @@ mod tests {
             ["835", "0.3", "-1.23457e-7", "49.9339"]
         );
         assert_eq!([9.740_282_517, 30.366_763_14, 90.0].map(|v| short(v, 4)), ["9.74", "30.37", "90"]);
-    }
-
-    #[test]
-    fn differences_show_two_digits() {
-        assert_eq!(signed_percent(0.0), "0 %");
-        assert_eq!(signed_percent(0.1234), "+12 %");
-        assert_eq!(signed_percent(-0.000_123_4), "-0.012 %");
-        assert_eq!(signed_percent(1.2e-9), "+1.2e-7 %");
     }
 
     #[test]

@@ -24,7 +24,7 @@ pub fn commands() -> Vec<Command> {
         scripts::REAL_TIME.command(),
         Command::of("fuzz", fuzz::FuzzCommand::run),
         Command::of("questions", questions::QuestionsCommand::run),
-        Command::of("memcheck", memcheck::MemcheckCommand::run).alias("memory"),
+        Command::of("memcheck", memcheck::MemcheckCommand::run),
         scripts::MUTANTS.command(),
         scripts::COEFFICIENTS.command(),
         scripts::HOSTS.command(),

@@ -25,7 +25,7 @@ const ODD: [&str; 14] =
     ["0", "-1", "1e308", "-1e-320", "1e999", "nan", "inf", "", "°", "4.5 mm", "3 kg", "true", "line_weber", "a\u{0}b"];
 
 /// Questions, each with what belongs to it.
-const KINDS: [(&str, &[&str]); 13] = [
+const KINDS: [(&str, &[&str]); 12] = [
     ("scenes", &["scenes"]),
     ("scene", &["of"]),
     ("plan", &["of"]),
@@ -35,7 +35,6 @@ const KINDS: [(&str, &[&str]); 13] = [
     ("accuracy", &["of", "want", "within", "from", "timed"]),
     ("pattern", &["ofs"]),
     ("geometry", &["set", "facets", "thicken", "solids"]),
-    ("study", &["results"]),
     ("word", &["statistic"]),
     ("statistics", &["points", "figures"]),
     ("weather", &["results"]),

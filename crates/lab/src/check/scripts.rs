@@ -55,7 +55,6 @@ fn newest(folder: &Path, begin: &str) -> Option<PathBuf> {
 /// Effects that are off, in bits and in instructions that valgrind counts.
 pub const ZERO_COST: Script = Script {
     name: "zero-cost",
-    alias: Some("off"),
     about: "Checks that effects that are off cost nothing, by bits and instructions of a build without any (needs valgrind)",
     options: || {
         vec![

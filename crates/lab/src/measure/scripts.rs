@@ -1,25 +1,16 @@
 //! The commands that measure by a Python script. The scripts are in crates/lab/python, benches and examples.
 
-use std::ffi::OsString;
-use std::path::PathBuf;
-
-use anyhow::{Result, ensure};
-use clap::ArgMatches;
-use fmu_build::tools::progress::Progress;
-
 use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number, path};
 
-/// Cost of accuracy: methods over tolerances and steps, the communication step of a coupled run, the cheapest setting by
-/// quantity, contact laws, and levels of gear contact.
+/// Cost of accuracy: methods over tolerances and steps, the cheapest setting by quantity, contact laws, and levels of gear contact.
 pub const COST: Script = Script {
     name: "cost",
-    about: "Measures what accuracy costs: methods, levels of gear contact, settings and communication steps",
+    about: "Measures what accuracy costs: methods, levels of gear contact and settings",
     options: || {
         vec![
             flag("quick", "Take under a minute: fewer tolerances, steps and runs"),
             flag("decisions", "Make only the tables of decisions and laws").conflicts_with("quick"),
             flag("write", "Also renew docs/cost.md and its figures"),
-            path("out", "DIR", "Folder for figures and CSV [default: target/cost]"),
         ]
     },
     file: "crates/lab/python/cost.py",
@@ -39,7 +30,6 @@ pub const SOLIDS: Script = Script {
         vec![
             flag("quick", "Only 4 to 32 facets over 0.1 s").conflicts_with("write"),
             flag("write", "Also renew docs/cost.md, the table in docs/study.md and the figures"),
-            path("out", "DIR", "Folder for figures and CSV [default: target/solids]"),
         ]
     },
     file: "crates/lab/python/solids.py",
@@ -61,7 +51,6 @@ pub const SURVEY: Script = Script {
             number("seed", "SEED", "1", "Seed of the scenes"),
             flag("shipped", "Answer for the shipped scenes instead (all outputs to 1 %), and time the answers"),
             flag("write", "Also renew the section in docs/accuracy.md"),
-            path("out", "DIR", "Folder for the cases and their table [default: target/survey]"),
         ]
     },
     file: "crates/lab/python/survey.py",
@@ -75,7 +64,6 @@ pub const SURVEY: Script = Script {
 /// This program against other simulators, on the study's two cases.
 pub const SIMULATORS: Script = Script {
     name: "compare-simulators",
-    alias: Some("peers"),
     about: "Compares MuJoCo and Drake with this program on the study's cases (a few minutes)",
     options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/compare.md")],
     needs: Needs::Own(["benches/peers", "peers/venv", "MuJoCo, Drake, fmpy"]),
@@ -91,7 +79,6 @@ pub const SIMULATORS: Script = Script {
 /// This program's methods against solvers of other authors, on the same equations.
 pub const SOLVERS: Script = Script {
     name: "compare-solvers",
-    alias: Some("foreign"),
     about: "Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)",
     options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/compare.md")],
     needs: Needs::Own(["benches/foreign", "foreign", "scipy, scikit-SUNDAE"]),
@@ -160,13 +147,7 @@ pub const PRICES: Script = Script {
     file: "crates/lab/python/prices.py",
     doing: "timing",
     folder: Some("prices"),
-    given: &[Given::Made(other_build), Given::Fmu, Given::Folder, Given::Named("quick")],
+    given: &[Given::Named("against"), Given::Fmu, Given::Folder, Given::Named("quick")],
     sections: &[("docs/cost.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
     ..DEFAULTS
 };
-
-fn other_build(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
-    let Some(other) = options.get_one::<PathBuf>("against") else { return Ok(Vec::new()) };
-    ensure!(other.is_file(), "{}: there is no such FMU", other.display());
-    Ok(vec!["--against".into(), other.into()])
-}

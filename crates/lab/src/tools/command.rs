@@ -20,9 +20,4 @@ impl Command {
         let declared = O::augment_args(clap::Command::new(name));
         Self { declared, run: Box::new(move |options| run(&O::from_arg_matches(options)?)) }
     }
-
-    /// The same by a former name, too.
-    pub fn alias(self, name: &'static str) -> Self {
-        Self { declared: self.declared.alias(name), ..self }
-    }
 }

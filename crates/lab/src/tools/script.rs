@@ -21,13 +21,11 @@ use super::command::Command;
 pub struct Script {
     /// Name of the command.
     pub name: &'static str,
-    /// A former name of the command.
-    pub alias: Option<&'static str>,
     /// The help text in one line.
     pub about: &'static str,
     /// A second paragraph of the long help text.
     pub more: Option<&'static str>,
-    /// Options of the command. A switch `write` renews the documents, a path `out` replaces the folder of results.
+    /// Options of the command. A switch `write` renews the documents.
     pub options: fn() -> Vec<Arg>,
     /// Python environment of the script.
     pub needs: Needs,
@@ -48,7 +46,6 @@ pub struct Script {
 /// Defaults of a script.
 pub const DEFAULTS: Script = Script {
     name: "",
-    alias: None,
     about: "",
     more: None,
     options: Vec::new,
@@ -123,7 +120,7 @@ fn is_set(options: &ArgMatches, name: &str) -> bool {
 impl Script {
     /// The script as a command of the program.
     pub fn command(self) -> Command {
-        let declared = clap::Command::new(self.name).about(self.about).aliases(self.alias).args((self.options)());
+        let declared = clap::Command::new(self.name).about(self.about).args((self.options)());
         let declared = match self.more {
             Some(more) => declared.long_about(format!("{}\n\n{more}", self.about)),
             None => declared,
@@ -180,11 +177,8 @@ impl Script {
         Ok(printed)
     }
 
-    /// Folder of results: the value of the option `out`, else `folder`.
+    /// Folder of results.
     fn folder(&self, options: &ArgMatches) -> Option<PathBuf> {
-        if let Ok(Some(named)) = options.try_get_one::<PathBuf>("out") {
-            return Some(named.clone());
-        }
         let values = options.ids().map(|id| (format!("{{{id}}}"), value(options, id.as_str())));
         let named = |own: &str| values.fold(own.to_owned(), |folder, (option, value)| folder.replace(&option, &value));
         self.folder.map(|own| paths::target().join(named(own)))

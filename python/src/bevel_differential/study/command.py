@@ -6,10 +6,8 @@ from pathlib import Path
 from ..command import DONE
 from ..command.arguments import add_fmu, add_progress, add_quick
 
-# their scenes, for reports
-SCENES = ("study_straight", "study_turning")
-# share of the work that is simulating, the rest is reports
-SIMULATING = 0.3
+# shares of the work at which simulating and drawing end; the rest is reports
+SIMULATED, DRAWN = 0.25, 0.3
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,26 +21,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulates, compares, and writes files."""
     from .. import style
-    from ..answers import ask
+    from ..fmu import Fmu
     from ..progress import part, shown
     from ..report.write import write
     from ..scene import Scene
     from ..writing import in_folder, write_whole
-    from .simulation import simulate_cases
+    from .comparison import Comparison
+    from .figures import draw
+    from .simulation import simulate_cases, start_values
+    from .stated import CASES
 
-    scenes = () if arguments.quick else SCENES
+    scenes = () if arguments.quick else [case.scene for case in CASES.values()]
+    whole = DRAWN if scenes else 1.0
+    fmu = Fmu.of(arguments.fmu)
     style.apply()
     with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
-        results = simulate_cases(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING if scenes else 1.0))
+        runs = simulate_cases(fmu, folder, part(progress, 0.0, SIMULATED / DRAWN * whole))
+        draw(folder, runs, part(progress, SIMULATED / DRAWN * whole, whole))
         for place, name in enumerate(scenes):
-            share = (1.0 - SIMULATING) / len(scenes)
-            begin = SIMULATING + place * share
-            with Scene.load(name, fmu=arguments.fmu) as scene:
+            share = (1.0 - DRAWN) / len(scenes)
+            begin = DRAWN + place * share
+            with Scene.load(name, fmu=fmu) as scene:
                 write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
-        found = ask({"ask": "study", "results": results})
-        write_whole(folder / "table.md", found["document"])
+        found = Comparison(start_values(fmu), runs)
+        write_whole(folder / "table.md", found.document())
     folder = Path(arguments.out)
-    print(found["text"])
+    print(found.terminal())
     print(f"results: {folder}")
     print(f"reports: {', '.join(str(folder / f'{name}.html') for name in scenes)}" if scenes else "quick: without the reports")
     return DONE

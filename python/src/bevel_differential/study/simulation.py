@@ -1,6 +1,6 @@
-"""The study's two cases: simulated, evaluated and drawn."""
+"""The study's two cases: simulated and evaluated."""
 
-import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -8,9 +8,12 @@ import numpy as np
 
 from ..answers import Progress
 from ..differential import Differential
-from ..values import DifferentialError, FileName
+from ..fmu import Fmu
+from ..scene import Scene
+from ..values import DifferentialError
 from ..writing import whole
-from . import figures
+from .stated import CASES, DURATION, INTERVAL, Case
+from .theory import Expected, Theory
 
 MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
                 "left_transmission_error", "right_transmission_error"]
@@ -26,66 +29,75 @@ OUTPUTS = [
 # a spectral line counts above LINE_SHARE times the strongest line and above LINE_FLOOR times the mean force
 LINE_SHARE = 0.02
 LINE_FLOOR = 1e-6
-# share of the progress bar for drawing the figures
-FIGURES_SHARE = 0.15
+# length of the record for the spectrum [s], whose window is the end of it: this many mesh periods of the turn
+RECORD, SPECTRUM_PERIODS = 2.0, 10.0
+# record of the start and its interval [s]: the teeth meet and settle within it, and move at some 10 kHz
+START_RECORD, START_INTERVAL = 1e-3, 1e-6
+# after the start, speeds within this fraction of theory count as settled
+SETTLED_BAND = 0.01
 
 
-def simulate_cases(request: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
-    """Simulates both cases, writes their records and pictures into `folder`, and returns the evaluated figures by case.
+@dataclass
+class Run:
+    """A case as simulated. `record`, `start`: outputs at every communication point of the whole run, and of its beginning; `spectrum`:
+    amplitudes of forces; `results`: numbers for the comparison."""
 
-    `request`: cases and times as the library of answers gives them."""
-    runs = {}
-    for index, case in enumerate(["straight", "turning"]):
-        progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
-        with Differential(fmu=fmu) as differential:
-            begin = time.perf_counter()
-            record = simulate_case(differential, request, case, request["record"], request["interval"])
-            seconds = time.perf_counter() - begin
-            start = simulate_case(differential, request, case, request["start_record"], request["start_interval"])
-            variables = differential.fmu.variables
-        runs[case] = {"record": record, "start": start, "spectrum": force_spectra(record, request)}
-        runs[case]["results"] = evaluate(runs[case], request, case) | {"seconds_per_second": seconds / request["record"]}
-        write_csv(folder / f"{case}.csv", cut(record, request["duration"]), variables)
-        write_csv(folder / f"{case}_start.csv", start, variables)
-    write_spectra(folder / "force_spectrum.csv", {case: run["spectrum"] for case, run in runs.items()})
-    drawings = [figures.speeds, figures.tooth_forces, figures.force_spectrum]
-    for index, draw in enumerate(drawings):
-        progress(1.0 - FIGURES_SHARE * (1.0 - index / len(drawings)), f"drawing {draw.__name__}.png")
-        draw(folder, request, runs)
-    return {case: run["results"] for case, run in runs.items()}
+    case: Case
+    expected: Expected
+    record: np.ndarray
+    start: np.ndarray
+    spectrum: dict[str, np.ndarray]
+    results: dict[str, Any]
 
 
-def simulate_case(differential, request, case, duration, interval):
-    """A record of a case, sampled at every communication point."""
-    values = {name: (value, unit) if unit else value for name, (value, unit) in request[case]["start_values"].items()}
-    try:
-        return differential.set(values).run(outputs=OUTPUTS, stop=duration, step=interval)
-    except DifferentialError as error:
-        raise DifferentialError(f"the {case} case fails: {error}", kind=error.kind) from error
+def simulate_cases(fmu: Fmu, folder: Path, progress: Progress) -> dict[str, Run]:
+    """Simulates both cases, writes their records into `folder`, and returns the runs by case."""
+    forms, runs = Theory(start_values(fmu)), {}
+    window = SPECTRUM_PERIODS / forms.expected(CASES["turning"]).mesh_frequency
+    for index, (name, case) in enumerate(CASES.items()):
+        progress(index / len(CASES), name)
+        expected = forms.expected(case)
+        with Differential(Scene.load(case.scene, fmu=fmu).values, fmu=fmu) as differential:
+            try:
+                record = differential.run(outputs=OUTPUTS, stop=RECORD, step=INTERVAL)
+                start = differential.run(outputs=OUTPUTS, stop=START_RECORD, step=START_INTERVAL)
+            except DifferentialError as error:
+                raise DifferentialError(f"the {name} case fails: {error}", kind=error.kind) from error
+        spectrum = force_spectra(record, window)
+        runs[name] = Run(case, expected, record, start, spectrum, evaluate(expected, record, start, spectrum))
+        write_csv(folder / f"{name}.csv", cut(record), fmu.variables)
+        write_csv(folder / f"{name}_start.csv", start, fmu.variables)
+    write_spectra(folder / "force_spectrum.csv", {name: run.spectrum for name, run in runs.items()})
+    return runs
 
 
-def cut(record, end):
-    return record[record["time"] <= end + 1e-9]
+def start_values(fmu: Fmu) -> dict[str, Any]:
+    """Start values of parameters and inputs, SI, by name."""
+    return {name: variable.start for name, variable in fmu.variables.items()}
 
 
-def settled_part(record, request, case):
+def cut(record):
+    """The study's own duration of a record."""
+    return record[record["time"] <= DURATION + 1e-9]
+
+
+def settled_part(record, frequency):
     """The settled part of the record over the study's duration: straight ahead the second half, in the turn the last whole mesh
     periods."""
-    own = cut(record, request["duration"])
-    frequency = request[case]["mesh_frequency"]
-    begin = request["duration"] / 2.0
+    own = cut(record)
+    begin = DURATION / 2.0
     if frequency > 0.0:
-        begin = request["duration"] - np.floor(request["duration"] * frequency - 0.5) / frequency
+        begin = DURATION - np.floor(DURATION * frequency - 0.5) / frequency
     # whole periods: the last sample is the first one of the next period
-    return own[(own["time"] > begin - 1e-9) & (own["time"] < request["duration"] - 1e-9)]
+    return own[(own["time"] > begin - 1e-9) & (own["time"] < DURATION - 1e-9)]
 
 
-def evaluate(run, request, case):
-    """Means over the settled part, and figures of the start from its finely sampled record."""
-    record, start = run["record"], run["start"]
-    own, part = cut(record, request["duration"]), settled_part(record, request, case)
+def evaluate(expected, record, start, spectrum):
+    """Means over the settled part, and figures of the start from its finely sampled record. Speeds in deg/s, otherwise SI; ripple in
+    % from peak to peak."""
+    own, part = cut(record), settled_part(record, expected.mesh_frequency)
     speeds = [np.degrees(part[f"{side}.speed"]) for side in ["left", "right"]]
-    throughput = np.mean(np.abs(part["power.in"])) * request["duration"]
+    throughput = np.mean(np.abs(part["power.in"])) * DURATION
     peak_side = max(["left", "right"], key=lambda side: np.max(start[f"{side}.tangential_force"]))
     peak = start[f"{peak_side}.tangential_force"]
     return {
@@ -97,27 +109,27 @@ def evaluate(run, request, case):
         "peak_tangential_force": float(np.max(peak)),
         "peak_time": float(start["time"][np.argmax(peak)]),
         "mesh_frequency": float(np.mean(part["mesh.frequency"])),
-        "first_line": first_line(run["spectrum"], float(np.mean(part["left.normal_force"]))),
-        "settled_after": settling_time(start, request[case]["side_speeds"], request["settled_band"]),
+        "first_line": first_line(spectrum, float(np.mean(part["left.normal_force"]))),
+        "settled_after": settling_time(start, expected.side_speeds),
         "steps": float(own["solver.steps"][-1]),
         "relative_energy_residual": float(own["solver.energy_residual"][-1] / throughput),
     }
 
 
-def settling_time(start, expected, band):
-    """Last time at which a speed was off its theoretical value by more than the fraction `band`."""
+def settling_time(start, expected):
+    """Last time at which a speed was off its theoretical value by more than `SETTLED_BAND`."""
     speeds = zip(["left", "right"], expected)
-    far = [np.abs(np.degrees(start[f"{side}.speed"]) / speed - 1.0) > band for side, speed in speeds]
+    far = [np.abs(np.degrees(start[f"{side}.speed"]) / speed - 1.0) > SETTLED_BAND for side, speed in speeds]
     outside = np.any(far, axis=0)
     return float(start["time"][outside][-1]) if np.any(outside) else 0.0
 
 
-def force_spectra(record, request):
-    """Amplitudes of the forces over the end of the record. The window has whole mesh periods of the turn, so a rectangular window
-    leaks nothing."""
-    count = round(request["spectrum_window"] / request["interval"])
+def force_spectra(record, window):
+    """Amplitudes of the forces over the last `window` [s] of the record. The window has whole mesh periods of the turn, so a
+    rectangular window leaks nothing."""
+    count = round(window / INTERVAL)
     part = record[-count - 1:-1]
-    spectra = {"frequency": np.fft.rfftfreq(count, request["interval"])}
+    spectra = {"frequency": np.fft.rfftfreq(count, INTERVAL)}
     for name in ["left.normal_force", "right.normal_force", "left.thrust_force", "right.thrust_force",
                  "left.tangential_force"]:
         amplitude = 2.0 / count * np.abs(np.fft.rfft(part[name]))

@@ -1,21 +1,17 @@
 """What a design costs by what is simulated: final values of a 0.5 s turn in one long step, on one core.
 
-    python crates/lab/python/designs/cost.py [--designs N] [--write]
+    python crates/lab/python/design_cost.py [--designs N] [--write]
 
 Needs the package with its extra [sweep] and the FMU (BEVEL_DIFFERENTIAL_FMU)."""
 
 import argparse
 import statistics
-import sys
-from pathlib import Path
 
 from bevel_differential import Fmu, Scene
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
 from bevel_differential.text import aligned, markdown
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-from tools import renew  # noqa: E402
+from tools import renew
 
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "geometry.face_width": "17 mm"}
