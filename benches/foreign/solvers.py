@@ -49,8 +49,7 @@ class Solver:
 
 def all_solvers(folder):
     """The solvers that can be had, and what is missing."""
-    found = [Solver(OURS, "", own, own_method="adaptive"), Solver(f"{OURS}, method radau", "", own, own_method="radau"),
-             Solver(f"{OURS}, method rodas4", "", own, own_method="rodas4")]
+    found = [Solver(OURS, "", own, own_method="adaptive"), Solver(f"{OURS}, method radau", "", own, own_method="radau")]
     missing = []
     try:
         library = sundials.Sundials()

@@ -35,7 +35,7 @@ def all_scenes(folder, effects):
     for law in ["line", "line_weber"]:
         values = TURN | {"contact.law": law, "contact.damping_model": "restitution"}
         yield f"turn, {law}, restitution", values, [], [], 0.1
-    for method in ["fixed_step", "radau", "rodas4", "dormand_prince"]:
+    for method in ["fixed_step", "radau"]:
         yield f"turn, {method}", TURN | {"solver.method": method}, [], [], 0.05
     for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
         friction = {"effects.tooth_friction": True, "tooth_friction.law": law}

@@ -1,4 +1,4 @@
-//! The linear systems of implicit methods on the second-order block.
+//! The linear systems of a step on the second-order block.
 //!
 //! With y = (q, v), q̇ = B v, K = ∂v̇/∂q and D = ∂v̇/∂v the q-rows of (I/s − J) U = r are solved by hand, so that the
 //! matrix to factorise has the order of the velocities alone:

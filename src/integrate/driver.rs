@@ -181,7 +181,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 statistics.evaluations += 1;
                 system.evaluate_at(&course.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
-            begin = (!done).then(|| linearise(method, system, (&end, reached), &mut lin, Some(statistics)));
+            begin = (!done).then(|| linearise(system, (&end, reached), &mut lin, Some(statistics)));
             let (last, energy) = match begin {
                 Some(energy) => (lin.ledger_rates, energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
@@ -231,7 +231,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
         let point = &course.point;
         let energy = *begin.get_or_insert_with(|| {
             let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
-            linearise(method, system, (point, course.time), &mut lin, counts)
+            linearise(system, (point, course.time), &mut lin, counts)
         });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
         let remaining = course.remaining();
@@ -312,24 +312,19 @@ fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
     point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs())
 }
 
-/// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.
+/// Writes the equations linearised to `lin`; returns the energies.
 #[inline(never)]
-fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
-    method: &M,
+fn linearise<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     (point, time): (&Point<N>, f64),
     lin: &mut Linearisation<N, S::Rates>,
-    mut statistics: Option<&mut Statistics>,
+    statistics: Option<&mut Statistics>,
 ) -> [f64; 2] {
-    if let Some(statistics) = &mut statistics {
+    if let Some(statistics) = statistics {
         statistics.evaluations += 1;
-        statistics.jacobians += u64::from(method.is_implicit());
+        statistics.jacobians += 1;
     }
-    if method.is_implicit() {
-        return system.linearise_with_energy(point, time, lin);
-    }
-    (lin.acceleration, lin.ledger_rates) = system.evaluate_at(point, time);
-    system.energy(point)
+    system.linearise_with_energy(point, time, lin)
 }
 
 impl Control {

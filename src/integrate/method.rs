@@ -91,13 +91,8 @@ impl<const N: usize> ErrorNorm<N> {
 
 /// A one-step method with an error estimate. It has no memory from step to step, so that snapshots need not contain it.
 pub trait Method {
-    /// Order p of the error estimate, which falls as h^(p+1).
+    /// Order p of the error estimate, 3 or 4: the estimate falls as h^(p+1).
     fn estimate(&self) -> u32;
-    /// Whether steps use derivatives of the accelerations. If not, they are not computed: `lin` holds zeros for them.
-    #[inline]
-    fn is_implicit(&self) -> bool {
-        true
-    }
 
     /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it fails (a singular
     /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations, and writes the
@@ -115,11 +110,7 @@ pub trait Method {
     /// x^(1/(p+1)), to a per mille, which suffices for a step size.
     #[inline]
     fn root(&self, x: f64) -> f64 {
-        match self.estimate() {
-            3 => x.sqrt().sqrt(),
-            4 => fifth_root(x),
-            p => libm::pow(x, 1.0 / f64::from(p + 1)),
-        }
+        if self.estimate() == 3 { x.sqrt().sqrt() } else { fifth_root(x) }
     }
 }
 

@@ -59,7 +59,8 @@ impl Method for Radau {
         3
     }
 
-    #[inline]
+    // out of line, because its stages would enlarge the stack frame of the loop of steps
+    #[inline(never)]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,

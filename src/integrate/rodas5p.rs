@@ -1,10 +1,21 @@
-//! Rodas5P: order 5 with embedded order 4, eight stages, L-stable and stiffly accurate.
+//! Rodas5P: a Rosenbrock method of order 5 with embedded order 4, eight stages, L-stable and stiffly accurate.
 //!
 //! G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). On stiff problems with smooth forcing
 //! (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle, its error stays O(h⁴).
+//!
+//! In the transformed variables U (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
+//! 1996, section IV.7) a step of size h from y₀ is
+//!
+//!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
+//!
+//! where the last stage starts from the embedded solution. A driven system is the autonomous one with ṫ = 1 as one more
+//! equation, whose U_i are h g_i with g_i = γ (1 + Σ c_ij g_j) for any system. Stages are at t₀ + h Σ a_ij g_j, and
+//! h g_i ∂f/∂t is added to the right-hand side.
 
-use super::rosenbrock::{self, Tableau};
+use super::block::Block;
+use super::linear::Shape;
+use super::method::combine;
 use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
@@ -24,63 +35,130 @@ impl Method for Rodas5P {
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        to: (&mut Statistics, &mut Extension<N>),
+        (counts, extension): (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>> {
-        rosenbrock::step(&RODAS5P, system, (start, time), (lin, h), norm, to)
+        let shape = Shape::of(system);
+        let mut block = Block::EMPTY;
+        block.fill((system, shape), lin, h * GAMMA)?;
+        let per_h = 1.0 / h;
+        let drift = system.is_driven().then(|| system.drift(start, time));
+        let mut g = [0.0; STAGES];
+        let mut u = [Point::ZERO; STAGES];
+        let mut y = *start;
+        let mut acceleration = lin.acceleration;
+        for stage in 0..STAGES {
+            if let Some(row) = stage.checked_sub(1) {
+                if let Some(weights) = A.get(row) {
+                    y = *start;
+                    combine(&mut y, weights, 1.0, &u);
+                } else {
+                    combine(&mut y, &[1.0], 1.0, &u[row..]);
+                }
+                let later = if drift.is_some() { h * place(row, &g) } else { 0.0 };
+                acceleration = system.accelerate_at(&y, time + later);
+            }
+            let mut r = Point { q: system.rates(&y.v), v: acceleration };
+            if let Some(row) = stage.checked_sub(1) {
+                combine(&mut r, C[row], per_h, &u);
+            }
+            if let Some(drift) = &drift {
+                g[stage] = GAMMA * (1.0 + carried(stage, &g));
+                for i in 0..N {
+                    r.v[i] += h * g[stage] * drift[i];
+                }
+            }
+            block.solve((system, shape), &mut r);
+            u[stage] = r;
+        }
+        let error = u[STAGES - 1];
+        let mut end = y;
+        combine(&mut end, &[1.0], 1.0, &[error]);
+        let size = norm.judge(&error, &end);
+        (extension.start, extension.end) = (*start, end);
+        if size <= 1.0 {
+            for (coefficient, weights) in extension.coefficients.iter_mut().zip(&EXTENSION) {
+                *coefficient = Point::ZERO;
+                combine(coefficient, weights, 1.0, &u);
+            }
+        }
+        let trial = Trial { error, size, halfway: None };
+        counts.evaluations += C.len() as u64;
+        let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
+        Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
     }
 }
 
-/// Coefficients of Rodas5P.
-const RODAS5P: Tableau<8> = Tableau {
-    gamma: 0.211_937_563_194_290_14,
-    a: &[
-        &[3.0],
-        &[2.849_394_379_747_939, 0.458_422_422_044_639_23],
-        &[-6.954_028_509_809_101, 2.489_845_061_869_568, -10.358_996_098_473_584],
-        &[2.802_998_627_562_896_4, 0.507_246_473_622_820_6, -0.398_831_254_177_052_4, -0.047_211_872_304_046_41],
-        &[
-            -7.502_846_399_306_121,
-            2.561_846_144_803_919,
-            -11.627_539_656_261_098,
-            -0.182_687_676_599_422_56,
-            0.030_198_172_008_377_946,
-        ],
+/// Position in the step of the stage after `row` + 1 others, from their g.
+fn place(row: usize, g: &[f64; STAGES]) -> f64 {
+    // embedded solutions are at the end
+    A.get(row).map_or(1.0, |weights| weighted(weights, g))
+}
+
+/// Σ c_ij g_j of stage `i`.
+fn carried(i: usize, g: &[f64; STAGES]) -> f64 {
+    weighted(i.checked_sub(1).map_or(&[][..], |row| C[row]), g)
+}
+
+fn weighted(weights: &[f64], g: &[f64; STAGES]) -> f64 {
+    weights.iter().zip(g).map(|(weight, g)| weight * g).sum()
+}
+
+/// Number of stages.
+const STAGES: usize = 8;
+
+/// Diagonal coefficient γ.
+const GAMMA: f64 = 0.211_937_563_194_290_14;
+
+/// a_ij from the second stage on. Stages without a row start from the one before plus its U: they are embedded solutions,
+/// the last one that of the error estimate.
+const A: [&[f64]; 5] = [
+    &[3.0],
+    &[2.849_394_379_747_939, 0.458_422_422_044_639_23],
+    &[-6.954_028_509_809_101, 2.489_845_061_869_568, -10.358_996_098_473_584],
+    &[2.802_998_627_562_896_4, 0.507_246_473_622_820_6, -0.398_831_254_177_052_4, -0.047_211_872_304_046_41],
+    &[
+        -7.502_846_399_306_121,
+        2.561_846_144_803_919,
+        -11.627_539_656_261_098,
+        -0.182_687_676_599_422_56,
+        0.030_198_172_008_377_946,
     ],
-    c: &[
-        &[-14.155_112_264_123_755],
-        &[-17.972_960_358_859_52, -2.859_693_295_451_294],
-        &[147.121_502_757_117_16, -1.412_214_027_182_13, 71.689_402_513_023_58],
-        &[165.435_170_248_716_76, -0.459_282_345_649_112_6, 42.909_383_369_586_03, -5.961_986_721_573_306],
-        &[
-            24.854_864_614_690_072,
-            -3.000_922_700_283_218_6,
-            47.493_111_002_076_8,
-            5.581_419_782_155_812_5,
-            -0.661_069_182_524_947_1,
-        ],
-        &[
-            30.912_732_140_285_99,
-            -3.120_824_334_993_797_4,
-            77.799_546_460_708_92,
-            34.286_460_282_947_83,
-            -19.097_331_116_725_623,
-            -28.087_943_162_872_662,
-        ],
-        &[
-            37.802_771_233_905_63,
-            -3.257_196_902_907_227_6,
-            112.269_188_494_963_27,
-            66.934_723_124_404_7,
-            -40.066_189_370_910_02,
-            -54.667_802_628_779_68,
-            -9.488_616_523_096_27,
-        ],
+];
+
+/// c_ij from the second stage on.
+const C: [&[f64]; STAGES - 1] = [
+    &[-14.155_112_264_123_755],
+    &[-17.972_960_358_859_52, -2.859_693_295_451_294],
+    &[147.121_502_757_117_16, -1.412_214_027_182_13, 71.689_402_513_023_58],
+    &[165.435_170_248_716_76, -0.459_282_345_649_112_6, 42.909_383_369_586_03, -5.961_986_721_573_306],
+    &[
+        24.854_864_614_690_072,
+        -3.000_922_700_283_218_6,
+        47.493_111_002_076_8,
+        5.581_419_782_155_812_5,
+        -0.661_069_182_524_947_1,
     ],
-    extension: &EXTENSION,
-};
+    &[
+        30.912_732_140_285_99,
+        -3.120_824_334_993_797_4,
+        77.799_546_460_708_92,
+        34.286_460_282_947_83,
+        -19.097_331_116_725_623,
+        -28.087_943_162_872_662,
+    ],
+    &[
+        37.802_771_233_905_63,
+        -3.257_196_902_907_227_6,
+        112.269_188_494_963_27,
+        66.934_723_124_404_7,
+        -40.066_189_370_910_02,
+        -54.667_802_628_779_68,
+        -9.488_616_523_096_27,
+    ],
+];
 
 /// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ (H₃U + Θ H₄U))).
-const EXTENSION: [[f64; 8]; 3] = [
+const EXTENSION: [[f64; STAGES]; 3] = [
     [
         25.948_786_856_663_858,
         -2.557_972_484_584_623_5,

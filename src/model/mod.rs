@@ -44,7 +44,7 @@ pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,
-    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
+    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start, removed_method,
 };
 pub use setup::Parameters;
 pub use setup::advice::turned_backward;

@@ -31,13 +31,11 @@ fn errors_are_within_their_estimates<M: Known>() {
         let ratio = error_over_estimate::<M, _>(&Logarithmic, Logarithmic::exact, h);
         println!("h = {h}: {ratio:.1e}");
         assert!(ratio < 1.0, "h = {h}: errors are {ratio} of their estimates");
-        // nor where it is stiff, as far as the method can go
+        // nor where it is stiff
         for lambda in [1.0, 10.0, 1e2, 1e3, 1e5] {
-            if M::FORCED.is_some() || lambda * h < 3.0 {
-                let ratio = error_over_estimate::<M, _>(&forced(lambda), forced_exact, h);
-                println!("h = {h}, λ = {lambda:e}: {ratio:.1e}");
-                assert!(ratio < 1.0, "h = {h}, λ = {lambda:e}: errors are {ratio} of their estimates");
-            }
+            let ratio = error_over_estimate::<M, _>(&forced(lambda), forced_exact, h);
+            println!("h = {h}, λ = {lambda:e}: {ratio:.1e}");
+            assert!(ratio < 1.0, "h = {h}, λ = {lambda:e}: errors are {ratio} of their estimates");
         }
     }
 }
@@ -89,9 +87,4 @@ fn every_evaluation_is_counted<M: Known>() {
     let statistics = run::<M, 2, _>(&s, &mut Logarithmic::exact(0.0), 3.0, 1e-6).unwrap();
     assert!(statistics.accepted > 10);
     assert_eq!((statistics.evaluations, statistics.jacobians), (s.evaluations.get(), s.jacobians.get()));
-    assert_eq!(
-        statistics.jacobians > 0,
-        M::METHOD.is_implicit(),
-        "no Jacobian is made for a method that does not use it"
-    );
 }

@@ -1,8 +1,8 @@
 //! Every method with its theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, DormandPrince, ErrorNorm, Extension, Failure, Linearisation, Method, Point, Radau, Rodas4,
-    Rodas5P, SecondOrder, SolverContext, Statistics, advance,
+    AfterStep, Control, ErrorNorm, Extension, Failure, Method, Point, Radau, Rodas5P, SecondOrder, SolverContext,
+    Statistics, advance,
 };
 
 /// Theoretical properties of a method.
@@ -15,23 +15,15 @@ pub trait Known: Method {
     /// Tolerance with which single steps are taken: none is refused for its error, but iterations within a step go so far
     /// that they add nothing to it.
     const TOLERANCE: f64 = 1e6;
-    /// Order k of the error h^k/λ under smooth forcing much stiffer than the step; `None` if there is no stable step.
-    const FORCED: Option<u32>;
+    /// Order k of the error h^k/λ under smooth forcing much stiffer than the step.
+    const FORCED: u32;
 }
 
 impl Known for Rodas5P {
     const METHOD: Self = Rodas5P;
     const ORDER: u32 = 5;
     const EXTENSION: u32 = 4;
-    const FORCED: Option<u32> = Some(3);
-}
-
-impl Known for Rodas4 {
-    const METHOD: Self = Rodas4;
-    const ORDER: u32 = 4;
-    const EXTENSION: u32 = 3;
-    // the order is lost: its inner stages are of order 1 only
-    const FORCED: Option<u32> = Some(1);
+    const FORCED: u32 = 3;
 }
 
 impl Known for Radau {
@@ -39,45 +31,24 @@ impl Known for Radau {
     const ORDER: u32 = 5;
     const EXTENSION: u32 = 3;
     const TOLERANCE: f64 = 1e-11;
-    const FORCED: Option<u32> = Some(3);
+    const FORCED: u32 = 3;
 }
-
-impl Known for DormandPrince {
-    const METHOD: Self = DormandPrince;
-    const ORDER: u32 = 5;
-    const EXTENSION: u32 = 4;
-    const FORCED: Option<u32> = None;
-}
-
-/// Runs generic tests with each of the methods given.
-macro_rules! with_methods {
-    ($methods:tt: $($test:ident)*) => {
-        $($crate::methods::with_methods!(@ $test $methods);)*
-    };
-    (@ $test:ident [$($method:ident)*]) => {
-        mod $test {
-            $(#[test]
-            #[allow(non_snake_case)]
-            fn $method() {
-                super::$test::<bevel_differential::integrate::$method>();
-            })*
-        }
-    };
-}
-pub(crate) use with_methods;
-
-/// Runs generic tests with every method that damps infinitely stiff motion.
-macro_rules! with_stiff_methods {
-    ($($test:ident)*) => {
-        $crate::methods::with_methods!([Rodas5P Rodas4 Radau]: $($test)*);
-    };
-}
-pub(crate) use with_stiff_methods;
 
 /// Runs generic tests with every method.
 macro_rules! with_every_method {
     ($($test:ident)*) => {
-        $crate::methods::with_methods!([Rodas5P Rodas4 Radau DormandPrince]: $($test)*);
+        $(mod $test {
+            #[test]
+            #[allow(non_snake_case)]
+            fn Rodas5P() {
+                super::$test::<bevel_differential::integrate::Rodas5P>();
+            }
+            #[test]
+            #[allow(non_snake_case)]
+            fn Radau() {
+                super::$test::<bevel_differential::integrate::Radau>();
+            }
+        })*
     };
 }
 pub(crate) use with_every_method;
@@ -88,19 +59,14 @@ pub struct Tried<const N: usize> {
     pub error: Point<N>,
 }
 
-/// One step of size `h`. A method that needs no derivatives gets unusable ones.
+/// One step of size `h`.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Tried<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
 
 /// The same of a driven system from a time on.
 pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time): (&Point<N>, f64), h: f64) -> Tried<N> {
-    let lin = if M::METHOD.is_implicit() {
-        s.linearise_at(at, time)
-    } else {
-        let (acceleration, ledger_rates) = s.evaluate_at(at, time);
-        Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], ledger_rates }
-    };
+    let lin = s.linearise_at(at, time);
     let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
     let mut extension = Extension::NONE;
     let to = (&mut Statistics::default(), &mut extension);

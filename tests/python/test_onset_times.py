@@ -18,7 +18,7 @@ EPOCH = 1.7e9
 CASES = {"zero": (-0.01, 0.0), "negative": (-7.25, -7.25 + 0.01), "epoch": (EPOCH + 0.09, EPOCH + 0.1), "far below zero": (-1e5, -1e5 + 0.01)}
 # steps of 2^-10 s are exact as well, and no communication point is the onset
 SIZE, COUNT = 2.0**-10, 30
-# steps that an explicit method takes of the motion of teeth, and how many. Times that differ by 8 roundings are the same to the FMU,
+# explicit steps that resolve the motion of teeth, and how many. Times that differ by 8 roundings are the same to the FMU,
 # 3.0e-6 s in an epoch (8 * 2^-52 * 1.7e9): the last step before the onset ends 3.6e-6 s before it
 SHORT, SHORT_STEPS, BEFORE = 2.0**-18, 100, (60.0 + 15.0 / 16.0) * 2.0**-18
 # of a result, relative to its largest value: each step may be off by the tolerance

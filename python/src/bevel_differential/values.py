@@ -278,4 +278,5 @@ def _near(word, known):
     except OSError:
         # the message is right without a suggestion
         return "", ""
-    return f" (did you mean {' or '.join(found['near'])}?)" if found["near"] else "", f"; {found['find']}"
+    near = f" (did you mean {' or '.join(found['near'])}?)" if found["near"] else ""
+    return found["removed"] or near, f"; {found['find']}"

@@ -5,9 +5,7 @@ use crate::FULL;
 use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::contact::Law;
-use crate::integrate::{
-    self, AfterStep, AnyMethod, Course, Extension, Failure, Rodas5P, SecondOrder, SolverContext, Statistics, Step,
-};
+use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -28,9 +26,8 @@ const EFFECTS: usize = 3;
 const PLAIN: usize = 16;
 /// What a step of ideal gears with all effects costs at most.
 const IDEAL: usize = 2;
-/// What a step of a method costs at most: an implicit one that iterates, and the others of large equations for comparison.
+/// Cost of a step of `radau`, which iterates, at most in steps of the default method.
 const RADAU_IN_STEPS: usize = 8;
-const COMPARED_IN_STEPS: usize = 2;
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
 pub const LONGEST_INTERVAL: f64 = 1.0;
@@ -57,11 +54,7 @@ pub fn budget(model: &Model) -> u64 {
     let effects = if has_effects { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries
     let freedoms = teeth.layout.count();
-    let steps = match model.parameters.solver.method {
-        Method::Radau => RADAU_IN_STEPS,
-        Method::Rodas4 | Method::DormandPrince => COMPARED_IN_STEPS,
-        Method::Adaptive | Method::FixedStep => 1,
-    };
+    let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
     BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
 }
 
@@ -159,9 +152,9 @@ fn by_table<const N: usize, const G: usize>(
     integrate_equations::<N, true, _>(equations, model, state, integration, budget)
 }
 
-/// By any method, or by the default one alone. The others are not compiled in small sizes, and steps of fixed size in the least of
-/// them alone: [`integrate_teeth`] knows.
-fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquations<N> + ?Sized>(
+/// Integrates with the method of the scene. In small sizes only the default method is compiled, and fixed steps in the least one
+/// of them: [`integrate_teeth`] chooses the size accordingly.
+fn integrate_equations<const N: usize, const WITH_EFFECTS: bool, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
     state: &mut State,
@@ -207,13 +200,15 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
-            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT || !FULL) => {
+            Method::FixedStep if WITH_EFFECTS && (N == LEAST || N > EXACT || !FULL) => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
                 let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            other if FULL && ANY_METHOD && N > EXACT => {
-                by_any_method(&named(other), system, &mut course, clock.now, context, &mut observe)
+            Method::Radau if FULL && N > EXACT => {
+                integrate::proceed(&Radau, system, &mut course, clock.now, context, |step, motion| {
+                    observe(step, Some(motion))
+                })
             }
             _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, motion| {
                 observe(step, Some(motion))
@@ -250,33 +245,6 @@ fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: LedgerEquation
         _ => state.pending_step = None,
     }
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
-}
-
-/// The method of variable steps that `method` names.
-fn named(method: Method) -> AnyMethod {
-    match method {
-        Method::Radau => AnyMethod::Radau,
-        Method::Rodas4 => AnyMethod::Rodas4,
-        Method::DormandPrince => AnyMethod::DormandPrince,
-        Method::Adaptive | Method::FixedStep => AnyMethod::Rodas5P,
-    }
-}
-
-/// What looks at completed steps, each with the motion that it was while pending and the part of it that was taken.
-type Observer<'a, const N: usize> =
-    &'a mut dyn FnMut(Step<N, LedgerRates>, Option<(&Extension<N>, f64)>) -> Result<AfterStep, ExcessiveDeflection>;
-
-/// Integrates by a method of variable steps.
-#[inline(never)]
-fn by_any_method<const N: usize>(
-    method: &AnyMethod,
-    system: &(impl SecondOrder<N, Rates = LedgerRates> + ?Sized),
-    course: &mut Course<N, LedgerRates>,
-    until: f64,
-    context: SolverContext,
-    observe: Observer<N>,
-) -> Result<(), Failure<ExcessiveDeflection>> {
-    integrate::proceed(method, system, course, until, context, |step, motion| observe(step, Some(motion)))
 }
 
 #[cold]

@@ -6,8 +6,17 @@ choices! {
         Adaptive = 1, "adaptive": "adaptive L-stable Rosenbrock method of order 5";
         FixedStep = 2, "fixed_step": "implicit steps of fixed size and bounded work, for real time";
         Radau = 3, "radau": "Radau IIA of order 5, adaptive, for comparison";
-        Rodas4 = 4, "rodas4": "RODAS of order 4(3), adaptive, for comparison";
-        DormandPrince = 5, "dormand_prince": "explicit method of order 5(4), adaptive, for comparison";
+    }
+}
+
+/// Advice on a method that was removed, `given` by its value or literal, for messages about the enumeration with the literals
+/// `names`; empty otherwise.
+pub fn removed_method<'a>(given: &str, mut names: impl Iterator<Item = &'a str>) -> &'static str {
+    match given {
+        "4" | "rodas4" | "5" | "dormand_prince" if names.any(|name| name == Method::Radau.literal()) => {
+            "; this method was removed, use adaptive"
+        }
+        _ => "",
     }
 }
 

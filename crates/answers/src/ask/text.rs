@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use bevel_differential::model::removed_method;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -53,10 +54,11 @@ impl TableQuestion {
 }
 
 impl NearQuestion {
-    /// The nearest names, and how to find a variable that is none of them.
+    /// The nearest names, how to find a variable that is none of them, and advice on a choice that was removed.
     pub(super) fn answer(&self) -> Value {
-        let near = near(&self.word, self.known.iter().map(String::as_str));
-        json!({"near": near, "find": how_to_find(&self.word)})
+        let known = || self.known.iter().map(String::as_str);
+        let removed = removed_method(&self.word, known());
+        json!({"near": near(&self.word, known()), "find": how_to_find(&self.word), "removed": removed})
     }
 }
 

@@ -1,6 +1,6 @@
 //! A value for a variable: taken from a file, checked, and put where the table's access leads.
 
-use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::model::{Inputs, Parameters, removed_method};
 use bevel_differential::variables::{Access, Variability, Variable, accepted, assign, check_value, table, value_of};
 use toml::Value;
 
@@ -163,10 +163,17 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
         (Access::Enumeration(kind, ..), value) => {
             let names = || kind.choices.iter().map(|choice| choice.name);
             let allowed = names().collect::<Vec<_>>().join(", ");
-            let Value::String(name) = value else { return Err(format!("must be one of {allowed}")) };
+            let given = match value {
+                Value::String(name) => name.clone(),
+                Value::Integer(number) => number.to_string(),
+                _ => String::new(),
+            };
+            let removed = removed_method(&given, names());
+            let Value::String(name) = value else { return Err(format!("must be one of {allowed}{removed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
                 Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
+                None if removed.is_empty() => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
+                None => Err(format!("is none of {allowed}{removed}")),
             }
         }
     }

@@ -4,14 +4,12 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from bevel_differential import style
 from bevel_differential.records import read
-from bevel_differential.style import BLUE, FAINT, GREEN, INK, OCHRE, PALE_GREY, RED, TEXT, VIOLET
+from bevel_differential.style import BLUE, FAINT, INK, PALE_GREY, RED, TEXT, VIOLET
 
 # methods: colour, marker, name in legends
 METHODS = {
     "adaptive": (BLUE, "o", "adaptive (Rodas5P), the default"),
     "radau": (RED, "s", "radau (Radau IIA, order 5)"),
-    "rodas4": (GREEN, "^", "rodas4 (order 4)"),
-    "dormand_prince": (OCHRE, "v", "dormand_prince (explicit, order 5)"),
     "fixed_step": (VIOLET, "D", "fixed_step (order 2, steps\ninstead of tolerances)"),
 }
 MOTIONS = {"turn": "Turn: one tooth, 0.18 s", "blow": "Turn from mid-gap: teeth\nstrike, 20 ms",
@@ -77,10 +75,8 @@ def counts(folder):
     legend = handles(axes[0][1])
     figure.legend(legend.values(), legend.keys(), loc="outside upper center", ncols=5, fontsize=style.SMALL)
     style.caption(figure, "Counts that hold on any machine: error in the speed of the side gears against evaluations of "
-                  "the forces (three columns) and against Jacobians (right column; dormand_prince has none). In the turns the "
-                  "explicit method takes the same number of evaluations at any tolerance, because the stiffness of loaded teeth "
-                  "limits its steps and not accuracy. In the clunk the teeth are apart most of the time, and dormand_prince keeps up. Ring: the "
-                  f"default. *: the reference is this program's own. {machine}.")
+                  "the forces (three columns) and against Jacobians (right column). Ring: the default. "
+                  f"*: the reference is this program's own. {machine}.")
     style.save(figure, folder / "work_precision_counts.png")
 
 

@@ -22,8 +22,6 @@ const CHOICES: [&str; 9] = [
 ];
 /// Level of solid teeth, which cost most.
 const SOLID: i32 = 4;
-/// The explicit method.
-const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
 
 /// Brings a fresh or reset instance to a running simulation; whether that succeeded.
 pub fn start(instance: &FuzzedInstance, r: &mut Random) -> bool {
@@ -70,9 +68,8 @@ fn draw(instance: &FuzzedInstance, r: &mut Random) {
             integers.push((name, if dear { 1 } else { value }));
         }
     }
-    // an explicit method may take all attempts that it is granted for a step, which is seconds, and on solids minutes
-    let solid = integers.contains(&("scene.gear_contact", SOLID));
-    if solid || integers.contains(&("solver.method", EXPLICIT)) && !r.chance(10) {
+    // solid teeth cost most: they run with the default method only
+    if integers.contains(&("scene.gear_contact", SOLID)) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
     for (name, value) in integers {
