@@ -176,11 +176,14 @@ impl<const N: usize> Inverse<N> {
 fn add_in_pairs<const N: usize>(columns: &Matrix<N>, inner: &Range<usize>, x: &[f64; N], sum: &mut [f64; N]) {
     let one = |k: usize, i: usize| columns[inner.start + k][i] * x[inner.start + k];
     let two = |k: usize, i: usize| one(k, i) + one(k + 1, i);
+    let three = |k: usize, i: usize| two(k, i) + one(k + 2, i);
     let four = |k: usize, i: usize| two(k, i) + two(k + 2, i);
     match inner.len() {
         0 => {}
         1 => add_times(sum, x[inner.start], &columns[inner.start]),
         2 => add_each(sum, |i| two(0, i)),
+        3 => add_each(sum, |i| three(0, i)),
+        6 => add_each(sum, |i| three(0, i) + three(3, i)),
         4 => add_each(sum, |i| four(0, i)),
         _ => add_each(sum, |i| four(0, i) + four(4, i)),
     }
