@@ -36,10 +36,9 @@ pub const FULL: bool = cfg!(feature = "full");
 
 // the C ABI is the one place that must handle foreign pointers
 #[allow(unsafe_code)]
-#[cfg(feature = "fmi2")]
 pub mod fmi2;
 #[allow(unsafe_code)]
-#[cfg(feature = "fmi3")]
+#[cfg(feature = "full")]
 pub mod fmi3;
 #[allow(unsafe_code)]
 pub mod instance;

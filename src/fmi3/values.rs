@@ -232,7 +232,6 @@ pub fn none_of(references: InputArray<u32>, wanted: &str) -> CallResult {
 }
 
 /// Rows of the table that variables show, all of them in their order.
-#[cfg(feature = "full")]
 fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u32>> {
     let mut rows = Vec::with_capacity(references.len());
     for reference in references.iter() {
@@ -243,7 +242,6 @@ fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u
 }
 
 /// Rows of the table that a variable shows.
-#[cfg(feature = "full")]
 fn rows_with_derivatives<'a>(instance: &Instance, reference: u32, item: &'a Item) -> CallResult<&'a [usize]> {
     match item.rows(&instance.now.parameters) {
         [] => Err(CallError::error(format!("{} has no derivatives", name(reference)))),
@@ -252,7 +250,6 @@ fn rows_with_derivatives<'a>(instance: &Instance, reference: u32, item: &'a Item
 }
 
 /// Rows of unknowns and knowns, in whose numbers there must be `[of unknowns, of knowns]` values.
-#[cfg(feature = "full")]
 fn rows_of_both(
     instance: &Instance,
     [unknowns, knowns]: [InputArray<u32>; 2],
@@ -265,7 +262,6 @@ fn rows_of_both(
 }
 
 /// fmi3GetOutputDerivatives: of arrays element by element. The time of the last event jumps, so that its derivative is 0.
-#[cfg(feature = "full")]
 pub fn output_derivatives(
     instance: &mut Instance,
     references: InputArray<u32>,
@@ -292,7 +288,6 @@ pub fn output_derivatives(
 }
 
 /// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.
-#[cfg(feature = "full")]
 pub fn directional_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],
@@ -305,7 +300,6 @@ pub fn directional_derivative(
 }
 
 /// fmi3GetAdjointDerivative: for each known the sum over unknowns of `seed` times their derivative by it.
-#[cfg(feature = "full")]
 pub fn adjoint_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],

@@ -41,9 +41,6 @@ pub enum Kind {
     CoSimulation = 1,
 }
 
-/// Why a build without the other kind refuses it.
-pub const ONE_KIND: &str = "this build, for real time, is for co-simulation alone";
-
 /// The C interface of a version of FMI: its number, and names of functions for messages.
 #[derive(Debug)]
 pub struct Interface {

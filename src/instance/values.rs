@@ -33,7 +33,6 @@ pub fn wrong_type(row: &Variable) -> CallError {
 }
 
 /// The error of any String access: there are no String variables.
-#[cfg(feature = "fmi2")]
 pub fn string_error(reference: u32) -> CallError {
     row(reference).map_or_else(|error| error, wrong_type)
 }

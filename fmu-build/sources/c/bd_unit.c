@@ -10,35 +10,33 @@ static void append(char *text, size_t most, const char *more) {
     text[length] = 0;
 }
 
-void bd_say(const bd_host *host, int status, const char *category, const char *text) {
-    if (host->logger) host->log(host, status, category, text);
+/* messages have no conversions: each is a format of printf that prints itself */
+static void say(const bd_unit *u, fmi2Status status, const char *category, const char *text) {
+    if (u->logger) u->logger(u->environment, u->name, status, category, text);
 }
 
-bd_unit *bd_take(const bd_host *host, const char *name) {
+static bd_unit *refused(const fmi2CallbackFunctions *functions, fmi2String name, const char *text) {
+    if (functions && functions->logger) functions->logger(functions->componentEnvironment, name ? name : "", fmi2Error, "logStatusError", text);
+    return 0;
+}
+
+bd_unit *bd_take(const fmi2CallbackFunctions *functions, fmi2String name) {
     const char *differs = bd_arithmetic_differs();
-    bd_unit *u = 0;
-    int k;
-    if (differs) {
-        bd_say(host, BD_ERROR, "logStatusError", differs);
-        return 0;
-    }
-    for (k = 0; k < BD_INSTANCES && !u; ++k)
-        if (!units[k].is_used) u = &units[k];
-    if (!u) {
-        bd_say(host, BD_ERROR, "logStatusError", "all instances are in use; compile the sources with a larger BD_INSTANCES for more");
-        return 0;
-    }
-    u->host = *host;
-    u->host.name[0] = 0;
-    append(u->host.name, sizeof u->host.name, name ? name : "");
+    bd_unit *u = units;
+    if (differs) return refused(functions, name, differs);
+    while (u < units + BD_INSTANCES && u->is_used) ++u;
+    if (u == units + BD_INSTANCES)
+        return refused(functions, name, "all instances are in use; compile the sources with a larger BD_INSTANCES for more");
+    u->logger = functions ? functions->logger : 0;
+    u->environment = functions ? functions->componentEnvironment : 0;
+    u->name[0] = 0;
+    append(u->name, sizeof u->name, name ? name : "");
     u->is_used = 1;
     u->is_dead = 0;
     u->component = 0;
     bd_start(&u->machine);
     return u;
 }
-
-void bd_give_back(bd_unit *u) { u->is_used = 0; }
 
 u32 bd_room(bd_unit *u, size_t bytes) {
     /* more than memory holds is a trap of its own */
@@ -80,58 +78,19 @@ u32 bd_from_host(bd_unit *u, const void *pointer) {
     return at > memory && at - memory < BD_MEMORY ? (u32)(at - memory) : 1;
 }
 
-/* A pointer to a state, in the library's memory and then the host's. */
-static void put_state(bd_unit *u, u32 place, void *const *state) {
-    if (state) i32_store(&u->machine, place, 0, bd_from_host(u, *state));
-}
-static void get_state(bd_unit *u, u32 place, u32 status, void **state) {
-    if (state && status <= BD_WARNING) *state = bd_to_host(u, i32_load(&u->machine, place, 0));
-}
-
-int bd_get_or_free_state(bd_unit *u, bd_state_call *call, void **state) {
-    const u32 room = bd_room(u, sizeof(u32));
-    u32 status;
-    put_state(u, room, state);
-    status = call(&u->machine, u->component, state ? room : 0);
-    get_state(u, room, status, state);
-    return bd_ended(u, status);
-}
-
-int bd_size_of_state(bd_unit *u, bd_size_call *call, const void *state, size_t *size) {
-    const u32 room = bd_room(u, sizeof(u32)), status = call(&u->machine, u->component, bd_from_host(u, state), size ? room : 0);
-    if (size && status <= BD_WARNING) *size = i32_load(&u->machine, room, 0);
-    return bd_ended(u, status);
-}
-
-int bd_serialize_state(bd_unit *u, bd_bytes_call *call, const void *state, void *bytes, size_t size) {
-    const u32 room = bd_room(u, size), status = call(&u->machine, u->component, bd_from_host(u, state), bytes ? room : 0, (u32)size);
-    if (status <= BD_WARNING) bd_get(u, room, bytes, size);
-    return bd_ended(u, status);
-}
-
-int bd_deserialize_state(bd_unit *u, bd_bytes_call *call, const void *bytes, size_t size, void **state) {
-    const u32 room = bd_room(u, sizeof(u64) + size);
-    u32 status;
-    bd_put(u, room + 8, bytes, size);
-    put_state(u, room, state);
-    status = call(&u->machine, u->component, bytes ? room + 8 : 0, (u32)size, state ? room : 0);
-    get_state(u, room, status, state);
-    return bd_ended(u, status);
-}
-
-int bd_ended(bd_unit *u, u32 status) {
+fmi2Status bd_ended(bd_unit *u, u32 status) {
     const u32 count = bd_room(u, sizeof(u32)), first = bd_source_messages_0(&u->machine, count);
     u32 bytes = i32_load(&u->machine, count, 0), at = first;
     const char *memory = (const char *)u->machine.memory.bytes;
     while (at < first + bytes) {
         const char *category = memory + at + 1, *text = category + strlen(category) + 1;
-        bd_say(&u->host, (int)i32_load8_u(&u->machine, at, 0), category, text);
+        say(u, (fmi2Status)i32_load8_u(&u->machine, at, 0), category, text);
         at = (u32)(text + strlen(text) + 1 - memory);
     }
-    return (int)status;
+    return (fmi2Status)status;
 }
 
-int bd_died(bd_unit *u, int reason) {
+fmi2Status bd_died(bd_unit *u, int reason) {
     static const char *const reasons[] = {"", "the library stopped itself", "access outside of its memory", "division by zero", "call of no function"};
     char text[768] = "internal error, please report: ";
     u->is_dead = 1;
@@ -144,6 +103,6 @@ int bd_died(bd_unit *u, int reason) {
         append(text, sizeof text, words);
     }
     append(text, sizeof text, "; this instance is lost, others live on");
-    bd_say(&u->host, BD_FATAL, "logStatusError", text);
-    return BD_FATAL;
+    say(u, fmi2Fatal, "logStatusError", text);
+    return fmi2Fatal;
 }

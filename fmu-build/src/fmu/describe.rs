@@ -93,7 +93,7 @@ pub fn model_description_of_sources<'a>(files: impl Iterator<Item = &'a str>) ->
 
 /// What of the unit a description is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+enum Part {
     /// All of it.
     Whole,
     /// What real-time targets need.

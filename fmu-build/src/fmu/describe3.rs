@@ -8,8 +8,8 @@ use bevel_differential::variables::{Access, Causality, MODEL_NAME, Table, Variab
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use super::describe::{
-    DIFFERENCE, Part, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories,
-    number, root, unit, units_in_use, variability,
+    DIFFERENCE, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories, number,
+    root, unit, units_in_use, variability,
 };
 use answers::text::xml::Element;
 
@@ -18,15 +18,6 @@ const EVENT: &str = "Event";
 
 /// The model description as XML.
 pub fn model_description() -> Result<String> {
-    described(Part::Whole)
-}
-
-/// That of the sources in C: what real-time targets do without is not there.
-pub fn model_description_of_sources() -> Result<String> {
-    described(Part::RealTime)
-}
-
-fn described(part: Part) -> Result<String> {
     let table = table();
     let kinds = enumerations(table)
         .map(|kind| Element::new("EnumerationType").with("name", kind.name).children(enumeration_items(kind)));
@@ -38,16 +29,15 @@ fn described(part: Part) -> Result<String> {
     });
     let rows = table.rows.iter().enumerate().map(|(reference, row)| variable(reference, row));
     let own = added().iter().enumerate().map(|(k, added)| added_variable(table.rows.len() + k, added));
-    let is_whole = part == Part::Whole;
     root("3.0", "instantiationToken", guid())
-        .children(is_whole.then(|| interface("ModelExchange", part).with("needsCompletedIntegratorStep", true)))
+        .child(interface("ModelExchange").with("needsCompletedIntegratorStep", true))
         .child(
-            interface("CoSimulation", part)
+            interface("CoSimulation")
                 .with("canHandleVariableCommunicationStepSize", true)
-                .with("maxOutputDerivativeOrder", if is_whole { OUTPUT_ORDER } else { 0 })
-                .with("providesIntermediateUpdate", is_whole)
+                .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
+                .with("providesIntermediateUpdate", true)
                 .with("mightReturnEarlyFromDoStep", true)
-                .with("canReturnEarlyAfterIntermediateUpdate", is_whole)
+                .with("canReturnEarlyAfterIntermediateUpdate", true)
                 .with("hasEventMode", true),
         )
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
@@ -71,13 +61,13 @@ fn described(part: Part) -> Result<String> {
 }
 
 /// Element for co-simulation or model exchange, with the attributes of both.
-fn interface(name: &'static str, part: Part) -> Element {
+fn interface(name: &'static str) -> Element {
     Element::new(name)
         .with("modelIdentifier", MODEL_NAME)
         .with("canGetAndSetFMUState", true)
         .with("canSerializeFMUState", true)
-        .with("providesDirectionalDerivatives", part == Part::Whole)
-        .with("providesAdjointDerivatives", part == Part::Whole)
+        .with("providesDirectionalDerivatives", true)
+        .with("providesAdjointDerivatives", true)
         .with("providesEvaluateDiscreteStates", true)
 }
 

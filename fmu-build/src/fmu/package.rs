@@ -68,7 +68,7 @@ pub struct PackageCommand {
     /// Also build BevelDifferential_integers.fmu, for hosts without enumerations (libcosim, Ecos)
     #[arg(long)]
     integers: bool,
-    /// Also build BevelDifferential_sources.fmu and BevelDifferential3_sources.fmu, with the unit as sources in C for real-time systems
+    /// Also build BevelDifferential_sources.fmu, with the unit as sources in C (FMI 2.0) for real-time systems
     #[arg(long)]
     sources: bool,
 }
@@ -82,11 +82,7 @@ impl PackageCommand {
         if self.sources {
             progress.stage("building the library for sources in C");
             match sources::Tools::found() {
-                Ok(tools) => {
-                    for (version, fmu) in [(Version::Two, fmu.clone()), (Version::Three, of_fmi3(&fmu))] {
-                        variants.push(sources::package(&tools, version, Packing::Small, &fmu)?);
-                    }
-                }
+                Ok(tools) => variants.push(sources::package(&tools, Packing::Small, &fmu)?),
                 Err(remark) => left_out.push(remark),
             }
         }

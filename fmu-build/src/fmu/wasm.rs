@@ -14,8 +14,6 @@ use crate::tools::python::finish;
 pub struct WasmCrate<'a> {
     /// Its name.
     pub package: &'a str,
-    /// Features that are switched on.
-    pub features: &'a [&'a str],
     /// Parts that are compiled beside each other: one inlines what matters.
     pub parts: &'a str,
     /// Level of optimisation.
@@ -35,7 +33,7 @@ impl WasmCrate<'_> {
         let mut cargo = Command::new(libraries::cargo());
         cargo
             .current_dir(paths::workspace())
-            .args(["build", "--release", "--quiet", "--package", self.package, "--features", &self.features.join(",")])
+            .args(["build", "--release", "--quiet", "--package", self.package])
             .args(["--target", WASM_TARGET, "--target-dir"])
             .arg(&folder)
             // whatever this build is for

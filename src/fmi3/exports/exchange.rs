@@ -1,13 +1,9 @@
 //! Events, and model exchange.
 
 use super::*;
-#[cfg(feature = "full")]
-use crate::instance::EVENT_INDICATORS;
-use crate::instance::Iteration;
-#[cfg(feature = "full")]
+use crate::instance::{EVENT_INDICATORS, Iteration};
 use crate::model::STATES;
 
-#[cfg(feature = "full")]
 getters! {
     fmi3GetContinuousStateDerivatives GetContinuousStateDerivatives get_derivatives;
     fmi3GetEventIndicators GetEventIndicators get_event_indicators;
@@ -21,12 +17,10 @@ plain! {
     fmi3EvaluateDiscreteStates EvaluateDiscreteStates evaluate_discrete_states;
 }
 
-#[cfg(feature = "full")]
 plain! {
     fmi3EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode_of_exchange;
 }
 
-#[cfg(feature = "full")]
 macro_rules! counts {
     ($($function:ident $call:ident $count:expr;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
@@ -41,7 +35,6 @@ macro_rules! counts {
     )+};
 }
 
-#[cfg(feature = "full")]
 counts! {
     fmi3GetNumberOfEventIndicators GetNumberOfEventIndicators EVENT_INDICATORS;
     fmi3GetNumberOfContinuousStates GetNumberOfContinuousStates STATES;
@@ -81,5 +74,4 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
     })
 }
 
-#[cfg(feature = "full")]
 host_solver!(fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates "continuousStates");

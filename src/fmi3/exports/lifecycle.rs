@@ -5,8 +5,7 @@ use std::ptr;
 
 use super::super::logger::HostLogger;
 use super::*;
-use crate::FULL;
-use crate::instance::{Allowed, Component, Experiment, Log, ONE_KIND, Sink, catch, free};
+use crate::instance::{Allowed, Component, Experiment, Log, Sink, catch, free};
 use crate::variables::guid;
 
 /// fmi3GetVersion.
@@ -102,9 +101,6 @@ unsafe fn instantiate(
         let [name, token] = texts.map(|text| unsafe { host.string(text) });
         if name.is_none_or(CStr::is_empty) {
             return Some("the instance name is NULL or empty".to_owned());
-        }
-        if !FULL && kind == Kind::ModelExchange {
-            return Some(ONE_KIND.to_owned());
         }
         if token.is_some_and(|token| token.to_bytes() == guid().as_bytes()) {
             return None;

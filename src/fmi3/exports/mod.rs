@@ -10,29 +10,23 @@
 use super::types::*;
 use super::{Call, INTERFACE, values};
 use crate::instance::c_types::c_void;
-#[cfg(feature = "full")]
-use crate::instance::{CallError, c_types::c_int, getters, host_solver};
-use crate::instance::{HostMemory, Instance, call, debug_logging, plain};
+use crate::instance::{
+    CallError, HostMemory, Instance, c_types::c_int, call, debug_logging, getters, host_solver, plain,
+};
 
-#[cfg(feature = "full")]
 mod clocks;
-#[cfg(feature = "full")]
 mod derivatives;
 mod exchange;
 mod lifecycle;
-#[cfg(feature = "full")]
 mod others;
 mod states;
 mod stepping;
 mod variables;
 
-#[cfg(feature = "full")]
 pub use clocks::*;
-#[cfg(feature = "full")]
 pub use derivatives::*;
 pub use exchange::*;
 pub use lifecycle::*;
-#[cfg(feature = "full")]
 pub use others::*;
 pub use states::*;
 pub use stepping::*;

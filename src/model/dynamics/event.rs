@@ -113,17 +113,11 @@ impl Events {
         self.recent[0] = event;
     }
 
-    /// Records at `time` [s] which bodies friction begins or ceases to hold, given its states `before` and `after`. Bodies that
-    /// move but have no members, beyond the scene's `groups` of planets, cause no event. Returns true if there is an event.
-    pub fn record_friction(
-        &mut self,
-        [before, after]: [&[FrictionState; FRICTION_BODIES]; 2],
-        groups: usize,
-        time: f64,
-    ) -> bool {
+    /// Records at `time` [s] which bodies friction begins or ceases to hold, given its states `before` and `after`. Returns true if
+    /// there is an event.
+    pub fn record_friction(&mut self, [before, after]: [&[FrictionState; FRICTION_BODIES]; 2], time: f64) -> bool {
         let count = self.count();
-        let is_body = |i: &usize| !(FRICTION_PLANETS + groups..FRICTION_WHEELS).contains(i);
-        for i in (0..FRICTION_BODIES).filter(is_body) {
+        for i in 0..FRICTION_BODIES {
             let happening = match (i >= FRICTION_WHEELS, before[i].holds(), after[i].holds()) {
                 (_, false, false) | (_, true, true) => continue,
                 (true, _, true) => Happening::WheelStops,
@@ -190,14 +184,12 @@ mod tests {
             (left, free, slides, Happening::Nothing),
             (left, slides, free, Happening::Nothing),
             (0, held, FrictionState { stiffness: 2e5, ..held }, Happening::Nothing),
-            // the fourth group of three planets has no members
-            (FRICTION_PLANETS + 3, slides, held, Happening::Nothing),
         ];
         for (place, from, to, what) in changes {
             let (mut before, mut after, mut events) = ([slides; FRICTION_BODIES], [slides; _], Events::default());
             (before[place], after[place]) = (from, to);
             let is_event = what != Happening::Nothing;
-            assert_eq!(events.record_friction([&before, &after], 3, 0.5), is_event, "{place}: {from:?} to {to:?}");
+            assert_eq!(events.record_friction([&before, &after], 0.5), is_event, "{place}: {from:?} to {to:?}");
             let expected = Event { what, place: place as u8, time: 0.5, count: 1 };
             assert_eq!(*events.last(), if is_event { expected } else { Event::default() });
         }

@@ -187,12 +187,12 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
     Some(well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?))
 }
 
-/// Places of the unknown positions, and how many bodies each stands for; a group without members has nothing to find.
+/// Places of the unknown positions, and how many bodies each stands for.
 fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
     let teeth = equations.teeth;
     let layout = &teeth.layout;
     let mut unknowns = vec![(0, 1.0), (1, 1.0)];
-    for g in (0..equations.groups()).filter(|&g| layout.members[g] > 0.0) {
+    for g in 0..equations.groups() {
         if !teeth.plan.spin_imposed {
             unknowns.push((layout.planet(g), layout.members[g]));
         }
@@ -225,14 +225,6 @@ impl Well<'_> {
     fn at(&self, x: &DVector<f64>) -> Point<LARGEST> {
         let mut point = *self.point;
         self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
-        // a group without members stands as the first, whose twin it is
-        let layout = &self.equations.teeth.layout;
-        for g in (1..layout.groups).filter(|&g| layout.members[g] == 0.0) {
-            point.q[layout.planet(g)] = point.q[layout.planet(0)];
-            if layout.has_pins {
-                point.q[layout.pin(g)] = point.q[layout.pin(0)];
-            }
-        }
         point
     }
 }

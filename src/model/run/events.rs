@@ -34,13 +34,13 @@ pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     }
     let before = state.friction;
     switch_friction(model, inputs, state);
-    record_holds(model, &before, state);
+    record_holds(&before, state);
 }
 
 /// Records as events which bodies friction begins or ceases to hold now, compared with the friction `before`.
-pub fn record_holds(model: &Model, before: &[FrictionState; FRICTION_BODIES], state: &mut State) {
+pub fn record_holds(before: &[FrictionState; FRICTION_BODIES], state: &mut State) {
     let (after, time) = (state.friction, state.time());
-    state.events.record_friction([before, &after], model.ideal.plan.groups().len(), time);
+    state.events.record_friction([before, &after], time);
 }
 
 /// Lets friction start and end on bodies. Wheels held by more than the limit torque of their brakes begin to slide.

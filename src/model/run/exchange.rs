@@ -142,14 +142,6 @@ impl Simulation {
                 (q[i], v[i]) = (states[k], states[MAX_DOF + k]);
             }
         }
-        // a group without members moves like the first
-        let layout = plan.layout();
-        for g in plan.groups().len()..layout.groups {
-            (q[layout.planet(g)], v[layout.planet(g)]) = (q[layout.planet(0)], v[layout.planet(0)]);
-            if plan.has_pins {
-                (q[layout.pin(g)], v[layout.pin(g)]) = (q[layout.pin(0)], v[layout.pin(0)]);
-            }
-        }
     }
 
     /// Sets the time [s].
@@ -280,7 +272,7 @@ impl Simulation {
                 state.friction = equations.acting().friction_state;
             }
         });
-        record_holds(model, &friction, state);
+        record_holds(&friction, state);
         break_tooth(model, inputs, state);
         let next = next_change(model, state);
         let states_changed = before.q != state.q || before.v != state.v;

@@ -226,8 +226,7 @@ fn integrate_equations<const N: usize, const WITH_EFFECTS: bool, E: LedgerEquati
             equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
             anchors = equations.acting().anchors();
             let friction = [&before, &equations.acting().friction_state];
-            let groups = model.ideal.plan.groups().len();
-            let is_event = state.events.record_friction(friction, groups, begin + course.time);
+            let is_event = state.events.record_friction(friction, begin + course.time);
             if is_event && pauses && course.time < clock.now {
                 clock.now = course.time;
             }

@@ -217,8 +217,7 @@ impl Simulation {
             readings,
             held: [
                 held(0..FRICTION_PLANETS),
-                // three planets leave a fourth group without members
-                held(FRICTION_PLANETS..FRICTION_PLANETS + self.model.ideal.plan.groups().len()),
+                held(FRICTION_PLANETS..FRICTION_WHEELS),
                 held(FRICTION_WHEELS..FRICTION_BODIES),
             ],
             energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),

@@ -57,8 +57,7 @@ fn rolling(plan: &Plan, found: &Found) -> String {
 fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) -> Option<String> {
     let (layout, carried) = (&teeth.layout, &preload.carried);
     let load = carried.teeth[0].abs() + carried.teeth[1].abs();
-    // a group without members has nothing to carry
-    let planets = (0..teeth.plan.groups().len()).map(|g| layout.planet(g));
+    let planets = (0..layout.groups).map(|g| layout.planet(g));
     // of planets that spin the torques change all the time
     let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
     let sides = (0..2).map(|s| (s, carried.side_acceleration[s]));

@@ -31,9 +31,8 @@ pub fn count_fatigue(
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
     let Passed { h, begin, extension, part } = step;
-    // of three planets that differ there is a fourth group, without members
-    let groups = model.ideal.plan.groups().len();
     let layout = &equations.teeth.layout;
+    let groups = layout.groups;
     let first = layout.planet(0);
     let rolled = |q: &[f64; LARGEST]| {
         let mut rolled = Rolled::default();
@@ -78,9 +77,7 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history
     };
     let mut quantities = [speeds[0]; MOST_QUANTITIES];
     quantities[1] = speeds[1];
-    // of three planets that differ there is a fourth group, without members
-    let groups = model.ideal.plan.groups().len();
-    let count = 2 + 2 * groups;
+    let count = 2 + 2 * equations.groups();
     for (i, quantity) in quantities[2..count].iter_mut().enumerate() {
         *quantity = error(i / 2, i % 2);
     }

@@ -27,7 +27,7 @@ pub const PLANET: usize = 3;
 /// half-shafts], [what else is attached].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Groups of planets (1, 2 or 4; the last of four may have no members).
+    /// Number of groups of planets.
     pub groups: usize,
     /// Members of each group.
     pub members: [f64; MAX_GROUPS],
@@ -100,12 +100,13 @@ impl Layout {
     }
 }
 
-/// Σ over 1, 2 or 4 groups of planets, in twos: opposite planets, which are adjacent, may be alike.
+/// Σ over the groups of planets, in twos: opposite planets, which are adjacent, may be alike.
 #[inline]
 pub fn over_groups(groups: usize, term: impl Fn(usize) -> f64) -> f64 {
     match groups {
         1 => term(0),
         2 => term(0) + term(1),
+        3 => (term(0) + term(1)) + term(2),
         _ => (term(0) + term(1)) + (term(2) + term(3)),
     }
 }

@@ -105,16 +105,7 @@ impl Plan {
                 }
             }
         }
-        plan.fill_up();
         Ok(plan)
-    }
-
-    /// Three groups are simulated as four: the fourth has no members, and moves as the first.
-    fn fill_up(&mut self) {
-        let spare = self.layout().groups;
-        for g in self.group_count..spare {
-            self.groups[g] = Group { members: 0.0, ..self.groups[0] };
-        }
     }
 
     fn add_group(&mut self, phase: [f64; 2], planet: usize) {
@@ -154,10 +145,7 @@ impl Plan {
     /// Index of each degree of freedom.
     pub fn layout(&self) -> Layout {
         Layout {
-            groups: match self.group_count {
-                3 => 4,
-                n => n,
-            },
+            groups: self.group_count,
             members: self.groups.map(|g| g.members),
             has_pins: self.has_pins,
             attached: self.attached,

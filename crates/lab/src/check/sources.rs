@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use anyhow::{Result, anyhow};
 use clap::ArgMatches;
 
-use fmu_build::fmu::package::{self, Packing, Version};
+use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::sources::{self, Tools};
 use fmu_build::fmu::toolchains;
 use fmu_build::tools::paths;
@@ -18,7 +18,7 @@ pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsStri
     let fmu = package::package()?;
     progress.stage("building the library for sources in C");
     let packing = if options.get_flag("quick") { Packing::Quick } else { Packing::Small };
-    let unit = sources::package(&tools, Version::Two, packing, &fmu)?;
+    let unit = sources::package(&tools, packing, &fmu)?;
     let zig = match toolchains::old_linux().found() {
         Some(tools) => tools.packages()?.join("ziglang").join("zig").into(),
         None => OsString::new(),

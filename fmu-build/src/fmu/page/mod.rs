@@ -71,7 +71,7 @@ impl PageCommand {
 
 /// The library for browsers, compiled in so many parts at this level of optimisation.
 fn library(tools: &Compiler, [parts, level]: [&str; 2]) -> Result<PathBuf> {
-    let library = WasmCrate { package: CRATE, features: &[], parts, level, options: &[], folder: "wasm" };
+    let library = WasmCrate { package: CRATE, parts, level, options: &[], folder: "wasm" };
     library.compiled(tools, "the library for browsers cannot be built")
 }
 

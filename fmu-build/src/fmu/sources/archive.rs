@@ -6,16 +6,14 @@ use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use bevel_differential::variables::MODEL_NAME;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::{File, Tools};
 use crate::fmu::libraries::{CRATES, Library};
-use crate::fmu::package::{Packing, Version};
-use crate::fmu::{describe, describe3, documentation, licences};
+use crate::fmu::package::Packing;
+use crate::fmu::{describe, documentation, licences};
 use crate::tools::files::write_whole;
-use answers::text::xml::Element;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 const INDEX: &str = "documentation/index.html";
@@ -26,16 +24,16 @@ const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its libr
                      with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
 
 /// Writes the archive with the sources next to `fmu`, and returns its path.
-pub fn package(tools: &Tools, version: Version, packing: Packing, fmu: &Path) -> Result<PathBuf> {
+pub fn package(tools: &Tools, packing: Packing, fmu: &Path) -> Result<PathBuf> {
     let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
     let target = fmu.with_file_name(format!("{name}_sources.fmu"));
-    let files = tools.files(version, packing)?;
-    let bytes = variant(version, fmu, &files).with_context(|| format!("{} cannot be packed", target.display()))?;
+    let files = tools.files(packing)?;
+    let bytes = variant(fmu, &files).with_context(|| format!("{} cannot be packed", target.display()))?;
     write_whole(&target, &bytes)?;
     Ok(target)
 }
 
-fn variant(version: Version, fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
+fn variant(fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
     let mut archive = ZipArchive::new(Archive::open(fmu)?)?;
     let mut out = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
@@ -53,7 +51,7 @@ fn variant(version: Version, fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
             continue;
         }
         match &name[..] {
-            DESCRIPTION => add(&mut out, DESCRIPTION, &description(version, files)?)?,
+            DESCRIPTION => add(&mut out, DESCRIPTION, &describe::model_description_of_sources(compiled(files))?)?,
             INDEX => add(&mut out, INDEX, &index_page()?)?,
             _ => out.raw_copy_file(archive.by_index_raw(index)?)?,
         }
@@ -61,32 +59,12 @@ fn variant(version: Version, fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
     for (name, text) in files {
         add(&mut out, &format!("sources/{name}"), text)?;
     }
-    if version == Version::Three {
-        add(&mut out, "sources/buildDescription.xml", &build_description(files)?)?;
-    }
     Ok(out.finish()?.into_inner())
-}
-
-fn description(version: Version, files: &[File]) -> Result<String> {
-    match version {
-        Version::Two => describe::model_description_of_sources(compiled(files)),
-        Version::Three => describe3::model_description_of_sources(),
-    }
 }
 
 /// The files that a compiler is given, without headers.
 fn compiled(files: &[File]) -> impl Iterator<Item = &str> {
     files.iter().map(|(name, _)| name.as_str()).filter(|name| name.ends_with(".c"))
-}
-
-/// How FMI 3.0 says what to compile.
-fn build_description(files: &[File]) -> Result<String> {
-    let set = Element::new("SourceFileSet")
-        .with("language", "C99")
-        .children(compiled(files).map(|name| Element::new("SourceFile").with("name", name)));
-    let configuration = Element::new("BuildConfiguration").with("modelIdentifier", MODEL_NAME).child(set);
-    let root = Element::new("fmiBuildDescription").with("fmiVersion", "3.0").child(configuration);
-    root.document().context("the description of the build cannot be written")
 }
 
 /// The documentation of the archive.

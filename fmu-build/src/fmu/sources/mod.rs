@@ -13,7 +13,7 @@ use anyhow::{Context, Result};
 pub use archive::package;
 pub use translate::File;
 
-use crate::fmu::package::{Packing, Version};
+use crate::fmu::package::Packing;
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::fmu::wasm::WasmCrate;
 use crate::tools::lock::Lock;
@@ -22,12 +22,12 @@ use crate::tools::python::{Environment, finish};
 
 /// The crate of the library.
 const CRATE: &str = "bevel-differential-sources";
-/// Folder that both versions of FMI are compiled in.
+/// Folder that the library is compiled in.
 const FOLDER: &str = "sources";
 /// The stack within the library's memory, twice what any scene of the tests takes [bytes].
 const STACK: &str = "-Clink-arg=-zstack-size=262144";
-/// Parts that both versions of FMI share, in `fmu-build/sources/c`.
-const SHARED: [&str; 4] = ["bd_runtime.h", "bd_runtime.c", "bd_unit.h", "bd_unit.c"];
+/// Files around it, in `fmu-build/sources/c`.
+const OWN: [&str; 5] = ["bd_runtime.h", "bd_runtime.c", "bd_unit.h", "bd_unit.c", "fmi2Functions.c"];
 
 /// What makes the sources.
 pub struct Tools {
@@ -44,16 +44,11 @@ impl Tools {
         }
     }
 
-    /// All files of the sources for a version of FMI; packed in little time they give the same results by more instructions.
-    pub fn files(&self, version: Version, packing: Packing) -> Result<Vec<File>> {
-        let (feature, face) = match version {
-            Version::Two => ("fmi2", "fmi2Functions.c"),
-            Version::Three => ("fmi3", "fmi3Functions.c"),
-        };
+    /// All files of the sources; packed in little time they give the same results by more instructions.
+    pub fn files(&self, packing: Packing) -> Result<Vec<File>> {
         let _alone = Lock::of(&paths::target().join("cross").join(FOLDER))?;
         let library = WasmCrate {
             package: CRATE,
-            features: &[feature],
             parts: if packing == Packing::Quick { "16" } else { "1" },
             level: "2",
             options: &[STACK],
@@ -62,7 +57,7 @@ impl Tools {
         let library = library.compiled(&self.wasm, "the library for sources in C cannot be built")?;
         let mut files = translate::files(&self.in_c(&library)?)?;
         let own = paths::workspace().join("fmu-build").join("sources").join("c");
-        for name in SHARED.into_iter().chain([face]) {
+        for name in OWN {
             let text = fs::read_to_string(own.join(name)).with_context(|| format!("{name} cannot be read"))?;
             files.push((name.to_owned(), text));
         }

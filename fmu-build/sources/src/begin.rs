@@ -1,11 +1,11 @@
-//! An instance of FMI 2.0.
+//! Begin of an instance.
 
 use std::ffi::{c_int, c_void};
 use std::ptr;
 
 use bevel_differential::fmi2::{Boolean, CallbackFunctions, ComponentPointer, Logger, Status, Text, fmi2Instantiate};
 
-use crate::messages;
+use crate::{messages, reason, room};
 
 /// A logger of C takes any number of arguments; compiled for WebAssembly these are one pointer, which is not used.
 type PlainLogger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, *const c_void);
@@ -13,6 +13,14 @@ type PlainLogger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, *
 unsafe extern "C" fn keep(_: *mut c_void, _: Text, status: Status, category: Text, message: Text, _: *const c_void) {
     // SAFETY: the library passes texts that end with 0
     unsafe { messages::keep(status, category, message) };
+}
+
+/// Makes room and keeps reasons: the first call of all.
+#[unsafe(no_mangle)]
+pub extern "C" fn source_start() {
+    reason::keep();
+    room::make();
+    messages::make();
 }
 
 /// fmi2Instantiate with messages that are kept.
