@@ -1,4 +1,4 @@
-"""The library of answers, loaded once: a question in, its reply out."""
+"""The library of answers, loaded once: a question in, its reply out; and the schedules of runs."""
 
 import ctypes
 import json
@@ -29,6 +29,16 @@ def reply(question: Mapping[str, Any], numbers: np.ndarray | None = None,
         library.bd_free(found)
 
 
+def schedule(question: np.ndarray, width: int) -> tuple[int, np.ndarray]:
+    """Number and rows, of `width` numbers each, of a run's schedule; bd_answers.h says what `question` and rows hold, and what a number
+    below 1 means. Raises `OSError` if the library is missing."""
+    library, numbers = _library(), np.ascontiguousarray(question, np.float64)
+    count = library.bd_schedule(numbers.ctypes.data, len(numbers), None, 0)
+    rows = np.empty((max(count, 0), width))
+    library.bd_schedule(numbers.ctypes.data, len(numbers), rows.ctypes.data, rows.size)
+    return count, rows
+
+
 @cache
 def _library() -> ctypes.CDLL:
     platform, shipped = machine.answers(Path(__file__).with_name("answers"))
@@ -41,6 +51,8 @@ def _library() -> ctypes.CDLL:
     # as an address, so that it can be freed
     library.bd_ask.restype = ctypes.c_void_p
     library.bd_free.argtypes, library.bd_free.restype = [ctypes.c_void_p], None
+    library.bd_schedule.argtypes = [ctypes.c_void_p, ctypes.c_size_t] * 2
+    library.bd_schedule.restype = ctypes.c_ssize_t
     return library
 
 

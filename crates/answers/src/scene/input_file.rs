@@ -12,6 +12,7 @@ use std::path::Path;
 
 use bevel_differential::variables::{Access, Variable};
 use csv::StringRecord;
+use schedule::Table;
 use toml::Value;
 
 use super::set::{real, variable};
@@ -72,7 +73,8 @@ fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<
     if !problems.is_empty() {
         return Err(problems);
     }
-    let table = |column: Column| InputTable { row: column.row, times: times.clone(), values: column.values, period };
+    let table =
+        |column: Column| InputTable { row: column.row, table: Table::straight(times.clone(), column.values, period) };
     let notes = former_names::notes(columns.iter().map(|column| split_header_cell(&column.header_cell).0));
     Ok((columns.into_iter().map(table).collect(), notes))
 }

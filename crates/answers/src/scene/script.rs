@@ -58,9 +58,9 @@ fn arguments(scene: &Scene) -> Result<String> {
             "    # straight from point to point: times in s, values in SI, and the period after which they repeat"
         )?;
         writeln!(out, "    tables=[")?;
-        for table in tables(scene) {
+        for InputTable { row, table } in tables(scene) {
             let period = table.period.map_or("None".into(), |period| format!("{period:?}"));
-            writeln!(out, "        ({}, [\n{}        ], [", quoted(table.row.name)?, numbers(&table.times))?;
+            writeln!(out, "        ({}, [\n{}        ], [", quoted(row.name)?, numbers(&table.times))?;
             writeln!(out, "{}        ], {period}),", numbers(&table.values))?;
         }
         writeln!(out, "    ],")?;

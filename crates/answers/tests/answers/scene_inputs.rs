@@ -64,7 +64,7 @@ fn times_with_units_are_those_in_seconds() -> Result<()> {
     let seconds = parsed(&format!("{plain}{}", rest("0.02", "[0, 0.005]", "0.05")))?;
     for scene in [with_units, seconds] {
         assert_eq!((scene.stop_time, scene.step, scene.events[0].time), (0.1, 1e-3, 0.02));
-        let table = &scene.input_tables[0];
+        let table = &scene.input_tables[0].table;
         assert_eq!((table.times.as_slice(), table.period), (&[0.0, 5e-3][..], Some(0.05)));
     }
     Ok(())
@@ -126,7 +126,11 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
     run(&same, None, Some(&mut second), &mut Progress::silent())?;
     assert_eq!(String::from_utf8(first)?, String::from_utf8(second)?);
     let tables = |scene: &Scene| -> Vec<_> {
-        scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
+        scene
+            .input_tables
+            .iter()
+            .map(|t| (t.row.name, t.table.times.clone(), t.table.values.clone(), t.table.period))
+            .collect()
     };
     assert_eq!(tables(&scene), tables(&same));
     for other in [

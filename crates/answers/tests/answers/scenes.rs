@@ -202,7 +202,7 @@ fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Re
 #[test]
 fn tables_go_straight_from_point_to_point_and_begin_anew() -> Result<()> {
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0.1, 0.3]\nvalue = [1.0, \"5 N.m\"]\n";
-    let at = |input_table: &InputTable, time| (input_table.at(time) * 1e6).round() / 1e6;
+    let at = |input_table: &InputTable, time| (input_table.table.at(time) * 1e6).round() / 1e6;
     let scene = parsed(table)?;
     let input_table = &scene.input_tables[0];
     assert_eq!(
