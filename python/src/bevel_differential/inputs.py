@@ -66,7 +66,7 @@ class Signals:
                  changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = True):
         if not isinstance(slopes, bool):
             raise DifferentialError(f"input_slopes = {slopes!r}: it is True or False")
-        self.constants, self.tables, self.slopes = list(constants), list(tables), slopes
+        self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
         # places of the tables that continue straight within steps
         self.straight = [place for place, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
