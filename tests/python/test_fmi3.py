@@ -49,12 +49,12 @@ def test_a_scene_has_the_same_bits_by_both_versions(fmu3, fmu, plain_outputs, na
     tables = [table.variable.name for table in signals.tables]
     made, rows = 0, []
     with Unit3(fmu3) as unit:
-        unit.initialise({**scene.values, **{variable.name: value for variable, value in signals.start(steps)}}, steps.points[-1])
+        unit.initialise({**scene.values, **{variable.name: value for variable, value in signals.start(steps)}}, steps["end"][-1])
         rows.append(unit.reals(plain_outputs))
-        for (begin, size, due), values in list(zip(steps.calls(), steps.values.T.tolist(), strict=True))[1:]:
-            for _, pairs in signals.changes[made:due]:
+        for begin, size, _, due, values, _ in steps[1:].tolist():
+            for _, pairs in signals.changes[made:int(due)]:
                 unit.set({variable.name: value for variable, value in pairs})
-            made = due
+            made = int(due)
             unit.set(dict(zip(tables, values, strict=True)))
             assert unit.step(begin, size) == (False, False, False, pytest.approx(begin + size, rel=1e-12))
             rows.append(unit.reals(plain_outputs))

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from bevel_differential import Differential, DifferentialError, Scene
-from bevel_differential.inputs import Signals, Table
 
 # bodies that turn freely under the drive alone
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
@@ -107,28 +106,6 @@ def test_the_end_of_a_period_is_a_jump_if_the_next_one_begins_otherwise(step, ta
     assert np.abs(record["time"] - 0.1 * np.arange(1, 10)[:, np.newaxis]).min(axis=1).max() < 1e-12
     if table is SAWTOOTH:
         assert record[SPEED][-1] == pytest.approx(impulse / inertia, rel=1e-7)
-
-
-def test_a_period_that_ends_as_it_begins_has_no_jump(free):
-    variable = free.fmu.variable(DRIVE)
-    for table, points in [(([0.0, 0.1, 0.3], [0.1, 0.7, 0.1], 0.3), [0.0, 0.4, 0.7]),
-                          (([0.0, 0.1, 0.1, 0.4, 0.4], [0.1, 0.7, 0.0, 0.1, 9.0], 0.2), [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7])]:
-        assert Signals(tables=[Table(variable, *table)]).steps(0.7, 0.4).points == pytest.approx(points)
-
-
-def test_jumps_that_are_the_same_are_one_point(free):
-    # 3 · 0.1 is more than 0.3 by rounding
-    saw = Table(free.fmu.variable(DRIVE), [0.0, 0.1], [0.0, 1.0], 0.1)
-    points = Signals(tables=[saw], changes=[(0.3, []), (0.3 + 1e-13, [])]).steps(1.0, 0.08).points
-    assert np.diff(points).min() > 1e-3
-    assert np.sum(np.abs(points - 0.3) < 1e-6) == 1
-
-
-def test_a_jump_hardly_before_a_communication_point_makes_no_slope_of_rounding(inertia, fmu_file):
-    jumps, levels = 0.1 * (np.arange(1, 10) - 2e-9), np.array([0.0, 100.0] * 5)
-    record = in_scene([(DRIVE, [0.0, *np.repeat(jumps, 2), 1.0], np.repeat(levels, 2), None)], 1.0, 0.1, fmu_file)
-    exact = np.sum(np.diff([0.0, *jumps, 1.0]) * levels) / inertia
-    assert record[SPEED][-1] == pytest.approx(exact, rel=1e-7)
 
 
 def test_countless_jumps_are_refused(fmu_file):

@@ -1,8 +1,8 @@
 //! The schedule as one function of C, which Python and pages call.
 
-use std::slice;
+use std::{iter, slice};
 
-use crate::{MOST, Schedule, Table};
+use crate::{MOST, Schedule, Step, Table};
 
 /// Writes the schedule of a run: a row of numbers for its start and for each of its steps, up to `room` numbers in all.
 ///
@@ -17,40 +17,29 @@ use crate::{MOST, Schedule, Table};
 /// more than 1e8 steps; -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without a step.
 ///
 /// # Safety
-/// `question` points to `count` numbers, and `rows` to room for `room` numbers, or is null with a room of 0.
+/// `question` points to `count` numbers and `rows` to room for `room` numbers. Neither is null, whatever these are.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bd_schedule(question: *const f64, count: usize, rows: *mut f64, room: usize) -> isize {
-    if question.is_null() || rows.is_null() && room > 0 {
-        return 0;
-    }
     // SAFETY: the caller's promise
-    let question = unsafe { slice::from_raw_parts(question, count) };
-    let rows = if rows.is_null() { &mut [] } else { unsafe { slice::from_raw_parts_mut(rows, room) } };
+    let (question, rows) = unsafe { (slice::from_raw_parts(question, count), slice::from_raw_parts_mut(rows, room)) };
     let Some((schedule, tables)) = read(question) else { return 0 };
     if schedule.step.is_some_and(|step| schedule.stop / step > MOST) {
         return -1;
     }
-    if let Some(table) = schedule.tables.iter().position(|stops| stops.are_countless(schedule.stop)) {
+    if let Some(table) = schedule.countless() {
         return -2 - table as isize;
     }
-    written(schedule, &tables, rows) as isize
-}
-
-fn written(schedule: Schedule, tables: &[Table], rows: &mut [f64]) -> usize {
     let mut rows = rows.chunks_exact_mut(4 + 2 * tables.len());
-    let mut write = |head: [f64; 4], numbers: &dyn Fn(&Table) -> [f64; 2]| {
-        let Some(row) = rows.next() else { return };
-        row[..4].copy_from_slice(&head);
-        for (i, table) in tables.iter().enumerate() {
-            [row[4 + i], row[4 + tables.len() + i]] = numbers(table);
-        }
-    };
-    write([0.0; 4], &|table| [table.at(0.0), 0.0]);
-    let mut count = 1;
-    for step in schedule {
-        let [begin, size] = step.call();
-        write([begin, size, step.end, step.due as f64], &|table| [step.value(table), step.slope(table)]);
+    let mut count = 0;
+    let start = Step { begin: 0.0, end: 0.0, changes: 0..0, slack: 0.0 };
+    for step in iter::once(start).chain(schedule) {
         count += 1;
+        let Some(row) = rows.next() else { continue };
+        let [begin, size] = step.call();
+        row[..4].copy_from_slice(&[begin, size, step.end, step.changes.end as f64]);
+        for (i, table) in tables.iter().enumerate() {
+            [row[4 + i], row[4 + tables.len() + i]] = step.follow(table);
+        }
     }
     count
 }
@@ -67,7 +56,7 @@ fn read(question: &[f64]) -> Option<(Schedule, Vec<Table>)> {
         tables.push(Table { times: times.to_vec(), values: values.to_vec(), period, is_held: is_held != 0.0 });
         rest = after;
     }
-    let schedule = Schedule::new(stop, (step > 0.0).then_some(step), changes.to_vec(), &tables);
+    let schedule = Schedule::new(stop, (step > 0.0).then_some(step), changes.to_vec(), tables.iter());
     (stop.is_finite() && rest.is_empty()).then_some((schedule, tables))
 }
 
@@ -77,7 +66,7 @@ mod tests {
 
     fn asked(question: &[f64]) -> Result<Vec<f64>, isize> {
         // SAFETY: both are as long as they are said to be
-        let count = unsafe { bd_schedule(question.as_ptr(), question.len(), std::ptr::null_mut(), 0) };
+        let count = unsafe { bd_schedule(question.as_ptr(), question.len(), [].as_mut_ptr(), 0) };
         let mut rows = vec![f64::NAN; 6 * usize::try_from(count).ok().filter(|&count| count > 0).ok_or(count)?];
         assert_eq!(unsafe { bd_schedule(question.as_ptr(), question.len(), rows.as_mut_ptr(), rows.len()) }, count);
         Ok(rows)

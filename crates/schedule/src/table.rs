@@ -1,7 +1,5 @@
 //! Values over time: straight from point to point or held, with jumps, once or again and again.
 
-use crate::stops::Stops;
-
 /// A value over time. It is constant before the first point and after the last one, or repeats.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -27,30 +25,19 @@ impl Table {
         self.between(time, self.times.partition_point(|&t| t <= time))
     }
 
-    /// Returns true if the table jumps too often until `stop` [s]: a mistake in its period.
-    pub fn jumps_countlessly(&self, stop: f64) -> bool {
-        self.jumps().are_countless(stop)
-    }
-
     /// Slope from just after `begin` to just before `end` [s], per second; no jump is between them.
     pub(crate) fn slope(&self, begin: f64, end: f64) -> f64 {
         (self.before(end) - self.at(begin)) / (end - begin)
     }
 
-    /// Jumps: two points of one time, and the end of a period whose next one begins with another value.
-    pub(crate) fn jumps(&self) -> Stops {
-        let jumps_at_end = self.period.is_some_and(|period| self.before(period) != self.at(0.0));
-        let pairs = self.times.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
-        self.stops(jumps_at_end.then_some(0.0).into_iter().chain(pairs))
-    }
-
-    /// Points, between which the table is straight.
-    pub(crate) fn corners(&self) -> Stops {
-        self.stops(self.period.map(|_| 0.0).into_iter().chain(self.times.iter().copied()))
-    }
-
-    fn stops(&self, times: impl Iterator<Item = f64>) -> Stops {
-        Stops::new(times.filter(|&time| time >= 0.0 && self.period.is_none_or(|period| time < period)), self.period)
+    /// Jumps: two points of one time, and the end of a period whose next one begins with another value; or all `points`.
+    pub(crate) fn stops(&self, points: bool) -> Stops {
+        let is_stop = |(i, time): &(usize, &f64)| points || self.times.get(i + 1) == Some(time);
+        let inside = self.times.iter().enumerate().filter(is_stop).map(|(_, &time)| time);
+        let at_end = self.period.filter(|&period| points || self.before(period) != self.at(0.0)).map(|_| 0.0);
+        let end = self.period.unwrap_or(f64::INFINITY);
+        let times = at_end.into_iter().chain(inside).filter(|time| (0.0..end).contains(time)).collect();
+        Stops { times, period: self.period, passed: 0 }
     }
 
     /// Value at `time` [s], just before a jump.
@@ -80,6 +67,32 @@ impl Table {
     }
 }
 
+/// Times at which steps end beside the regular ones.
+#[derive(Clone)]
+pub(crate) struct Stops {
+    /// Times [s], in the first period if they repeat, which do not fall.
+    pub(crate) times: Vec<f64>,
+    pub(crate) period: Option<f64>,
+    /// Number of those that are over.
+    pub(crate) passed: usize,
+}
+
+impl Stops {
+    /// The next one [s].
+    pub(crate) fn upcoming(&self) -> Option<f64> {
+        let Some(period) = self.period else { return self.times.get(self.passed).copied() };
+        let count = self.times.len();
+        (count > 0).then(|| (self.passed / count) as f64 * period + self.times[self.passed % count])
+    }
+
+    /// Passes those up to `time` [s].
+    pub(crate) fn pass(&mut self, time: f64) {
+        while self.upcoming().is_some_and(|next| next <= time) {
+            self.passed += 1;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,7 +102,7 @@ mod tests {
     }
 
     fn first(table: &Table, count: usize) -> Vec<f64> {
-        let mut jumps = table.jumps();
+        let mut jumps = table.stops(false);
         let mut found = Vec::new();
         while let Some(next) = jumps.upcoming().filter(|_| found.len() < count) {
             jumps.pass(next);
@@ -140,12 +153,5 @@ mod tests {
         );
         // the end of the period
         assert_eq!(first(&held, 2), [0.0, 4.0]);
-    }
-
-    #[test]
-    fn a_period_with_countless_jumps_is_found() {
-        let square = |period: f64| table(&[0.0, 0.5 * period, 0.5 * period], &[1.0, 1.0, 0.0], Some(period));
-        assert!(!square(1e-3).jumps_countlessly(10.0));
-        assert!(square(1e-9).jumps_countlessly(10.0));
     }
 }

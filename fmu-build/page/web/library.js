@@ -125,7 +125,7 @@ export class Library {
   schedule(question, width) {
     const from = this.exports.page_allocate(8 * question.length);
     new Float64Array(this.exports.memory.buffer, from, question.length).set(question);
-    const count = this.exports.bd_schedule(from, question.length, 0, 0);
+    const count = this.exports.bd_schedule(from, question.length, from, 0);
     const room = Math.max(count, 0) * width;
     const to = this.exports.page_allocate(8 * room);
     this.exports.bd_schedule(from, question.length, to, room);

@@ -68,11 +68,11 @@ class Runner(Closing):
             raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
         start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start(steps))
         instance = self._instance()
-        instance.start(list(start.items()), steps.points[-1])
+        instance.start(list(start.items()), steps["end"][-1])
         batches = Batches.of(variables)
-        record = batches.record(len(steps.points))
+        record = batches.record(len(steps))
         _advance(instance, batches, record, steps, signals)
-        return _structured(steps.points, variables, outputs, batches, record)
+        return _structured(steps["end"], variables, outputs, batches, record)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -155,13 +155,14 @@ def _advance(instance, batches, record, steps, signals):
     variables = [table.variable for table in signals.tables]
     driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[place] for place in signals.straight))
     # kept here: writers only have their addresses
-    blocks, slope_blocks = driven.blocks(steps.values), straight.blocks(steps.slopes[signals.straight])
+    blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
     writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
     made = 0
-    for row, (begin, size, due) in enumerate(steps.calls()):
+    for row, (begin, size, due) in enumerate(zip(*(steps[name].tolist() for name in ("begin", "size", "due")))):
         if row:
             while made < due:
-                _set(instance, signals.changes[made][1])
+                changed = dict(signals.changes[made][1])
+                Batches.of(tuple(changed)).set(instance, list(changed.values()))
                 made += 1
             for write, component, references, count, address, width in writers:
                 status = write(component, references, count, address + row * width)
@@ -171,10 +172,6 @@ def _advance(instance, batches, record, steps, signals):
         for get, component, references, count, address, width in readers:
             if get(component, references, count, address + row * width) >= DISCARD:
                 instance.check(DISCARD, f"reading outputs at {begin + size:g} s", "failed")
-
-
-def _set(instance, pairs):
-    Batches.of(tuple(variable for variable, _ in pairs)).set(instance, [value for _, value in pairs])
 
 
 def field(variable: Variable, asked: str, kind: Any) -> tuple:

@@ -1,6 +1,6 @@
 """Inputs over time."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -29,31 +29,14 @@ class Table:
         if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
             raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
 
-    def numbers(self) -> list[np.ndarray]:
-        """The table in a question for a schedule, see `library.schedule`."""
-        return [np.array([len(self.times), self.period or 0.0, self.variable.kind != "Real"], float), self.times, self.values]
+    def numbers(self) -> np.ndarray:
+        """The table in a question for a schedule."""
+        return np.concatenate([[len(self.times), self.period or 0.0, self.variable.kind != "Real"], self.times, self.values])
 
     @property
     def is_piecewise_constant(self) -> bool:
         """True if the value changes only in jumps."""
         return self.variable.kind != "Real" or not np.any((np.diff(self.times) > 0.0) & (np.diff(self.values) != 0.0))
-
-
-class Steps:
-    """Communication steps of a run, from the rows of its schedule.
-
-    `points`: the start and the ends of steps, s; `values`, `slopes`: of all tables from there on, shape (tables, points). The first point
-    has the values at the start, and each other one those of the step to it."""
-
-    def __init__(self, rows: np.ndarray, tables: int):
-        rows.flags.writeable = False
-        self._rows, self.points = rows, rows[:, 2]
-        self.values, self.slopes = rows[:, 4:4 + tables].T, rows[:, 4 + tables:].T
-
-    def calls(self) -> Iterator[tuple[float, float, int]]:
-        """Of each point the beginning and size of the step to it, s, as the FMU takes them, and how many changes come before it since the
-        start. Beginning and size add up to the end to the last bit."""
-        return zip(*self._rows[:, :2].T.tolist(), self._rows[:, 3].astype(int).tolist())
 
 
 class Signals:
@@ -70,23 +53,24 @@ class Signals:
         self.changes = sorted(changes, key=lambda change: change[0])
         # places of the tables that continue straight within steps
         self.straight = [place for place, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
-        self._kept: tuple[tuple[float, float | None] | None, Any] = (None, None)
+        self._kept: Any = None, None
 
-    def steps(self, stop: float, step: float | None) -> Steps:
+    def steps(self, stop: float, step: float | None) -> np.ndarray:
         """Steps to `stop`: to multiples of `step`, to changes and to jumps of tables; without a step to changes and to points of tables.
-        The last ones are kept: designs of a sweep share them."""
+        See `library.schedule`. The last ones are kept: designs of a sweep share them."""
         kept = self._kept
         if kept[0] != (stop, step):
             kept = self._kept = (stop, step), self._scheduled(stop, step)
         return kept[1]
 
     def _scheduled(self, stop, step):
-        if step is None:
-            self._check_straight()
-        times = [time for time, _ in self.changes]
-        tables = [numbers for table in self.tables for numbers in table.numbers()]
+        for place, table in enumerate(self.tables):
+            if step is None and place not in self.straight and not table.is_piecewise_constant:
+                why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
+                raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
+        times, tables = [time for time, _ in self.changes], [table.numbers() for table in self.tables]
         try:
-            count, rows = schedule(np.concatenate([[stop, step or 0.0, len(times)], times, *tables]), 4 + 2 * len(self.tables))
+            count, steps = schedule(np.concatenate([[stop, step or 0.0, len(times)], times, *tables]), len(tables))
         except OSError as missing:
             raise DifferentialError(str(missing), kind="failed") from None
         if count == -1:
@@ -95,14 +79,7 @@ class Signals:
             table = self.tables[-2 - count]
             raise DifferentialError(f"{table.variable.name} jumps more than 1e+08 times in {stop:g} s; its period is {table.period:g} s: "
                                     "give a longer one, or end earlier")
-        return Steps(rows, len(self.tables))
-
-    def _check_straight(self):
-        """Refuses tables that steps from point to point cannot follow."""
-        for place, table in enumerate(self.tables):
-            if place not in self.straight and not table.is_piecewise_constant:
-                why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
-                raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
+        return steps
 
     @classmethod
     def of(cls, fmu: Fmu, inputs: Inputs | None, slopes: bool = True) -> Self:
@@ -119,9 +96,9 @@ class Signals:
                 constants.append((variable, variable.number(given)))
         return cls(constants, tables, slopes=slopes)
 
-    def start(self, steps: Steps) -> list[tuple[Variable, Number]]:
+    def start(self, steps: np.ndarray) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""
-        return self.constants + [(table.variable, value) for table, value in zip(self.tables, steps.values[:, 0].tolist())]
+        return self.constants + [(table.variable, value) for table, value in zip(self.tables, steps["values"][0].tolist())]
 
 
 def input_variable(fmu: Fmu, name: str) -> Variable:

@@ -29,13 +29,14 @@ def reply(question: Mapping[str, Any], numbers: np.ndarray | None = None,
         library.bd_free(found)
 
 
-def schedule(question: np.ndarray, width: int) -> tuple[int, np.ndarray]:
-    """Number and rows, of `width` numbers each, of a run's schedule; bd_answers.h says what `question` and rows hold, and what a number
-    below 1 means. Raises `OSError` if the library is missing."""
-    library, numbers = _library(), np.ascontiguousarray(question, np.float64)
-    count = library.bd_schedule(numbers.ctypes.data, len(numbers), None, 0)
-    rows = np.empty((max(count, 0), width))
-    library.bd_schedule(numbers.ctypes.data, len(numbers), rows.ctypes.data, rows.size)
+def schedule(question: np.ndarray, tables: int) -> tuple[int, np.ndarray]:
+    """Number of rows and the rows of a run's schedule: its start, then each step; bd_answers.h says what question and rows hold, and what
+    a number below 1 means. Raises `OSError` if the library is missing."""
+    library = _library()
+    kinds = [*((name, float) for name in ("begin", "size", "end", "due")), *((name, float, tables) for name in ("values", "slopes"))]
+    count = library.bd_schedule(question.ctypes.data, len(question), question.ctypes.data, 0)
+    rows = np.empty(max(count, 0), kinds)
+    library.bd_schedule(question.ctypes.data, len(question), rows.ctypes.data, rows.nbytes // 8)
     return count, rows
 
 

@@ -148,7 +148,7 @@ impl LoadsQuestion {
 impl RunQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
-        let outcome = written(&self.out, |file| run(&scene, None, Some(file), progress))?;
+        let outcome = written(&self.out, |file| run(&scene, Some(file), progress))?;
         Ok(json!({"text": outcome.text(&scene.display_units), "file": self.out}))
     }
 }

@@ -73,10 +73,9 @@ fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<
     if !problems.is_empty() {
         return Err(problems);
     }
-    let table =
-        |column: Column| InputTable { row: column.row, table: Table::straight(times.clone(), column.values, period) };
+    let of = |Column { row, values, .. }| InputTable { row, table: Table::straight(times.clone(), values, period) };
     let notes = former_names::notes(columns.iter().map(|column| split_header_cell(&column.header_cell).0));
-    Ok((columns.into_iter().map(table).collect(), notes))
+    Ok((columns.into_iter().map(of).collect(), notes))
 }
 
 /// Place and unit of the column of times, and the columns of inputs.

@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable};
-use schedule::MOST;
+use schedule::{MOST, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -118,7 +118,15 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let outputs = outputs(&entry.outputs, &mut problems);
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
-    problems.extend(input_tables.iter().filter_map(|table| countless(table, stop_time)));
+    let tables = input_tables.iter().map(|driven| &driven.table);
+    if let Some(countless) = Schedule::new(stop_time, Some(step), Vec::new(), tables).countless() {
+        let InputTable { row, table } = &input_tables[countless];
+        let (end, period) = (six_digits(stop_time), table.period.unwrap_or_default());
+        problems.push(format!(
+            "{} jumps more than {MOST:e} times in {end} s; its period is {period} s: give a longer one",
+            row.name
+        ));
+    }
     problems.or(())?;
     for input_table in &input_tables {
         if let Access::Input(access) = input_table.row.access {
@@ -225,16 +233,6 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
         problems.push(format!("{place} {name} is fixed: only inputs and tunable parameters change during a run"));
     }
     Some(Event { time, settings })
-}
-
-/// The problem of a table that jumps too often until `stop_time` [s].
-fn countless(InputTable { row, table }: &InputTable, stop_time: f64) -> Option<String> {
-    let period = table.period.filter(|_| table.jumps_countlessly(stop_time))?;
-    Some(format!(
-        "{} jumps more than {MOST:e} times in {} s; its period is {period} s: give a longer one",
-        row.name,
-        six_digits(stop_time)
-    ))
 }
 
 /// Reports changes of inputs that also follow a table: the table would override them.

@@ -9,10 +9,10 @@ use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 use schedule::{Schedule, Step};
 
-use super::Scene;
 use super::display_units::DisplayUnits;
 use super::units;
 use super::warnings::at_start;
+use super::{InputTable, Scene};
 use crate::problem::Problems;
 use crate::progress::Progress;
 use crate::text::table::Table;
@@ -23,8 +23,6 @@ pub struct SceneRun<'a> {
     parameters: Parameters,
     inputs: Inputs,
     schedule: Schedule,
-    /// Events done.
-    events: usize,
     reported: Reported,
     /// Warnings since the start.
     found: Vec<Problem>,
@@ -51,7 +49,7 @@ impl<'a> SceneRun<'a> {
         let schedule = Schedule::new(scene.stop_time, Some(step), events.collect(), tables.map(|driven| &driven.table));
         let Scene { parameters, inputs, .. } = *scene;
         let (reported, found) = (Reported::default(), Vec::new());
-        Ok(Self { scene, parameters, inputs, schedule, events: 0, reported, found, simulation })
+        Ok(Self { scene, parameters, inputs, schedule, reported, found, simulation })
     }
 
     /// Time [s].
@@ -68,13 +66,7 @@ impl<'a> SceneRun<'a> {
     pub fn advance(&mut self) -> Result<()> {
         let Some(step) = self.schedule.next() else { return Ok(()) };
         self.feed(&step);
-        if self.scene.input_slopes {
-            self.feed_slopes(&step);
-        }
-        self.simulation
-            .advance(step.end)
-            .map_err(|failure| anyhow!("{failure}"))
-            .with_context(|| refused(self.scene))?;
+        self.simulation.advance(step.end).map_err(|why| anyhow!("{why}")).with_context(|| refused(self.scene))?;
         self.found.extend(self.simulation.unreported(&mut self.reported));
         if self.is_over() {
             self.found.extend(self.simulation.unreported_at_end(&mut self.reported));
@@ -93,35 +85,27 @@ impl<'a> SceneRun<'a> {
         &self.found
     }
 
-    /// Sets what is due before `step`.
+    /// Sets what is due before `step`, and what tables do over it.
     fn feed(&mut self, step: &Step) {
         let mut tuned = false;
-        for setting in self.scene.events[self.events..step.due].iter().flat_map(|event| &event.settings) {
+        for setting in self.scene.events[step.changes.clone()].iter().flat_map(|event| &event.settings) {
             setting.apply(&mut self.parameters, &mut self.inputs);
             tuned |= !matches!(setting.row.access, Access::Input(_));
         }
-        self.events = step.due;
+        let mut derivatives = InputDerivatives::ZERO;
         // the last one wins where two tables name one input
-        for driven in &self.scene.input_tables {
-            if let Access::Input(access) = driven.row.access {
-                *access(&mut self.inputs) = step.value(&driven.table);
+        for InputTable { row, table } in &self.scene.input_tables {
+            if let Access::Input(access) = row.access {
+                [*access(&mut self.inputs), *access(&mut derivatives.rates[0])] = step.follow(table);
             }
         }
         self.simulation.set_inputs(&self.inputs);
         if tuned {
             self.simulation.tune(&self.parameters);
         }
-    }
-
-    /// Sets the slopes of tables over `step`.
-    fn feed_slopes(&mut self, step: &Step) {
-        let mut derivatives = InputDerivatives::ZERO;
-        for driven in &self.scene.input_tables {
-            if let Access::Input(access) = driven.row.access {
-                *access(&mut derivatives.rates[0]) = step.slope(&driven.table);
-            }
+        if self.scene.input_slopes {
+            self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
         }
-        self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
     }
 
     /// Value of an output.
@@ -167,13 +151,8 @@ pub struct SceneResult {
     pub took: Duration,
 }
 
-/// Runs `scene` to its end, or for at most `steps` communication steps; each communication point goes to `csv` too.
-pub fn run(
-    scene: &Scene,
-    steps: Option<u64>,
-    csv: Option<&mut dyn Write>,
-    progress: &mut Progress,
-) -> Result<SceneResult> {
+/// Runs `scene` to its end; each communication point goes to `csv` too.
+pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) -> Result<SceneResult> {
     let begun = Instant::now();
     progress.begin_task(0.0, "simulating");
     let mut run = SceneRun::start(scene, scene.step)?;
@@ -189,7 +168,7 @@ pub fn run(
     line(&mut csv, 0.0, &recorded, &values)?;
     let (mut exchanged, mut seen) = (0.0, 0.0);
     let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
-    while !run.is_over() && steps.is_none_or(|most| run.schedule.done() < most) {
+    while !run.is_over() {
         let before = run.time();
         run.advance()?;
         let span = run.time() - before;

@@ -76,7 +76,7 @@ class Car:
         names = self._recorded(outputs)
         begin = speed_value(speed)
         motion = Motion(self.motor, self.tyres, self.body, begin)
-        points = Signals().steps(stop, step).points.tolist()
+        points = Signals().steps(stop, step)["end"].tolist()
         record = np.empty(len(points), [("time", np.float64), *((name, np.float64) for name in names)])
         with self.fmu.open() as instance:
             run = _Run(instance, motion, [name for name in names if name not in UNITS])
