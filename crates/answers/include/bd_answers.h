@@ -59,7 +59,7 @@ void bd_free(char *reply);
  * more than 1e8 steps; -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without a step.
  *
  * # Safety
- * `question` points to `count` numbers, and `rows` to room for `room` numbers, or is null with a room of 0.
+ * `question` points to `count` numbers and `rows` to room for `room` numbers. Neither is null, whatever these are.
  */
 ptrdiff_t bd_schedule(const double *question,
                       size_t count,

@@ -108,8 +108,8 @@ impl Step {
 mod tests {
     use super::*;
 
-    fn schedule(stop: f64, step: Option<f64>, changes: &[f64], tables: &[Table]) -> Schedule {
-        Schedule::new(stop, step, changes.to_vec(), tables.iter())
+    fn schedule(stop: f64, step: Option<f64>, changes: &[f64], tables: &[&Table]) -> Schedule {
+        Schedule::new(stop, step, changes.to_vec(), tables.iter().copied())
     }
 
     /// Ends of steps, rounded [µs].
@@ -129,7 +129,7 @@ mod tests {
                 assert_eq!(begin + size, step.end);
                 (value + 0.5 * size * slope) * size
             };
-            let all: f64 = Schedule::new(0.9, step, Vec::new(), [table].into_iter()).map(impulse).sum();
+            let all: f64 = schedule(0.9, step, &[], &[table]).map(impulse).sum();
             assert!((all - 1.35).abs() < 1e-8, "{step:?}: {all}");
         }
     }
@@ -138,7 +138,7 @@ mod tests {
     fn times_that_are_the_same_are_one_point() {
         // 3 · 0.1 is more than 0.3 by rounding, and the last change is hardly before the end
         let close = Table::straight(vec![0.3, 0.3, 0.3 + 1e-13, 0.3 + 1e-13], vec![0.0, 1.0, 1.0, 2.0], None);
-        let found = ends(schedule(0.7, Some(0.1), &[0.25, 0.25, 0.7 - 1e-14], &[close]));
+        let found = ends(schedule(0.7, Some(0.1), &[0.25, 0.25, 0.7 - 1e-14], &[&close]));
         assert_eq!(found, [1e5, 2e5, 2.5e5, 3e5, 4e5, 5e5, 6e5, 7e5]);
     }
 
@@ -154,9 +154,9 @@ mod tests {
     #[test]
     fn without_a_step_points_of_tables_are_ends() {
         let once = Table::straight(vec![0.1, 0.4, 0.4, 2.0], vec![5.0, 20.0, -1.0, 0.0], None);
-        assert_eq!(ends(schedule(0.7, None, &[0.6], &[once])), [1e5, 4e5, 6e5, 7e5]);
+        assert_eq!(ends(schedule(0.7, None, &[0.6], &[&once])), [1e5, 4e5, 6e5, 7e5]);
         let again = Table::straight(vec![0.1], vec![5.0], Some(0.3));
-        assert_eq!(ends(schedule(0.7, None, &[], &[again])), [1e5, 3e5, 4e5, 6e5, 7e5]);
+        assert_eq!(ends(schedule(0.7, None, &[], &[&again])), [1e5, 3e5, 4e5, 6e5, 7e5]);
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
         for off in [1.5e-9, 2e-9, 2.0000001e-9, 2.5e-9, 1e-8] {
             for at in (1..10).map(|k| 0.1 * (f64::from(k) - off)) {
                 let jump = Table::straight(vec![at, at, at + 1.0], vec![0.0, 1.0, 2.0], None);
-                for step in schedule(1.0, Some(0.1), &[], &[jump.clone()]) {
+                for step in schedule(1.0, Some(0.1), &[], &[&jump]) {
                     let [_, slope] = step.follow(&jump);
                     assert!(slope == 0.0 || (slope - 1.0).abs() < 1e-3, "{off} {at}: {step:?} {slope}");
                 }
