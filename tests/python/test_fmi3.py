@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 import theory
 from bevel_differential import Scene, shipped_scenes
-from bevel_differential.points import Steps
 from fmi3 import Unit3
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
@@ -44,17 +43,19 @@ def test_a_scene_has_the_same_bits_by_both_versions(fmu3, fmu, plain_outputs, na
     scene.set({"solver.relative_tolerance": 1e-6})
     signals = scene._signals
     # FMI 3.0 has no derivatives of inputs
-    signals.slopes = False
+    signals.straight = []
     expected = scene.run(plain_outputs)
-    steps = Steps.of(scene.stop, scene.step, signals.jumps, exact=True)
-    changes, rows = list(signals.changes), []
+    steps = signals.steps(scene.stop, scene.step)
+    tables = [table.variable.name for table in signals.tables]
+    made, rows = 0, []
     with Unit3(fmu3) as unit:
-        unit.initialise({**scene.values, **{variable.name: value for variable, value in signals.start()}}, steps.points[-1])
+        unit.initialise({**scene.values, **{variable.name: value for variable, value in signals.start(steps)}}, steps["end"][-1])
         rows.append(unit.reals(plain_outputs))
-        for begin, size in zip(steps.begins.tolist(), np.diff(steps.points).tolist()):
-            while changes and changes[0][0] <= begin + steps.slack:
-                unit.set({variable.name: value for variable, value in changes.pop(0)[1]})
-            unit.set({table.variable.name: table.at(begin + steps.slack) for table in signals.tables})
+        for begin, size, _, due, values, _ in steps[1:].tolist():
+            for _, pairs in signals.changes[made:int(due)]:
+                unit.set({variable.name: value for variable, value in pairs})
+            made = int(due)
+            unit.set(dict(zip(tables, values, strict=True)))
             assert unit.step(begin, size) == (False, False, False, pytest.approx(begin + size, rel=1e-12))
             rows.append(unit.reals(plain_outputs))
     found = np.array(rows)

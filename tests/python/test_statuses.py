@@ -10,7 +10,7 @@ import pytest
 
 from evidence_unit import packed
 from short_scene import SCENE
-from bevel_differential import cad, library, verify
+from bevel_differential import Differential, DifferentialError, cad, library, verify
 from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
 from bevel_differential.command import examples as examples_command
 from bevel_differential.command import page as page_command
@@ -148,6 +148,8 @@ def test_a_missing_library_of_answers_is_a_failure_that_is_named(prepared, monke
     library._library.cache_clear()
     assert main(["plan", "study_turning"]) == FAILED
     assert "none.so is missing" in capsys.readouterr().err
+    with Differential() as differential, pytest.raises(DifferentialError, match="none.so is missing"):
+        differential.run()
 
 
 def test_the_overview_and_one_page_state_the_statuses(capsys):

@@ -121,6 +121,21 @@ export class Library {
     this.check(this.exports.fmi2ExitInitializationMode(this.component), "fmi2ExitInitializationMode");
   }
 
+  // Rows of a run's schedule, of `width` numbers each; bd_answers.h says what question and rows hold.
+  schedule(question, width) {
+    const from = this.exports.page_allocate(8 * question.length);
+    new Float64Array(this.exports.memory.buffer, from, question.length).set(question);
+    const count = this.exports.bd_schedule(from, question.length, from, 0);
+    const room = Math.max(count, 0) * width;
+    const to = this.exports.page_allocate(8 * room);
+    this.exports.bd_schedule(from, question.length, to, room);
+    const rows = new Float64Array(this.exports.memory.buffer, to, room).slice();
+    this.exports.page_free(from, 8 * question.length);
+    this.exports.page_free(to, 8 * room);
+    if (count < 1) throw new Refused("This run has more than 1e8 steps or jumps of inputs; end it earlier.");
+    return rows;
+  }
+
   step(time, size) {
     this.check(this.exports.fmi2DoStep(this.component, time, size, 1), `the step from ${time} s`);
   }

@@ -12,7 +12,7 @@ from .fmu import Fmu
 from .inputs import Inputs, Signals
 from .instance import DISCARD, Closing, Instance
 from .plot import plot
-from .points import Steps, TimeValue, duration, span
+from .points import TimeValue, duration, span
 from .values import DifferentialError, FileName, Number, Value, Variable
 from .warned import warn
 
@@ -66,13 +66,13 @@ class Runner(Closing):
         if len(set(variables)) < len(variables):
             twice = next(variable.name for variable in variables if variables.count(variable) > 1)
             raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
-        start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start())
+        start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start(steps))
         instance = self._instance()
-        instance.start(list(start.items()), steps.points[-1])
+        instance.start(list(start.items()), steps["end"][-1])
         batches = Batches.of(variables)
-        record = batches.record(len(steps.points))
+        record = batches.record(len(steps))
         _advance(instance, batches, record, steps, signals)
-        return _structured(steps.points, variables, outputs, batches, record)
+        return _structured(steps["end"], variables, outputs, batches, record)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -134,8 +134,7 @@ class Differential(Runner):
         """`run` without Python warnings."""
         stop, step = duration("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs, input_slopes)
-        stops = signals.corners() if step is None else signals.jumps
-        return self._simulate(Steps.of(stop, step, stops), signals, outputs, values)
+        return self._simulate(signals.steps(stop, step), signals, outputs, values)
 
     def __getstate__(self) -> dict[str, Any]:
         # only the values go to other processes
@@ -153,29 +152,26 @@ def as_frame(record: np.ndarray) -> "pandas.DataFrame":
 def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
-    driven, sloping = (Batches.of(tuple(table.variable for table in tables)) for tables in (signals.tables, signals.sloping))
-    values, slopes = signals.along(steps.begins + steps.slack, steps.points[1:] - steps.slack)
+    variables = [table.variable for table in signals.tables]
+    driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[place] for place in signals.straight))
     # kept here: writers only have their addresses
-    blocks, slope_blocks = driven.blocks(values), sloping.blocks(slopes)
-    writers = driven.writers(instance, blocks) + sloping.slope_writers(instance, slope_blocks)
-    changes = list(signals.changes)
-    sizes = np.diff(steps.points).tolist()
-    for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):
+    blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
+    writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
+    made = 0
+    for row, (begin, size, due) in enumerate(zip(*(steps[name].tolist() for name in ("begin", "size", "due")))):
         if row:
-            while changes and changes[0][0] <= begin + steps.slack:
-                _set(instance, changes.pop(0)[1])
+            while made < due:
+                changed = dict(signals.changes[made][1])
+                Batches.of(tuple(changed)).set(instance, list(changed.values()))
+                made += 1
             for write, component, references, count, address, width in writers:
-                status = write(component, references, count, address + (row - 1) * width)
+                status = write(component, references, count, address + row * width)
                 if status >= DISCARD:
                     instance.check(status, f"setting inputs at {begin:g} s")
             instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
             if get(component, references, count, address + row * width) >= DISCARD:
                 instance.check(DISCARD, f"reading outputs at {begin + size:g} s", "failed")
-
-
-def _set(instance, pairs):
-    Batches.of(tuple(variable for variable, _ in pairs)).set(instance, [value for _, value in pairs])
 
 
 def field(variable: Variable, asked: str, kind: Any) -> tuple:

@@ -6,7 +6,7 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 
 from .fmu import Fmu
-from .points import Recurring
+from .library import schedule
 from .values import DifferentialError, Number, Value, Variable
 
 # times, s, and values at them, shape (points,)
@@ -29,56 +29,14 @@ class Table:
         if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
             raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
 
-    def at(self, time: float) -> Any:
-        """Value just after a time."""
-        return self.along(np.array([time]))[0]
-
-    def along(self, points: np.ndarray) -> np.ndarray:
-        """Values just after times `points`, s, shape (points,)."""
-        return self._between(points if self.period is None else np.fmod(points, self.period), "right")
-
-    def before(self, points: np.ndarray) -> np.ndarray:
-        """Values just before times `points`, s, shape (points,)."""
-        if self.period is not None:
-            within = np.fmod(points, self.period)
-            # the end of a period, not the start of the next one
-            points = np.where((within == 0.0) & (points > 0.0), self.period, within)
-        return self._between(points, "left")
-
-    def _between(self, points, side):
-        times, values = self.times, self.values
-        after = np.searchsorted(times, points, side=side)
-        found = values[np.maximum(after - 1, 0)]
-        if self.variable.kind == "Real":
-            inner = (after > 0) & (after < len(times))
-            after, before, points = after[inner], after[inner] - 1, points[inner]
-            share = (points - times[before]) / (times[after] - times[before])
-            straight = values[before] + share * (values[after] - values[before])
-            found[inner] = np.where(points == times[after], values[after], straight)
-        return found
-
-    def slopes(self, begins: np.ndarray, ends: np.ndarray) -> np.ndarray:
-        """Slopes over steps without jumps, from just after `begins` to just before `ends`, s, per second; shape (steps,)."""
-        return (self.before(ends) - self.along(begins)) / (ends - begins)
-
-    def jumps(self) -> list[Recurring]:
-        """Times at which the value jumps: two points of one time, and the end of a period whose next one begins with another value."""
-        times = self.times[1:][self.times[1:] == self.times[:-1]].tolist()
-        if self.period is not None and self.before(np.array([self.period]))[0] != self.at(0.0):
-            times.append(0.0)
-        return self._recurring(times)
-
-    def corners(self) -> list[Recurring]:
-        """Times between which the value is straight."""
-        return self._recurring([*self.times.tolist(), *([] if self.period is None else [0.0])])
+    def numbers(self) -> np.ndarray:
+        """The table in a question for a schedule."""
+        return np.concatenate([[len(self.times), self.period or 0.0, self.variable.kind != "Real"], self.times, self.values])
 
     @property
     def is_piecewise_constant(self) -> bool:
         """True if the value changes only in jumps."""
         return self.variable.kind != "Real" or not np.any((np.diff(self.times) > 0.0) & (np.diff(self.values) != 0.0))
-
-    def _recurring(self, times):
-        return [(time, self.period) for time in sorted(set(times)) if self.period is None or time < self.period]
 
 
 class Signals:
@@ -91,26 +49,37 @@ class Signals:
                  changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = True):
         if not isinstance(slopes, bool):
             raise DifferentialError(f"input_slopes = {slopes!r}: it is True or False")
-        self.constants, self.tables, self.slopes = list(constants), list(tables), slopes
+        self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
-        self.jumps = self._stops(Table.jumps)
+        # places of the tables that continue straight within steps
+        self.straight = [place for place, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
+        self._kept: Any = None, None
 
-    def corners(self) -> tuple[Recurring, ...]:
-        """Times between which all inputs are straight. Refuses tables that steps between them cannot follow."""
-        for table in self.tables:
-            if table not in self.sloping and not table.is_piecewise_constant:
+    def steps(self, stop: float, step: float | None) -> np.ndarray:
+        """Steps to `stop`: to multiples of `step`, to changes and to jumps of tables; without a step to changes and to points of tables.
+        See `library.schedule`. The last ones are kept: designs of a sweep share them."""
+        kept = self._kept
+        if kept[0] != (stop, step):
+            kept = self._kept = (stop, step), self._scheduled(stop, step)
+        return kept[1]
+
+    def _scheduled(self, stop, step):
+        for place, table in enumerate(self.tables):
+            if step is None and place not in self.straight and not table.is_piecewise_constant:
                 why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
                 raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
-        return self._stops(Table.corners)
-
-    @property
-    def sloping(self) -> list[Table]:
-        """Tables that continue straight within steps."""
-        return [table for table in self.tables if table.variable.causality == "input"] if self.slopes else []
-
-    def _stops(self, of):
-        times = {time for table in self.tables for time in of(table)} | {(time, None) for time, _ in self.changes}
-        return tuple(sorted(times, key=lambda stop: (stop[0], stop[1] or 0.0)))
+        times, tables = [time for time, _ in self.changes], [table.numbers() for table in self.tables]
+        try:
+            count, steps = schedule(np.concatenate([[stop, step or 0.0, len(times)], times, *tables]), len(tables))
+        except OSError as missing:
+            raise DifferentialError(str(missing), kind="failed") from None
+        if count == -1:
+            raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than 1e+08 steps: end earlier, or take longer steps")
+        if count < -1:
+            table = self.tables[-2 - count]
+            raise DifferentialError(f"{table.variable.name} jumps more than 1e+08 times in {stop:g} s; its period is {table.period:g} s: "
+                                    "give a longer one, or end earlier")
+        return steps
 
     @classmethod
     def of(cls, fmu: Fmu, inputs: Inputs | None, slopes: bool = True) -> Self:
@@ -127,14 +96,9 @@ class Signals:
                 constants.append((variable, variable.number(given)))
         return cls(constants, tables, slopes=slopes)
 
-    def start(self) -> list[tuple[Variable, Number]]:
+    def start(self, steps: np.ndarray) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""
-        return self.constants + [(table.variable, table.at(0.0)) for table in self.tables]
-
-    def along(self, begins: np.ndarray, ends: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """Values of all tables just after the beginnings of steps, and slopes to just before the ends of those that have slopes;
-        each of shape (steps,)."""
-        return [table.along(begins) for table in self.tables], [table.slopes(begins, ends) for table in self.sloping]
+        return self.constants + [(table.variable, value) for table, value in zip(self.tables, steps["values"][0].tolist())]
 
 
 def input_variable(fmu: Fmu, name: str) -> Variable:

@@ -1,4 +1,4 @@
-"""The library of answers, loaded once: a question in, its reply out."""
+"""The library of answers, loaded once: a question in, its reply out; and the schedules of runs."""
 
 import ctypes
 import json
@@ -29,6 +29,17 @@ def reply(question: Mapping[str, Any], numbers: np.ndarray | None = None,
         library.bd_free(found)
 
 
+def schedule(question: np.ndarray, tables: int) -> tuple[int, np.ndarray]:
+    """Number of rows and the rows of a run's schedule: its start, then each step; bd_answers.h says what question and rows hold, and what
+    a number below 1 means. Raises `OSError` if the library is missing."""
+    library = _library()
+    kinds = [*((name, float) for name in ("begin", "size", "end", "due")), *((name, float, tables) for name in ("values", "slopes"))]
+    count = library.bd_schedule(question.ctypes.data, len(question), question.ctypes.data, 0)
+    rows = np.empty(max(count, 0), kinds)
+    library.bd_schedule(question.ctypes.data, len(question), rows.ctypes.data, rows.nbytes // 8)
+    return count, rows
+
+
 @cache
 def _library() -> ctypes.CDLL:
     platform, shipped = machine.answers(Path(__file__).with_name("answers"))
@@ -41,6 +52,8 @@ def _library() -> ctypes.CDLL:
     # as an address, so that it can be freed
     library.bd_ask.restype = ctypes.c_void_p
     library.bd_free.argtypes, library.bd_free.restype = [ctypes.c_void_p], None
+    library.bd_schedule.argtypes = [ctypes.c_void_p, ctypes.c_size_t] * 2
+    library.bd_schedule.restype = ctypes.c_ssize_t
     return library
 
 

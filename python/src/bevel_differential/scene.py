@@ -14,7 +14,7 @@ from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED, NOBODY_SET
 from .output_file import checked
 from .plot import plot
-from .points import Steps, TimeValue, duration, mean_over_time, seconds, span
+from .points import TimeValue, duration, mean_over_time, seconds, span
 from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
@@ -196,21 +196,20 @@ class Scene(Runner):
         """`run` without Python warnings; by steps of `step` in place of the scene's, s."""
         self.check_settable(values or ())
         stop = self.stop if stop is None else duration("stop", stop)
-        steps = Steps.of(stop, step or self.step, self._signals.jumps, exact=True)
-        return self._simulate(steps, self._signals, self._named(outputs), values)
+        return self._simulate(self._signals.steps(stop, step or self.step), self._signals, self._named(outputs), values)
 
     def _final(self, outputs=None, values=None):
         """`final` without Python warnings."""
         self.check_settable(values or ())
         names = self._named(outputs)
-        step = self.step if self._signals.tables else None
-        steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
+        steps = self._signals.steps(self.stop, self.step if self._signals.tables else None)
         last = self._simulate(steps, self._signals, names, values)[-1]
         return {name: last[name].item() for name in names}
 
     def _initialise(self, instance, values):
         self.check_settable(values or ())
-        start = {**self.values, **by_present_names(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
+        at_start = self._signals.start(self._signals.steps(0.0, self.step))
+        start = {**self.values, **by_present_names(values or {}), **{variable.name: value for variable, value in at_start}}
         instance.initialise(start, self.stop)
 
     def _named(self, outputs):

@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
 use crate::scene::set::changed_values;
-use crate::scene::{self, Scene, acting, former_names, loads, plan, script, ssv};
+use crate::scene::{self, InputTable, Scene, acting, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// All scenes of a folder.
@@ -96,8 +96,8 @@ impl SceneQuestion {
     pub(super) fn values(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
         let events = scene.events.iter().map(|event| json!({"time": event.time, "set": values(&event.settings)}));
-        let tables = scene.input_tables.iter().map(|table| {
-            json!({"input": table.row.name, "times": table.times, "values": table.values, "period": table.period})
+        let tables = scene.input_tables.iter().map(|InputTable { row, table }| {
+            json!({"input": row.name, "times": table.times, "values": table.values, "period": table.period})
         });
         Ok(json!({
             "name": scene.name,
@@ -148,7 +148,7 @@ impl LoadsQuestion {
 impl RunQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
-        let outcome = written(&self.out, |file| run(&scene, None, Some(file), progress))?;
+        let outcome = written(&self.out, |file| run(&scene, Some(file), progress))?;
         Ok(json!({"text": outcome.text(&scene.display_units), "file": self.out}))
     }
 }

@@ -12,6 +12,7 @@ use std::path::Path;
 
 use bevel_differential::variables::{Access, Variable};
 use csv::StringRecord;
+use schedule::Table;
 use toml::Value;
 
 use super::set::{real, variable};
@@ -72,9 +73,9 @@ fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<
     if !problems.is_empty() {
         return Err(problems);
     }
-    let table = |column: Column| InputTable { row: column.row, times: times.clone(), values: column.values, period };
+    let of = |Column { row, values, .. }| InputTable { row, table: Table::straight(times.clone(), values, period) };
     let notes = former_names::notes(columns.iter().map(|column| split_header_cell(&column.header_cell).0));
-    Ok((columns.into_iter().map(table).collect(), notes))
+    Ok((columns.into_iter().map(of).collect(), notes))
 }
 
 /// Place and unit of the column of times, and the columns of inputs.

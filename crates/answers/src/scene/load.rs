@@ -32,6 +32,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable};
+use schedule::{MOST, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -117,11 +118,19 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let outputs = outputs(&entry.outputs, &mut problems);
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
-    problems.extend(input_tables.iter().filter_map(|table| table.check(stop_time).err()));
+    let tables = input_tables.iter().map(|driven| &driven.table);
+    if let Some(countless) = Schedule::new(stop_time, Some(step), Vec::new(), tables).countless() {
+        let InputTable { row, table } = &input_tables[countless];
+        let (end, period) = (six_digits(stop_time), table.period.unwrap_or_default());
+        problems.push(format!(
+            "{} jumps more than {MOST:e} times in {end} s; its period is {period} s: give a longer one",
+            row.name
+        ));
+    }
     problems.or(())?;
     for input_table in &input_tables {
         if let Access::Input(access) = input_table.row.access {
-            *access(&mut inputs) = input_table.at(0.0);
+            *access(&mut inputs) = input_table.table.at(0.0);
         }
     }
     Ok(Scene {
@@ -270,7 +279,7 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     }
     let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(report).ok()?;
     let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();
-    (complete && rising).then_some(InputTable { row, times, values, period })
+    (complete && rising).then_some(InputTable { row, table: schedule::Table::straight(times, values, period) })
 }
 
 /// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`. Returns messages about

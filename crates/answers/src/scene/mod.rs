@@ -5,7 +5,6 @@ pub mod assignments;
 pub mod display_units;
 pub mod former_names;
 pub mod input_file;
-mod input_table;
 pub mod load;
 pub mod loads;
 pub mod plan;
@@ -22,12 +21,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::Variable;
+use schedule::Table;
 
 use crate::problem::{Problem, Problems};
 use crate::text::near::near;
 use crate::text::shown;
 use display_units::DisplayUnits;
-pub use input_table::{InputTable, Jumps};
 use set::Setting;
 
 /// A scene, ready to start.
@@ -61,6 +60,15 @@ pub struct Scene {
     pub notes: Vec<String>,
     /// Units to show values in, in place of the usual ones.
     pub display_units: DisplayUnits,
+}
+
+/// An input that follows a table.
+#[derive(Clone)]
+pub struct InputTable {
+    /// The input.
+    pub row: &'static Variable,
+    /// Its values over time, in the unit of the interface.
+    pub table: Table,
 }
 
 /// Values set at a time.

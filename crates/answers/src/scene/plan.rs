@@ -9,7 +9,7 @@ use cpu_time::ThreadTime;
 use super::run::SceneRun;
 use super::set::literal;
 use super::warnings::set_values;
-use super::{Scene, units};
+use super::{InputTable, Scene, units};
 use crate::text::{numbers, shown};
 
 /// What each class of cost means.
@@ -104,10 +104,10 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
             event.settings.iter().map(|s| format!("{} = {}", s.row.name, s.text_in(&scene.display_units))).collect();
         line("later", &format!("at {} s {}", event.time, settings.join(", ")));
     }
-    for input_table in &scene.input_tables {
-        let period = input_table.period.map_or(String::new(), |period| format!(", again every {period} s"));
+    for InputTable { row, table } in &scene.input_tables {
+        let period = table.period.map_or(String::new(), |period| format!(", again every {period} s"));
         let slopes = if scene.input_slopes { "" } else { ", held within steps" };
-        line("table", &format!("{} from {} points{period}{slopes}", input_table.row.name, input_table.times.len()));
+        line("table", &format!("{} from {} points{period}{slopes}", row.name, table.times.len()));
     }
     let shown = |row: &Variable| scene.display_units.row(row);
     for group in unset::unset_as_shown(&scene.parameters, &scene.inputs, &set_values(scene), shown) {

@@ -7,29 +7,22 @@ use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Reported, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
+use schedule::{Schedule, Step};
 
 use super::display_units::DisplayUnits;
 use super::units;
 use super::warnings::at_start;
-use super::{InputTable, Jumps, Scene};
+use super::{InputTable, Scene};
 use crate::problem::Problems;
 use crate::progress::Progress;
 use crate::text::table::Table;
 
-/// Times that differ by less than this part of a communication step are the same.
-const SAME: f64 = 1e-9;
-
-/// A scene that runs: it stops at communication points and where inputs change.
+/// A scene that runs: it executes the schedule of its communication steps.
 pub struct SceneRun<'a> {
     scene: &'a Scene,
     parameters: Parameters,
     inputs: Inputs,
-    step: f64,
-    /// Whole communication steps done, and events.
-    done: u64,
-    events: usize,
-    /// Jumps of inputs: the times of events, and the jumps of each table.
-    jumps: Vec<Jumps>,
+    schedule: Schedule,
     reported: Reported,
     /// Warnings since the start.
     found: Vec<Problem>,
@@ -52,11 +45,11 @@ impl<'a> SceneRun<'a> {
             return Err(out_of_range);
         }
         let simulation = Simulation::start(&scene.parameters, &scene.inputs, 0.0)?;
-        let events = Jumps::once(scene.events.iter().map(|event| event.time).collect());
-        let jumps = std::iter::once(events).chain(scene.input_tables.iter().map(InputTable::jumps)).collect();
+        let (events, tables) = (scene.events.iter().map(|event| event.time), scene.input_tables.iter());
+        let schedule = Schedule::new(scene.stop_time, Some(step), events.collect(), tables.map(|driven| &driven.table));
         let Scene { parameters, inputs, .. } = *scene;
         let (reported, found) = (Reported::default(), Vec::new());
-        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, jumps, reported, found, simulation })
+        Ok(Self { scene, parameters, inputs, schedule, reported, found, simulation })
     }
 
     /// Time [s].
@@ -66,25 +59,14 @@ impl<'a> SceneRun<'a> {
 
     /// Whether the scene is over.
     pub fn is_over(&self) -> bool {
-        self.time() >= self.scene.stop_time - SAME * self.step
+        self.schedule.is_over()
     }
 
     /// One step to the next communication point, or to the next change of inputs before it.
     pub fn advance(&mut self) -> Result<()> {
-        let (time, slack) = (self.time(), SAME * self.step);
-        self.feed(time + slack);
-        let regular = (self.done + 1) as f64 * self.step;
-        let mut next = if regular > self.scene.stop_time - slack { self.scene.stop_time } else { regular };
-        // what has been fed is over
-        self.jumps.iter_mut().for_each(|jumps| jumps.pass(time + slack));
-        let change =
-            self.jumps.iter().filter_map(Jumps::upcoming).min_by(f64::total_cmp).filter(|&time| time < next - slack);
-        next = change.unwrap_or(next);
-        if self.scene.input_slopes {
-            self.feed_slopes(time + slack, next - slack);
-        }
-        self.simulation.advance(next).map_err(|failure| anyhow!("{failure}")).with_context(|| refused(self.scene))?;
-        self.done += u64::from(change.is_none());
+        let Some(step) = self.schedule.next() else { return Ok(()) };
+        self.feed(&step);
+        self.simulation.advance(step.end).map_err(|why| anyhow!("{why}")).with_context(|| refused(self.scene))?;
         self.found.extend(self.simulation.unreported(&mut self.reported));
         if self.is_over() {
             self.found.extend(self.simulation.unreported_at_end(&mut self.reported));
@@ -103,37 +85,27 @@ impl<'a> SceneRun<'a> {
         &self.found
     }
 
-    /// Sets what is due by `time`.
-    fn feed(&mut self, time: f64) {
+    /// Sets what is due before `step`, and what tables do over it.
+    fn feed(&mut self, step: &Step) {
         let mut tuned = false;
-        while let Some(event) = self.scene.events.get(self.events).filter(|event| event.time <= time) {
-            for setting in &event.settings {
-                setting.apply(&mut self.parameters, &mut self.inputs);
-                tuned |= !matches!(setting.row.access, Access::Input(_));
-            }
-            self.events += 1;
+        for setting in self.scene.events[step.changes.clone()].iter().flat_map(|event| &event.settings) {
+            setting.apply(&mut self.parameters, &mut self.inputs);
+            tuned |= !matches!(setting.row.access, Access::Input(_));
         }
+        let mut derivatives = InputDerivatives::ZERO;
         // the last one wins where two tables name one input
-        for table in &self.scene.input_tables {
-            if let Access::Input(access) = table.row.access {
-                *access(&mut self.inputs) = table.at(time);
+        for InputTable { row, table } in &self.scene.input_tables {
+            if let Access::Input(access) = row.access {
+                [*access(&mut self.inputs), *access(&mut derivatives.rates[0])] = step.follow(table);
             }
         }
         self.simulation.set_inputs(&self.inputs);
         if tuned {
             self.simulation.tune(&self.parameters);
         }
-    }
-
-    /// Sets the slopes of tables over a step from `begin` to `end` [s].
-    fn feed_slopes(&mut self, begin: f64, end: f64) {
-        let mut derivatives = InputDerivatives::ZERO;
-        for table in &self.scene.input_tables {
-            if let Access::Input(access) = table.row.access {
-                *access(&mut derivatives.rates[0]) = table.slope(begin, end);
-            }
+        if self.scene.input_slopes {
+            self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
         }
-        self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
     }
 
     /// Value of an output.
@@ -179,13 +151,8 @@ pub struct SceneResult {
     pub took: Duration,
 }
 
-/// Runs `scene` to its end, or for at most `steps` communication steps; each communication point goes to `csv` too.
-pub fn run(
-    scene: &Scene,
-    steps: Option<u64>,
-    csv: Option<&mut dyn Write>,
-    progress: &mut Progress,
-) -> Result<SceneResult> {
+/// Runs `scene` to its end; each communication point goes to `csv` too.
+pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) -> Result<SceneResult> {
     let begun = Instant::now();
     progress.begin_task(0.0, "simulating");
     let mut run = SceneRun::start(scene, scene.step)?;
@@ -201,7 +168,7 @@ pub fn run(
     line(&mut csv, 0.0, &recorded, &values)?;
     let (mut exchanged, mut seen) = (0.0, 0.0);
     let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
-    while !run.is_over() && steps.is_none_or(|most| run.done < most) {
+    while !run.is_over() {
         let before = run.time();
         run.advance()?;
         let span = run.time() - before;

@@ -58,9 +58,9 @@ fn arguments(scene: &Scene) -> Result<String> {
             "    # straight from point to point: times in s, values in SI, and the period after which they repeat"
         )?;
         writeln!(out, "    tables=[")?;
-        for table in tables(scene) {
+        for InputTable { row, table } in &scene.input_tables {
             let period = table.period.map_or("None".into(), |period| format!("{period:?}"));
-            writeln!(out, "        ({}, [\n{}        ], [", quoted(table.row.name)?, numbers(&table.times))?;
+            writeln!(out, "        ({}, [\n{}        ], [", quoted(row.name)?, numbers(&table.times))?;
             writeln!(out, "{}        ], {period}),", numbers(&table.values))?;
         }
         writeln!(out, "    ],")?;
@@ -89,13 +89,6 @@ fn values(indent: &str, settings: &[Setting]) -> Result<String> {
         writeln!(out, "{indent}{}: {},{}", quoted(setting.row.name)?, value(setting)?, comment(setting))?;
     }
     Ok(out)
-}
-
-/// The tables that act: the last one where two name one input.
-fn tables(scene: &Scene) -> impl Iterator<Item = &InputTable> {
-    let tables = &scene.input_tables;
-    let overridden = |i: usize, name: &str| tables[i + 1..].iter().any(|later| later.row.name == name);
-    tables.iter().enumerate().filter(move |(i, table)| !overridden(*i, table.row.name)).map(|(_, table)| table)
 }
 
 /// A value in Python: numbers read back to the same bits, enumerations are literals.

@@ -6,7 +6,7 @@ use bevel_differential::variables::felt::{self, Situation};
 use bevel_differential::variables::unset::{self, SetValues};
 use bevel_differential::variables::{index_of, number};
 
-use super::Scene;
+use super::{InputTable, Scene};
 
 /// Warnings about `scene`, whose `simulation` has started.
 pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
@@ -47,8 +47,8 @@ fn unfelt(scene: &Scene) -> Vec<Problem> {
         setting.apply(&mut parameters, &mut inputs);
         later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
     }
-    for table in &scene.input_tables {
-        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
+    for InputTable { row, table } in &scene.input_tables {
+        table.values.iter().for_each(|&value| later(row.name, Some(value), &mut parameters));
     }
     found
 }

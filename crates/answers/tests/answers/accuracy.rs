@@ -145,7 +145,7 @@ fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
     let text = chosen::text(&found, TEETH).expect("a file");
     let scene = parsed(&text);
     assert_eq!(scene.parameters, found.choice().expect("a setting").scene.parameters);
-    let result = run(&scene, None, None, &mut Progress::silent()).expect("a run");
+    let result = run(&scene, None, &mut Progress::silent()).expect("a run");
     let trial = found.choice().expect("a setting");
     // this one summarises from the start on
     assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);

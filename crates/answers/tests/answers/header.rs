@@ -16,7 +16,7 @@ fn the_header_is_that_of_the_source() {
     let config = Config {
         language: Language::C,
         header: Some(
-            "/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs; do not edit. */".into(),
+            "/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs and crates/schedule/src/c.rs; do not edit. */".into(),
         ),
         include_guard: Some("BD_ANSWERS_H".into()),
         cpp_compat: true,
@@ -24,8 +24,13 @@ fn the_header_is_that_of_the_source() {
         usize_is_size_t: true,
         ..Config::default()
     };
-    let source = workspace().join("crates").join("answers").join("src").join("ask").join("c.rs");
-    let made = Builder::new().with_config(config).with_src(source).generate().expect("a header");
+    let crates = workspace().join("crates");
+    let made = Builder::new()
+        .with_config(config)
+        .with_src(crates.join("answers").join("src").join("ask").join("c.rs"))
+        .with_src(crates.join("schedule").join("src").join("c.rs"))
+        .generate()
+        .expect("a header");
     let mut text = Vec::new();
     made.write(&mut text);
     let text = String::from_utf8(text).expect("UTF-8");

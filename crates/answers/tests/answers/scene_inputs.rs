@@ -64,7 +64,7 @@ fn times_with_units_are_those_in_seconds() -> Result<()> {
     let seconds = parsed(&format!("{plain}{}", rest("0.02", "[0, 0.005]", "0.05")))?;
     for scene in [with_units, seconds] {
         assert_eq!((scene.stop_time, scene.step, scene.events[0].time), (0.1, 1e-3, 0.02));
-        let table = &scene.input_tables[0];
+        let table = &scene.input_tables[0].table;
         assert_eq!((table.times.as_slice(), table.period), (&[0.0, 5e-3][..], Some(0.05)));
     }
     Ok(())
@@ -94,7 +94,7 @@ fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
     for frame in [FRAME.replace("100 ms", "0 s"), FRAME.replace("\"100 ms\"", "0")] {
         let scene = parsed(&format!("{frame}{start}"))?;
         let mut csv = Vec::new();
-        let outcome = run(&scene, None, Some(&mut csv), &mut Progress::silent())?;
+        let outcome = run(&scene, Some(&mut csv), &mut Progress::silent())?;
         let speed = outcome.outputs[0];
         assert_eq!([speed.min, speed.mean, speed.max, speed.end], [30.0; 4]);
         assert_eq!(String::from_utf8(csv)?.lines().last(), Some("0,30"));
@@ -122,11 +122,15 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
     ))?;
     assert_eq!(scene.inputs, same.inputs);
     let (mut first, mut second) = (Vec::new(), Vec::new());
-    run(&scene, None, Some(&mut first), &mut Progress::silent())?;
-    run(&same, None, Some(&mut second), &mut Progress::silent())?;
+    run(&scene, Some(&mut first), &mut Progress::silent())?;
+    run(&same, Some(&mut second), &mut Progress::silent())?;
     assert_eq!(String::from_utf8(first)?, String::from_utf8(second)?);
     let tables = |scene: &Scene| -> Vec<_> {
-        scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
+        scene
+            .input_tables
+            .iter()
+            .map(|t| (t.row.name, t.table.times.clone(), t.table.values.clone(), t.table.period))
+            .collect()
     };
     assert_eq!(tables(&scene), tables(&same));
     for other in [
@@ -273,49 +277,6 @@ fn a_speed_that_goes_on_straight_turns_the_carrier_by_its_integral() -> Result<(
         }
         let found = run.simulation.motion().carrier_angle;
         assert!((found - angle).abs() < 1e-8, "{slopes}{found}");
-    }
-    Ok(())
-}
-
-/// A drive torque of 100 N·m for the first half of every period of 0.1 s, on 2.02 kg·m² that turn freely.
-const PULSES: &str = r#"description = ""
-stop_time = 1
-step = 0.08
-outputs = ["carrier.speed"]
-[set]
-scene.gear_contact = "ideal"
-scene.carrier_drive = "torque"
-scene.start = "rest"
-carrier.speed_command = 0.0
-left.load_torque = 0.0
-right.load_torque = 0.0
-inertia.left_end = 1.0
-inertia.right_end = 1.0
-[[table]]
-input = "carrier.torque_command"
-time = [0.0, 0.05, 0.05, 0.1]
-value = [100.0, 100.0, 0.0, 0.0]
-period = 0.1
-"#;
-
-#[test]
-fn a_jump_of_a_periodic_table_is_a_communication_point_in_every_period() -> Result<()> {
-    for slopes in ["", "input_slopes = false\n"] {
-        let scene = parsed(&format!("{slopes}{PULSES}"))?;
-        let mut run = SceneRun::start(&scene, scene.step)?;
-        let mut points = Vec::new();
-        while !run.is_over() {
-            run.advance()?;
-            points.push(run.time());
-        }
-        for jump in (1..20).map(|k| 0.05 * f64::from(k)) {
-            assert!(points.iter().any(|time| (time - jump).abs() < 1e-12), "{slopes}{jump} of {points:?}");
-        }
-        let carrier_speed = run.simulation.motion().carrier_speed;
-        // the carrier with its planets, side gears and ends turn as one; torque acts for half of the second
-        let inertias = run.simulation.inertias();
-        let whole = inertias.carrier + inertias.side.iter().sum::<f64>();
-        assert!((whole * carrier_speed / 50.0 - 1.0).abs() < 1e-8, "{slopes}{whole} {carrier_speed}");
     }
     Ok(())
 }

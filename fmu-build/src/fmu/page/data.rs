@@ -71,7 +71,7 @@ fn gives(effect: &EffectEntry, output: &str) -> bool {
 }
 
 fn of_scene(scene: Scene) -> Value {
-    let table = |table: &InputTable| json!({"name": table.row.name, "times": table.times, "values": table.values, "period": table.period});
+    let table = |InputTable { row, table }: &InputTable| json!({"name": row.name, "times": table.times, "values": table.values, "period": table.period});
     json!({
         "name": scene.name,
         "description": scene.description,

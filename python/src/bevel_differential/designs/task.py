@@ -4,7 +4,6 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ..points import SLACK
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
@@ -46,7 +45,7 @@ class Task:
         if not 0.0 <= start <= scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
         # fewer than two points have no mean and no swing
-        if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - SLACK):
+        if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - 1e-9):
             raise DifferentialError(f"from = {start:g} s leaves less than two steps of {scene.step:g} s to the end at "
                                     f"{scene.stop:g} s; begin earlier, or make the scene's step smaller")
 

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..fmu import Fmu
+from ..inputs import Signals
 from ..instance import Instance
 from ..plot import plot
-from ..points import Steps, TimeValue, duration, span
+from ..points import TimeValue, duration, span
 from ..values import DifferentialError, FileName, Number, Value, variable_suggestion
 from ..warned import warn
 from .equations import motor_torque
@@ -75,21 +76,21 @@ class Car:
         names = self._recorded(outputs)
         begin = speed_value(speed)
         motion = Motion(self.motor, self.tyres, self.body, begin)
-        steps = Steps.of(stop, step, ())
-        record = np.empty(len(steps.points), [("time", np.float64), *((name, np.float64) for name in names)])
+        points = Signals().steps(stop, step)["end"].tolist()
+        record = np.empty(len(points), [("time", np.float64), *((name, np.float64) for name in names)])
         with self.fmu.open() as instance:
             run = _Run(instance, motion, [name for name in names if name not in UNITS])
             run.start(self._start(motion, begin, ask(0.0)), stop)
-            for row, time in enumerate(steps.points.tolist()):
+            for row, time in enumerate(points):
                 values = run.values(turn(time))
                 record[row] = (time, *(values[name] for name in names))
-                if row + 1 == len(steps.points):
+                if row + 1 == len(points):
                     break
                 wanted = controller(time, {name: values[name] for name in names}) if controller else None
                 asked = dict(zip(REQUESTS, (ask, turn)))
                 asked.update((name, course(name, value)) for name, value in (wanted or {}).items() if name in REQUESTS)
                 instance.set({name: value for name, value in (wanted or {}).items() if name not in REQUESTS})
-                run.step(time, steps.points[row + 1] - time, [asked[name] for name in REQUESTS])
+                run.step(time, points[row + 1] - time, [asked[name] for name in REQUESTS])
             warn(instance.messages)
         return record
 

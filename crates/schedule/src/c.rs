@@ -1,0 +1,108 @@
+//! The schedule as one function of C, which Python and pages call.
+
+use std::{iter, slice};
+
+use crate::{MOST, Schedule, Step, Table};
+
+/// Writes the schedule of a run: a row of numbers for its start and for each of its steps, up to `room` numbers in all.
+///
+/// A row has the beginning and size of the step as they are passed to `fmi2DoStep`, its end (s), the number of changes that are made
+/// before it, counted from the first one, the value of each table just after its beginning, and the slope of each table per second.
+/// The row of the start has zeros and the values at the start.
+///
+/// The `count` numbers of `question` are: end of the run, step or 0 for none (s), number of changes, their times, rising; then of each table:
+/// number of points, period or 0 for none, 1 if values are held and 0 if they are straight between points, times, values.
+///
+/// Returns the number of rows, of which those without room are not written; 0 if the question cannot be read; -1 if the run has
+/// more than 1e8 steps; -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without a step.
+///
+/// # Safety
+/// `question` points to `count` numbers and `rows` to room for `room` numbers. Neither is null, whatever these are.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bd_schedule(question: *const f64, count: usize, rows: *mut f64, room: usize) -> isize {
+    // SAFETY: the caller's promise
+    let (question, rows) = unsafe { (slice::from_raw_parts(question, count), slice::from_raw_parts_mut(rows, room)) };
+    let Some((schedule, tables)) = read(question) else { return 0 };
+    if schedule.step.is_some_and(|step| schedule.stop / step > MOST) {
+        return -1;
+    }
+    if let Some(table) = schedule.countless() {
+        return -2 - table as isize;
+    }
+    let mut rows = rows.chunks_exact_mut(4 + 2 * tables.len());
+    let mut count = 0;
+    let start = Step { begin: 0.0, end: 0.0, changes: 0..0, slack: 0.0 };
+    for step in iter::once(start).chain(schedule) {
+        count += 1;
+        let Some(row) = rows.next() else { continue };
+        let [begin, size] = step.call();
+        row[..4].copy_from_slice(&[begin, size, step.end, step.changes.end as f64]);
+        for (i, table) in tables.iter().enumerate() {
+            [row[4 + i], row[4 + tables.len() + i]] = step.follow(table);
+        }
+    }
+    count
+}
+
+/// Schedule and tables that a question describes.
+fn read(question: &[f64]) -> Option<(Schedule, Vec<Table>)> {
+    let (&[stop, step, changes], rest) = question.split_first_chunk()?;
+    let (changes, mut rest) = rest.split_at_checked(changes as usize)?;
+    let mut tables = Vec::new();
+    while let Some((&[points, period, is_held], after)) = rest.split_first_chunk() {
+        let (times, after) = after.split_at_checked(points as usize)?;
+        let (values, after) = after.split_at_checked(points as usize).filter(|(values, _)| !values.is_empty())?;
+        let period = (period > 0.0).then_some(period);
+        tables.push(Table { times: times.to_vec(), values: values.to_vec(), period, is_held: is_held != 0.0 });
+        rest = after;
+    }
+    let schedule = Schedule::new(stop, (step > 0.0).then_some(step), changes.to_vec(), tables.iter());
+    (stop.is_finite() && rest.is_empty()).then_some((schedule, tables))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(question: &[f64]) -> Result<Vec<f64>, isize> {
+        // SAFETY: both are as long as they are said to be
+        let count = unsafe { bd_schedule(question.as_ptr(), question.len(), [].as_mut_ptr(), 0) };
+        let mut rows = vec![f64::NAN; 6 * usize::try_from(count).ok().filter(|&count| count > 0).ok_or(count)?];
+        assert_eq!(unsafe { bd_schedule(question.as_ptr(), question.len(), rows.as_mut_ptr(), rows.len()) }, count);
+        Ok(rows)
+    }
+
+    #[test]
+    fn rows_are_those_of_the_steps() {
+        // a ramp of 8 per second that falls back at 0.75 s, and a change at 0.25 s
+        let ramp = [1.0, 0.25, 3.0, 0.0, 0.0, 0.0, 0.75, 0.75, 0.0, 6.0, 1.0];
+        let rows = asked(&[&[1.0, 0.5, 1.0], &ramp[1..2], &ramp[2..]].concat()).expect("rows");
+        let close = |a: &f64, b: &f64| (a - b).abs() < 1e-7;
+        let wanted = [
+            [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.25, 0.25, 0.0, 0.0, 8.0],
+            [0.25, 0.25, 0.5, 1.0, 2.0, 8.0],
+            [0.5, 0.25, 0.75, 1.0, 4.0, 8.0],
+            [0.75, 0.25, 1.0, 1.0, 1.0, 0.0],
+        ];
+        assert!(rows.len() == 30 && rows.iter().zip(wanted.as_flattened()).all(|(a, b)| close(a, b)), "{rows:?}");
+        // without a step
+        assert_eq!(asked(&[&[1.0, 0.0, 0.0], &ramp[2..]].concat()).map(|rows| [rows[8], rows[14]]), Ok([0.75, 1.0]));
+    }
+
+    #[test]
+    fn a_question_without_sense_is_refused() {
+        let square = [3.0, 1e-9, 0.0, 0.0, 5e-10, 5e-10, 1.0, 1.0, 0.0];
+        for (question, why) in [
+            (vec![1.0, 0.1], 0),
+            (vec![f64::NAN, 0.0, 0.0], 0),
+            (vec![1.0, 0.1, 2.0, 0.5], 0),
+            (vec![1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 0.0], 0),
+            (vec![1.0, 0.1, 0.0, 0.0, 0.0, 0.0], 0),
+            (vec![1.0, 1e-9, 0.0], -1),
+            ([&[1.0, 0.1, 0.0], &square[..]].concat(), -2),
+        ] {
+            assert_eq!(asked(&question), Err(why), "{question:?}");
+        }
+    }
+}
