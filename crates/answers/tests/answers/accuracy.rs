@@ -205,12 +205,13 @@ fn found(text: &str, want: &str, within: f64) -> (Option<usize>, Vec<(Parameters
 
 #[test]
 fn an_answer_does_not_depend_on_what_else_the_machine_does() {
-    for text in [TEETH.to_owned(), in_fixed_steps(TEETH)] {
+    let short = TEETH.replace("0.04", "0.01");
+    for text in [short.clone(), in_fixed_steps(&short)] {
         let ask = || found(&text, "planet[1].left_transmission_error:mean", 0.05);
         let quiet = ask();
         let is_over = AtomicBool::new(false);
         let busy = thread::scope(|scope| {
-            for _ in 0..8 {
+            for _ in 0..4 {
                 scope.spawn(|| while !is_over.load(Ordering::Relaxed) {});
             }
             let busy = ask();
@@ -279,8 +280,10 @@ fn a_scene_that_asks_for_fixed_steps_keeps_them_and_gets_the_longest_that_are_ac
 
 #[test]
 fn an_accuracy_that_no_affordable_fixed_step_reaches_is_said() {
-    let found = asked(&in_fixed_steps(TEETH), &["left.speed:peak_to_peak"], 1e-5);
-    assert!(found.chosen.is_none() && asked(TEETH, &["left.speed:peak_to_peak"], 1e-5).chosen.is_some());
+    let short = TEETH.replace("0.04", "0.004");
+    let ask = |text: &str| asked(text, &["left.speed:peak_to_peak"], 1e-4);
+    let found = ask(&in_fixed_steps(&short));
+    assert!(found.chosen.is_none() && ask(&short).chosen.is_some());
     let said = report::text(&found).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("no fixed steps") && said.contains("solver.method = adaptive"), "{said}");
 }
