@@ -226,9 +226,10 @@ fn an_answer_does_not_depend_on_what_else_the_machine_does() {
 
 #[test]
 fn a_mirrored_scene_gets_the_same_setting() {
-    let mirrored = TEETH.replace("= \"954", "= \"-954").replace("= \"200", "= \"-200").replace("= \"400", "= \"-400");
-    assert_eq!(mirrored.matches('-').count(), TEETH.matches('-').count() + 4);
-    for (text, mirrored) in [(TEETH.to_owned(), mirrored.clone()), (in_fixed_steps(TEETH), in_fixed_steps(&mirrored))] {
+    let short = TEETH.replace("0.04", "0.01");
+    let mirrored = short.replace("= \"954", "= \"-954").replace("= \"200", "= \"-200").replace("= \"400", "= \"-400");
+    assert_eq!(mirrored.matches('-').count(), short.matches('-').count() + 4);
+    for (text, mirrored) in [(short.clone(), mirrored.clone()), (in_fixed_steps(&short), in_fixed_steps(&mirrored))] {
         let setting = |text: &str| {
             let found = asked(text, &["left.speed:peak_to_peak"], 0.1);
             let run = found.choice().expect("a setting");
