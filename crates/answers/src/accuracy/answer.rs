@@ -141,8 +141,8 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     })
 }
 
-/// The dearest run that is cheaper than `chosen` and fails, and the cheapest that is dearer and nearer to the reference. Both are
-/// of the same method, because counts of different methods cannot be compared.
+/// The dearest run that is cheaper than `chosen` and fails, and the cheapest that is dearer and nearer to the reference. Only runs
+/// of the same method count, because costs of different methods cannot be compared.
 fn neighbours(bench: &Bench, within: f64, chosen: Option<usize>) -> [Option<usize>; 2] {
     let Some(chosen) = chosen else { return [None; 2] };
     let method = |run: &usize| bench.trials[*run].scene.parameters.solver.method;

@@ -96,7 +96,7 @@ impl<'a, 'w> Bench<'a, 'w> {
             return Err(why.clone());
         }
         self.progress.begin_task(self.spent / self.limit, reason);
-        // the count of fixed steps is known before, and the search asks for room
+        // fixed steps may cost more than the reference: they may take what is left
         let is_fixed = p.solver.method == Method::FixedStep;
         let patience = if is_fixed { self.limit - self.spent } else { PATIENCE * self.reference.cost };
         let most = FREE.max(price::evaluations(&p, patience));

@@ -5,6 +5,7 @@ use bevel_differential::variables::named;
 
 use super::bench::Bench;
 use super::gears::{self, Gears};
+use super::record::GIVEN_UP;
 use super::reference::{Richest, at_tolerance};
 use super::switches::{Switch, effects, settled};
 use crate::scene::Scene;
@@ -63,8 +64,8 @@ pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
     })
 }
 
-/// Searches below the richest scene. Levels, laws and effects are compared by the adaptive method; fixed steps of a scene that asks
-/// for them come last.
+/// Searches below the richest scene. The adaptive method compares levels, laws and effects, also for a scene that asks for fixed
+/// steps.
 pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) -> Found {
     let (screen, rich) = screening(bench, &richest.scene, within);
     let rich_scene = Scene { parameters: at_tolerance(&richest.scene.parameters, screen), ..richest.scene.clone() };
@@ -231,12 +232,12 @@ fn loosen(bench: &mut Bench, current: usize, within: f64) -> usize {
     best
 }
 
-/// Looks for the longest fixed steps with which run `current` stays accurate enough, from the longest of the row down. Steps count
-/// only if the next shorter ones are accurate enough as well: errors of steps that are too long may cancel by chance.
+/// Returns the run of `current` in the longest fixed steps that are accurate enough. Steps count only if the next shorter ones are
+/// accurate enough, too: errors of steps that are too long may cancel by chance.
 fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f64) -> Option<usize> {
     let mut scene = bench.trials[current].scene.clone();
     let mut longest: Option<usize> = None;
-    // cost of a run times its step: the next one, in shorter steps, costs that over its own
+    // cost times step, which is nearly the same for all runs
     let mut cost_of_steps = 0.0;
     for step in fixed_steps(written.step) {
         if !bench.has_room(cost_of_steps / step) {
@@ -246,19 +247,23 @@ fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f6
         // the setting names its step, even if that is the start value
         scene.settings.retain(|setting| setting.row.name != STEP);
         scene.settings.extend(named(STEP).and_then(|row| Setting::of(row, &scene.parameters, &scene.inputs)));
-        let run = bench.run(&scene, &format!("fixed steps of {step:e} s")).ok();
+        let run = bench.run(&scene, &format!("fixed steps of {step:e} s"));
+        if run.as_ref().is_err_and(|why| why.starts_with(GIVEN_UP)) {
+            break;
+        }
+        let run = run.ok();
         let enough = run.filter(|&run| is_within(bench, within, run));
         if enough.is_some() && longest.is_some() {
             break;
         }
         longest = enough;
-        cost_of_steps = run.map_or(0.0, |run| bench.trials[run].cost * step);
+        cost_of_steps = run.map_or(cost_of_steps, |run| bench.trials[run].cost * step);
     }
     longest
 }
 
-/// Sizes of fixed steps to try [s]: 1, 2 and 5 in each decade of their range, from the first that is no longer than needed for one step
-/// from one communication point to the next.
+/// Sizes of fixed steps to try [s]: 1, 2 and 5 in each decade of their range. The first is the shortest that leads from one
+/// communication point to the next in one step.
 fn fixed_steps(communication_step: f64) -> Vec<f64> {
     let range = named(STEP).and_then(|row| row.range).map_or([1e-7, 1e-2], |range| [range.min, range.max]);
     let decades = (-12..=0).rev();
