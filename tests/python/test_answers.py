@@ -21,7 +21,7 @@ LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
 def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_path):
-    found = accuracy("clunk", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
+    found = accuracy("clunk", "left.shaft_torque:max", "1%", file=tmp_path / "chosen.toml")
     assert isinstance(found, Accuracy) and found.wants == ["left.shaft_torque:max"] and found.within == 0.01
     assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
     assert found.cheaper.run.price < found.use.run.price < found.reference.price
@@ -114,3 +114,30 @@ def test_figures_are_those_of_closed_forms():
     for word in ("meen", "mesh_order_0", ""):
         with pytest.raises(DifferentialError):
             Statistic.parse(word)
+
+
+def test_fixed_steps_of_a_scene_are_kept_and_written(fmu_file, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"], encoding="utf-8")
+    question = {"want": "left.shaft_torque:mean", "within": "1%", "set": {"solver.method": "fixed_step"}}
+    found = accuracy("turn.toml", **question)
+    step = found.use.set["solver.fixed_step"]
+    assert found.use.set["solver.method"] == "fixed_step" and f"fixed steps of {step:.0e}".replace("e-0", "e-") in found.use.run.setting
+    # neither the next longer steps nor the model are as good by chance
+    tried = {run.setting: run.error for run in found.runs if "fixed steps" in run.setting}
+    assert found.use.run.error <= 0.01 and len(tried) > 2
+    files = ["--write=chosen.toml", "--ssv=chosen.ssv", "--python=chosen.py", "--plot=front.png"]
+    assert main(["accuracy", "turn.toml", "--want", question["want"], "--within", "1%", "--set", "solver.method=fixed_step", *files]) == 0
+    assert "fixed steps" in capsys.readouterr().out
+    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
+    assert "solver.fixed_step" in written["ssv"] and "solver.fixed_step" in written["py"]
+    # the FMU gives the figure of the richest model in these steps, and takes them
+    with Scene.load("chosen.toml") as chosen, Scene.load("turn.toml") as tight:
+        assert (chosen.value("solver.fixed_step"), chosen.value("solver.relative_tolerance")) == (step, 1e-6)
+        record = chosen.run(["left.shaft_torque", "solver.steps", "solver.rejected"])
+        tight.set({**found.answer["reference"]["set"], "solver.relative_tolerance": 1e-9})
+        wanted = tight.run(["left.shaft_torque"])["left.shaft_torque"][1:].mean()
+        least = chosen.stop / max(step, chosen.step)
+    assert record["left.shaft_torque"][1:].mean() == pytest.approx(wanted, rel=0.01)
+    assert record["solver.steps"][-1] >= least * (1.0 - 1e-9) and record["solver.rejected"][-1] == 0.0

@@ -268,7 +268,7 @@ def test_a_duty_cycle_takes_former_names(fmu_file, tmp_path):
 
 def test_a_chosen_scene_is_written_with_the_names_of_its_file(fmu_file, scene_file):
     old, _ = scene_file(SCENE.replace("step = 0.005", "step = 0.0005"))
-    found = accuracy(old, "planet.spin_torque:max", "10%", set={"spin.command": 1.5}, timed=False, file=old.with_name("chosen.toml"))
+    found = accuracy(old, "planet.spin_torque:max", "10%", set={"spin.command": 1.5}, file=old.with_name("chosen.toml"))
     again = old.with_name("chosen.toml")
     again.write_text(found.answer["file"])
     assert Scene.load(again, fmu_file).value("spin.command") == 1.5

@@ -31,7 +31,7 @@ def main():
     if not alone:
         precision.measure(fmu, folder, precision.QUICK if quick else precision.FULL, METHODS, LADDER)
         ladder.measure(fmu, folder, quick, LADDER, DECISIONS)
-    table = decisions(folder, 1 if quick else len(ALL), not quick, METHODS if alone else DECISIONS, 1.0 if alone else DRAWING)
+    table = decisions(folder, 1 if quick else len(ALL), METHODS if alone else DECISIONS, 1.0 if alone else DRAWING)
     tell(f"{table}\n{of_laws}{measured}", folder / "decisions.md")
     if not alone:
         draw(folder)

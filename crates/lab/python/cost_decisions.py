@@ -27,14 +27,14 @@ HEAD = ["quantity", "within", "gears", "effects", "tolerance", "error", "× real
 TITLE = "The cheapest setting by quantity, each found and checked by `bevel-differential accuracy`"
 
 
-def decisions(folder, count, timed, begin, end):
+def decisions(folder, count, begin, end):
     """Answers the first questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
     rows, table, asked = [COLUMNS], [HEAD], {}
     for place, (quantity, name, want, within) in enumerate(ALL[:count]):
         stop = read_scene(find(name))["stop"]
         # the start settles
         start = 0.1 * stop if name == "study_turning" else None
-        found = accuracy(name, want, within, from_=start, timed=timed, progress=lambda done, what, place=place, quantity=quantity: say(
+        found = accuracy(name, want, within, from_=start, progress=lambda done, what, place=place, quantity=quantity: say(
             begin + (end - begin) * (place + min(done, 1.0)) / count, f"{quantity}: {what}"))
         if found.use is None:
             continue
@@ -42,15 +42,14 @@ def decisions(folder, count, timed, begin, end):
         gears, _, rest = run.setting.partition(" with ")
         effects, _, solver = rest.partition("; ")
         effects = "" if effects == "no effect" else effects
-        seconds = found.answer["seconds"][0]
         rows.append([quantity, name, want, within, gears, effects.replace(", ", " "), solver, run.error, stray,
-                     stop / seconds if seconds else math.nan, run.price, found.reference.price])
+                     stop / run.seconds if run.seconds else math.nan, run.price, found.reference.price])
         error = percent(run.error) + (f"; two runs of the richest model differ by {percent(stray)}" if found.uncertain else "")
         asked.setdefault(f"`{name}{f' --from {start:g}s' if start else ''}`", []).append(f"`{want}`")
         # without teeth and effects motion has a closed form
         tolerance = solver.removeprefix("tolerance ") if effects or gears != "ideal" else "–"
         table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", tolerance, error,
-                      significant(stop / seconds, 2) if seconds else ""])
+                      significant(stop / run.seconds, 2) if run.seconds else ""])
     write_measured(folder / "decisions.csv", ["error: of the chosen setting against the richest model, as a fraction"], rows)
     questions = "; ".join(f"{scene}: {', '.join(wants)}" for scene, wants in asked.items())
     return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nScenes and `--want`, in the order of the rows: {questions}."

@@ -101,7 +101,7 @@ def cases_of(fmu, folder, seed, index):
     runs, independent, found = Runs(fmu, scene), None, []
     for place, want in enumerate(scene.wants):
         for within in WITHIN:
-            answer = accuracy(scene, want, within, from_=START * scene.stop, timed=False)
+            answer = accuracy(scene, want, within, from_=START * scene.stop)
             if answer.use is None:
                 raise DifferentialError("nothing comes to its end")
             reference = answer.answer["reference"]

@@ -50,8 +50,6 @@ pub struct Answer {
     pub gears: Vec<(Gears, Result<usize, String>)>,
     /// Why each effect is in or out.
     pub effects: Vec<(Switch, Role)>,
-    /// Seconds on the processor: chosen, cheaper, richer, reference.
-    pub seconds: [Option<f64>; 4],
     /// Price of all runs over that of a reference run.
     pub spent: f64,
 }
@@ -120,19 +118,10 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     let uncertain = 3.0 * reference.0.error() > question.within;
     let limit = if uncertain { BUDGET_UNCERTAIN } else { BUDGET } * reference.0.cost;
     let mut bench = Bench::new(&wants, question.from, reference, [spent, limit], progress);
-    let found = search(&mut bench, &scene, &richest, question.within, question.timed);
+    let found = search(&mut bench, &scene, &richest, question.within);
     let roles = roles(&mut bench, &scene, &richest, &found, question.within);
     let [too_coarse, richer] = neighbours(&bench, question.within, found.chosen);
     // runs that were stopped have failed, and mean nothing
-    bench.progress.check_stopped()?;
-    let mut seconds = [None; 4];
-    if question.timed {
-        for (seconds, run) in seconds.iter_mut().zip([found.chosen, too_coarse, richer]) {
-            let scene = run.map(|run| bench.trials[run].scene.clone());
-            *seconds = scene.map(|scene| bench.seconds(&scene));
-        }
-        seconds[3] = Some(bench.reference.effort.seconds);
-    }
     bench.progress.check_stopped()?;
     let Bench { reference, scales, trials, spent, .. } = bench;
     Ok(Answer {
@@ -147,16 +136,17 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
         trials,
         too_coarse,
         richer,
-        seconds,
         scene,
         wants,
     })
 }
 
-/// The dearest run that is cheaper than `chosen` and fails, and the cheapest that is dearer and nearer to the reference.
+/// The dearest run that is cheaper than `chosen` and fails, and the cheapest that is dearer and nearer to the reference. Only runs
+/// of the same method count, because costs of different methods cannot be compared.
 fn neighbours(bench: &Bench, within: f64, chosen: Option<usize>) -> [Option<usize>; 2] {
     let Some(chosen) = chosen else { return [None; 2] };
-    let runs = || 0..bench.trials.len();
+    let method = |run: &usize| bench.trials[*run].scene.parameters.solver.method;
+    let runs = || (0..bench.trials.len()).filter(|run| method(run) == method(&chosen));
     let (cost, error) = (bench.trials[chosen].cost, bench.trials[chosen].error());
     let by_cost = |a: &usize, b: &usize| bench.trials[*a].cost.total_cmp(&bench.trials[*b].cost);
     let fails = |&run: &usize| bench.trials[run].cost < cost && !is_within(bench, within, run);

@@ -1,6 +1,6 @@
 //! Runs of variants of one scene: the errors of the wanted quantities against the reference, and the cost of each run.
 
-use bevel_differential::model::Parameters;
+use bevel_differential::model::{Method, Parameters};
 
 use super::price;
 use super::record::{Effort, Record};
@@ -11,9 +11,6 @@ use crate::scene::Scene;
 /// A run may cost this many times the reference, and every run may take so many evaluations, however cheap the reference is.
 const PATIENCE: f64 = 1.5;
 const FREE: f64 = 1e4;
-/// A timed run is repeated until its repetitions add up to this time [s], or this often: clocks are too coarse for a short run.
-const LONG_ENOUGH: f64 = 0.05;
-const OFTEN: usize = 5;
 
 /// A run that came to its end.
 #[derive(Clone)]
@@ -99,7 +96,10 @@ impl<'a, 'w> Bench<'a, 'w> {
             return Err(why.clone());
         }
         self.progress.begin_task(self.spent / self.limit, reason);
-        let most = FREE.max(price::evaluations(&p, PATIENCE * self.reference.cost));
+        // fixed steps may cost more than the reference: they may take what is left
+        let is_fixed = p.solver.method == Method::FixedStep;
+        let patience = if is_fixed { self.limit - self.spent } else { PATIENCE * self.reference.cost };
+        let most = FREE.max(price::evaluations(&p, patience));
         let figures = Record::of(scene, self.from, most, self.progress).and_then(|record| {
             let cost = price::cost(&p, &record.effort);
             self.spent += cost;
@@ -116,18 +116,5 @@ impl<'a, 'w> Bench<'a, 'w> {
         let errors = (0..values.len()).map(error).collect();
         self.trials.push(Trial { scene: scene.clone(), reason: reason.to_owned(), values, errors, effort, cost });
         Ok(self.trials.len() - 1)
-    }
-
-    /// Processor time of a run of `scene`, the shortest of a few repetitions [s].
-    pub fn seconds(&mut self, scene: &Scene) -> f64 {
-        let (mut least, mut total) = (f64::INFINITY, 0.0);
-        for _ in 0..OFTEN {
-            let Ok(record) = Record::of(scene, self.from, f64::INFINITY, self.progress) else { break };
-            (least, total) = (least.min(record.effort.seconds), total + record.effort.seconds);
-            if total > LONG_ENOUGH {
-                break;
-            }
-        }
-        least
     }
 }

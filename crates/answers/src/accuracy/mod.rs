@@ -4,7 +4,9 @@
 //! 2. Every plainer level and law, and the richest model without each effect, are run against it.
 //! 3. From the plainest gears that are accurate enough, effects are left out and the tolerance is loosened step by step, as
 //!    long as the *combination* stays within the accuracy: what is chosen has itself been run against the reference.
-//! 4. Times are measured once, at the end.
+//! 4. A scene that asks for fixed steps keeps them: the search looks for the longest step instead of the loosest tolerance.
+//!
+//! The choice depends only on counted work, so it is the same on every machine. Measured times are information.
 //!
 //! [`answer`] does it and returns an [`Answer`]; [`report`], [`table`] and [`chosen`] show it.
 
@@ -36,6 +38,4 @@ pub struct Question {
     pub within: f64,
     /// Outputs count after this time [s].
     pub from: f64,
-    /// Measure times; without it there are counts alone.
-    pub timed: bool,
 }

@@ -8,6 +8,9 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 
+/// Beginning of the reason for ending a run that takes too many evaluations.
+pub const GIVEN_UP: &str = "given up";
+
 /// What a run gave.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
@@ -65,7 +68,7 @@ impl Record {
             let effort = &mut record.effort;
             (effort.points, effort.evaluations, effort.steps) = (effort.points + 1.0, ledger.rhs_calls, ledger.steps);
             if effort.evaluations > most {
-                return Err(format!("given up at {:.3e} s, after {:.0} evaluations", run.time(), effort.evaluations));
+                return Err(format!("{GIVEN_UP} at {:.3e} s, after {:.0} evaluations", run.time(), effort.evaluations));
             }
         }
         record.warnings = run.warnings_since_start().iter().map(Problem::to_string).collect();

@@ -1,11 +1,12 @@
 //! The answer as text for the user.
 
-use bevel_differential::model::GearContact;
+use bevel_differential::model::{GearContact, Method};
 
 use super::answer::{Answer, Role};
 use super::bench::Trial;
 use super::gears::Gears;
 use super::knowledge;
+use super::record::Effort;
 use super::switches::Switch;
 use super::words::{difference, percent, setting, three_digits, two_digits};
 use crate::scene::units;
@@ -36,11 +37,10 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
         Some(chosen) => {
             lines.push(("Use", format!("{}.", setting(&chosen.scene.parameters))));
             let certain = if answer.is_uncertain() { " NOT CERTAIN, see the reference." } else { "" };
-            lines.push(("", format!("{}.{certain}", error_and_cost(answer, chosen, 0))));
-            if let (Some(seconds), true) = (answer.seconds[0], chosen.effort.start > LONG_START * chosen.effort.seconds)
-            {
-                let all = two_digits((seconds + chosen.effort.start) * 1e3);
-                let start = two_digits(chosen.effort.start * 1e3);
+            lines.push(("", format!("{}.{certain}", error_and_cost(answer, chosen))));
+            let Effort { start, seconds, .. } = chosen.effort;
+            if start > LONG_START * seconds {
+                let [start, all] = [start, start + seconds].map(|time| two_digits(time * 1e3));
                 lines.push((
                     "",
                     format!(
@@ -52,12 +52,15 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
                 lines.push(("", by));
             }
         }
-        None => lines.push(("Use", "no setting runs to its end; see the reference.".into())),
+        None => lines.push(("Use", nothing(answer))),
     }
-    for (title, run, place) in [("Too coarse", answer.too_coarse, 1), ("Richer", answer.richer, 2)] {
+    if answer.scene.parameters.solver.method == Method::Radau {
+        lines.push(("", "The setting is adaptive: the scene's method radau is for comparison.".into()));
+    }
+    for (title, run) in [("Too coarse", answer.too_coarse), ("Richer", answer.richer)] {
         if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
             let changes = difference(&chosen.scene.parameters, &run.scene.parameters);
-            lines.push((title, format!("{changes}: {}.", error_and_cost(answer, run, place))));
+            lines.push((title, format!("{changes}: {}.", error_and_cost(answer, run))));
         }
     }
     lines.push(("Reference", reference(answer)));
@@ -100,17 +103,30 @@ fn wanted(answer: &Answer) -> String {
     format!("{names} within {} %{from}.", units::six_digits(100.0 * answer.within))
 }
 
-/// Error and cost of `run`; `place` is its index in [`Answer::seconds`].
-fn error_and_cost(answer: &Answer, run: &Trial, place: usize) -> String {
+/// Reason why there is no setting.
+fn nothing(answer: &Answer) -> String {
+    let is_fixed = |run: &&Trial| run.scene.parameters.solver.method == Method::FixedStep;
+    let fixed = answer.trials.iter().filter(is_fixed).min_by(|a, b| a.error().total_cmp(&b.error()));
+    match fixed {
+        Some(nearest) => format!(
+            "no fixed steps that were tried are accurate enough, and shorter ones cost too much. The nearest are {}: off by {}. Set \
+             solver.method = adaptive, or allow a larger error.",
+            setting(&nearest.scene.parameters),
+            percent(nearest.error())
+        ),
+        None => "no setting runs to its end; see the reference.".into(),
+    }
+}
+
+/// Error and cost of `run`.
+fn error_and_cost(answer: &Answer, run: &Trial) -> String {
     let (want, error) = run.worst();
     let mut text = format!("error {}", percent(error));
     if answer.wants.len() > 1 && error > 0.0 {
         text.push_str(&format!(" ({})", answer.wants[want].text(&answer.scene)));
     }
     let per_millisecond = run.cost / (answer.scene.stop_time * 1e3);
-    if let Some(seconds) = answer.seconds[place] {
-        text.push_str(&format!("; {} x real time", two_digits(answer.scene.stop_time / seconds)));
-    }
+    text.push_str(&real_time(answer, run));
     text.push_str(&format!("; costs {} plain evaluations per ms", two_digits(per_millisecond)));
     let ratio = answer.reference.cost / run.cost;
     let times = if ratio >= 1.0 {
@@ -122,6 +138,16 @@ fn error_and_cost(answer: &Answer, run: &Trial, place: usize) -> String {
     text
 }
 
+/// Speed of `run` on this machine, unless the run was too short for the clock.
+fn real_time(answer: &Answer, run: &Trial) -> String {
+    let seconds = run.effort.seconds;
+    if seconds > 0.0 {
+        format!("; {} x real time", two_digits(answer.scene.stop_time / seconds))
+    } else {
+        String::new()
+    }
+}
+
 fn reference(answer: &Answer) -> String {
     let reference = &answer.reference;
     let mut text = format!(
@@ -129,9 +155,7 @@ fn reference(answer: &Answer) -> String {
         setting(&reference.scene.parameters),
         percent(reference.error())
     );
-    if let Some(seconds) = answer.seconds[3] {
-        text.push_str(&format!("; {} x real time", two_digits(answer.scene.stop_time / seconds)));
-    }
+    text.push_str(&real_time(answer, reference));
     text.push('.');
     if answer.is_uncertain() {
         let name = answer.wants[reference.worst().0].text(&answer.scene);
@@ -196,13 +220,16 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     };
     push("Needed", names(&acts(true, true)));
     push("Kept", prefixed("needed together, or no cheaper without: ", names(&acts(true, false))));
-    push(
-        "Left out",
-        prefixed(
-            "changes the richest model by more than the accuracy, but the chosen setting is accurate without: ",
-            names(&acts(false, true)),
+    match answer.choice() {
+        Some(_) => push(
+            "Left out",
+            prefixed(
+                "changes the richest model by more than the accuracy, but the chosen setting is accurate without: ",
+                names(&acts(false, true)),
+            ),
         ),
-    );
+        None => push("Needed", names(&acts(false, true))),
+    }
     push("Left out", prefixed("acts below the accuracy: ", names(&acts(false, false))));
     for (switch, role) in &answer.effects {
         if let Role::Neutral { typical, by, now } = role {

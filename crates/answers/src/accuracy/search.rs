@@ -1,12 +1,15 @@
 //! The search for the cheapest combination that is accurate enough.
 
-use bevel_differential::model::Method;
+use bevel_differential::model::{Method, SolverSpec};
+use bevel_differential::variables::named;
 
 use super::bench::Bench;
 use super::gears::{self, Gears};
+use super::record::GIVEN_UP;
 use super::reference::{Richest, at_tolerance};
 use super::switches::{Switch, effects, settled};
 use crate::scene::Scene;
+use crate::scene::set::Setting;
 
 /// Tolerance at which levels, laws and effects are compared, as a part of the accuracy; and its range.
 const SCREEN: f64 = 1e-3;
@@ -25,8 +28,8 @@ const CHEAPER: f64 = 0.5;
 /// Loosened tolerances: factors of the one before.
 const LOOSER: f64 = 10.0;
 const LOOSEST: f64 = 1e-2;
-/// A method with other steps must be cheaper than this part of the adaptive one in measured time.
-const FASTER: f64 = 0.8;
+/// Parameter with the size of fixed steps.
+const STEP: &str = "solver.fixed_step";
 
 /// What a level or law does by itself, or a model without an effect.
 #[derive(Clone)]
@@ -47,7 +50,7 @@ pub struct Found {
     pub base: Option<usize>,
     /// The same without each of its effects.
     pub effects: Vec<Single<Switch>>,
-    /// The chosen combination; none if no run comes to its end.
+    /// The chosen combination; none if no run comes to its end, or no fixed step is accurate enough.
     pub chosen: Option<usize>,
 }
 
@@ -61,8 +64,9 @@ pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
     })
 }
 
-/// Searches below the richest scene.
-pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64, timed: bool) -> Found {
+/// Searches below the richest scene. The adaptive method compares levels, laws and effects, also for a scene that asks for fixed
+/// steps.
+pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) -> Found {
     let (screen, rich) = screening(bench, &richest.scene, within);
     let rich_scene = Scene { parameters: at_tolerance(&richest.scene.parameters, screen), ..richest.scene.clone() };
     let plainer = gears::plainer(scene, richest.gears);
@@ -74,22 +78,32 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64, 
     let starts: Vec<usize> = starts.filter(|&run| is_within(bench, within, run)).collect();
     let base = starts.first().copied().or(rich);
     let effects = base.map_or(Vec::new(), |base| without_each(bench, base));
+    let is_fixed = scene.parameters.solver.method == Method::FixedStep;
     let mut chosen: Option<usize> = None;
     // the two plainest gears that will do: the richer of both may be cheaper, as its teeth are softer
     for &start in starts.iter().take(STARTS) {
         let reduced = leave_out(bench, start, &effects, scene, within);
-        let reduced = loosen(bench, reduced, within);
+        let reduced = if is_fixed {
+            // richer gears cost more in each of the steps, so they would not get further
+            let Some(stepped) = in_fixed_steps(bench, reduced, scene, within) else { break };
+            stepped
+        } else {
+            loosen(bench, reduced, within)
+        };
         if chosen.is_none_or(|best| bench.trials[reduced].cost < CHEAPER * bench.trials[best].cost) {
             chosen = Some(reduced);
         }
     }
-    // nothing plainer will do: the reference's own tolerance then
+    // nothing plainer will do: the richest model, at the reference's own tolerance or in fixed steps
     let chosen = chosen.or_else(|| {
+        if is_fixed {
+            let rich = rich.filter(|_| starts.is_empty())?;
+            return in_fixed_steps(bench, rich, scene, within);
+        }
         let scene = bench.reference.scene.clone();
         bench.run(&scene, "the reference").ok()
     });
     let chosen = chosen.map(|chosen| minimal(bench, chosen, &plainer, scene, within));
-    let chosen = chosen.map(|chosen| if timed { other_method(bench, chosen, within) } else { chosen });
     Found { rich, gears, base, effects, chosen }
 }
 
@@ -218,29 +232,60 @@ fn loosen(bench: &mut Bench, current: usize, within: f64) -> usize {
     best
 }
 
-/// Run `chosen` with the method that is fastest, if another one is by far. Counts of different methods cannot be compared:
-/// this is a matter of time.
-fn other_method(bench: &mut Bench, chosen: usize, within: f64) -> usize {
-    let base = bench.trials[chosen].scene.clone();
-    let (mut best, mut time) = (chosen, bench.seconds(&base));
-    for method in [Method::FixedStep] {
-        let mut scene = base.clone();
-        scene.parameters.solver.method = method;
-        if !bench.has_room(bench.trials[chosen].cost) {
+/// Returns the run of `current` in the longest fixed steps that are accurate enough. Steps count only if the next shorter ones are
+/// accurate enough, too: errors of steps that are too long may cancel by chance.
+fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f64) -> Option<usize> {
+    let mut scene = bench.trials[current].scene.clone();
+    let mut longest: Option<usize> = None;
+    // cost times step, which is nearly the same for all runs
+    let mut cost_of_steps = 0.0;
+    for step in fixed_steps(written.step) {
+        if !bench.has_room(cost_of_steps / step) {
             break;
         }
-        let Ok(run) = bench.run(&scene, &format!("method {}", method.literal())) else { continue };
-        if !is_within(bench, within, run) || bench.trials[run].effort.seconds > 2.0 * time {
-            continue;
+        scene.parameters.solver = SolverSpec { fixed_step: step, ..written.parameters.solver };
+        // the setting names its step, even if that is the start value
+        scene.settings.retain(|setting| setting.row.name != STEP);
+        scene.settings.extend(named(STEP).and_then(|row| Setting::of(row, &scene.parameters, &scene.inputs)));
+        let run = bench.run(&scene, &format!("fixed steps of {step:e} s"));
+        if run.as_ref().is_err_and(|why| why.starts_with(GIVEN_UP)) {
+            break;
         }
-        // twice: a machine that is busy for a moment must not decide
-        if bench.seconds(&scene) < FASTER * time {
-            let best_scene = bench.trials[best].scene.clone();
-            let [other, again] = [&scene, &best_scene].map(|scene| bench.seconds(scene));
-            if other < FASTER * again {
-                (best, time) = (run, other);
-            }
+        let run = run.ok();
+        let enough = run.filter(|&run| is_within(bench, within, run));
+        if enough.is_some() && longest.is_some() {
+            break;
         }
+        longest = enough;
+        cost_of_steps = run.map_or(cost_of_steps, |run| bench.trials[run].cost * step);
     }
-    best
+    longest
+}
+
+/// Sizes of fixed steps to try [s]: 1, 2 and 5 in each decade of their range. The first is the shortest that leads from one
+/// communication point to the next in one step.
+fn fixed_steps(communication_step: f64) -> Vec<f64> {
+    let range = named(STEP).and_then(|row| row.range).map_or([1e-7, 1e-2], |range| [range.min, range.max]);
+    let decades = (-12..=0).rev();
+    let row = decades.flat_map(|decade| [5, 2, 1].map(|digit| format!("{digit}e{decade}")));
+    let row = row.filter_map(|text| text.parse().ok()).filter(|size| (range[0]..=range[1]).contains(size));
+    let row: Vec<f64> = row.collect();
+    let whole = row.iter().rposition(|&size| size >= communication_step * (1.0 - 1e-6));
+    row[whole.unwrap_or(0)..].to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_fixed_step_is_one_from_one_communication_point_to_the_next() {
+        for (communication_step, first) in
+            [(1e-3, [1e-3, 5e-4, 2e-4]), (3e-4, [5e-4, 2e-4, 1e-4]), (1.0, [1e-2, 5e-3, 2e-3])]
+        {
+            let steps = fixed_steps(communication_step);
+            assert_eq!((&steps[..3], steps.last()), (&first[..], Some(&1e-7)));
+        }
+        assert_eq!(fixed_steps(1e-9), [1e-7]);
+    }
 }

@@ -44,19 +44,18 @@ pub fn effects_on(p: &Parameters) -> Vec<&'static str> {
     effects().filter(|switch| switch.is_on(p) && !switch.is_bodies()).map(|switch| switch.name()).collect()
 }
 
-/// A setting: level, law, effects, tolerance, method.
+/// A setting: level, law, effects, tolerance or fixed steps.
 pub fn setting(p: &Parameters) -> String {
     let on = effects_on(p);
     let effects = if on.is_empty() { "no effect".into() } else { on.join(", ") };
     format!("{} with {effects}; {}", Gears::of(p).text(), solver(p))
 }
 
-/// Tolerance, or method and step.
+/// Tolerance, or size of fixed steps.
 pub fn solver(p: &Parameters) -> String {
     match p.solver.method {
-        Method::Adaptive => format!("tolerance {}", power(p.solver.relative_tolerance)),
-        Method::FixedStep => format!("fixed steps of {} s", three_digits(p.solver.fixed_step)),
-        other => format!("{}, tolerance {}", other.literal(), power(p.solver.relative_tolerance)),
+        Method::FixedStep => format!("fixed steps of {} s", power(p.solver.fixed_step)),
+        _ => format!("tolerance {}", power(p.solver.relative_tolerance)),
     }
 }
 

@@ -33,16 +33,9 @@ pub struct AccuracyQuestion {
     /// Time from which outputs count, in seconds or with a unit; the start of the run by default.
     #[serde(default)]
     from: Option<String>,
-    /// Whether the runs are timed.
-    #[serde(default = "timed")]
-    timed: bool,
     /// Path at which the caller saves the scene file with the chosen setting. Relative paths in that file start from there.
     #[serde(default)]
     file: Option<PathBuf>,
-}
-
-fn timed() -> bool {
-    true
 }
 
 /// Asks for statistics of series over time. The numbers come beside the question: all times, then one series after another.
@@ -91,7 +84,6 @@ impl AccuracyQuestion {
             wants: self.want.clone(),
             within: fraction(&self.within)?,
             from: seconds("from", self.from.as_deref())?.unwrap_or(0.0),
-            timed: self.timed,
         };
         let found = answer(&scene, &question, progress)?;
         let wants: Vec<String> = found.wants.iter().map(|want| want.text(&found.scene)).collect();
@@ -121,7 +113,6 @@ impl AccuracyQuestion {
                 "values": found.reference.values,
                 "scales": found.scales,
             },
-            "seconds": found.seconds,
             "spent": found.spent,
             "effects": found.effects.iter().map(|(switch, role)| role_json(&found, switch, role)).collect::<Vec<_>>(),
             "ssv": text(ssv::text)?,

@@ -1,6 +1,9 @@
 //! Questions of accuracy about scenes whose answer is known in closed form.
 
+use std::hint::spin_loop;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 
 use answers::accuracy::answer::{Answer, Role};
 use answers::accuracy::gears::Gears;
@@ -9,7 +12,7 @@ use answers::progress::Progress;
 use answers::scene::run::{SceneRun, run};
 use answers::scene::{Scene, load};
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::GearContact;
+use bevel_differential::model::{GearContact, Method};
 use bevel_differential::variables::felt::{self, Situation};
 use bevel_differential::variables::index_of;
 
@@ -56,7 +59,7 @@ fn parsed(text: &str) -> Scene {
 
 fn asked(text: &str, wants: &[&str], within: f64) -> Answer {
     let wants = wants.iter().map(|want| (*want).to_owned()).collect();
-    let question = Question { wants, within, from: 0.0, timed: false };
+    let question = Question { wants, within, from: 0.0 };
     answer(&parsed(text), &question, &mut Progress::silent()).expect("an answer")
 }
 
@@ -184,7 +187,120 @@ thrust_friction.coefficient = 0.05
 #[test]
 fn a_scene_that_cannot_run_says_why() {
     let text = format!("{TEETH}scene.left_drive = \"speed\"\nscene.right_drive = \"speed\"\n");
-    let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0, timed: false };
+    let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0 };
     let failed = answer(&parsed(&text), &question, &mut Progress::silent()).err().expect("three imposed speeds");
     assert!(format!("{failed:#}").contains("two independent speeds"), "{failed:#}");
+}
+
+/// The scene `text` in fixed steps.
+fn in_fixed_steps(text: &str) -> String {
+    format!("{text}solver.method = \"fixed_step\"\n")
+}
+
+#[test]
+fn an_answer_does_not_depend_on_what_else_the_machine_does() {
+    let short = TEETH.replace("0.04", "0.01");
+    for text in [short.clone(), in_fixed_steps(&short)] {
+        let ask = || asked(&text, &["planet[1].left_transmission_error:mean"], 0.05);
+        let quiet = ask();
+        let is_over = AtomicBool::new(false);
+        let busy = thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    while !is_over.load(Ordering::Relaxed) {
+                        spin_loop();
+                    }
+                });
+            }
+            let busy = ask();
+            is_over.store(true, Ordering::Relaxed);
+            busy
+        });
+        assert_eq!((quiet.chosen, quiet.trials.len()), (busy.chosen, busy.trials.len()));
+        for (quiet, busy) in quiet.trials.iter().zip(&busy.trials) {
+            assert_eq!(quiet.scene.parameters, busy.scene.parameters);
+            assert_eq!((&quiet.errors, quiet.cost), (&busy.errors, busy.cost));
+        }
+    }
+}
+
+#[test]
+fn a_mirrored_scene_gets_the_same_setting() {
+    let short = TEETH.replace("0.04", "0.01");
+    let mirrored = short.replace("= \"954", "= \"-954").replace("= \"200", "= \"-200").replace("= \"400", "= \"-400");
+    assert_eq!(mirrored.matches('-').count(), short.matches('-').count() + 4);
+    for (text, mirrored) in [(short.clone(), mirrored.clone()), (in_fixed_steps(&short), in_fixed_steps(&mirrored))] {
+        let setting = |text: &str| {
+            let found = asked(text, &["left.speed:peak_to_peak"], 0.1);
+            let run = found.choice().expect("a setting");
+            (run.scene.parameters, run.error())
+        };
+        let [(here, error), (there, other)] = [setting(&text), setting(&mirrored)];
+        assert_eq!(here, there);
+        assert!((error - other).abs() < 1e-6 * error, "{error} {other}");
+    }
+}
+
+/// Largest less smallest value of the scene's first output at the communication points.
+fn swing(scene: &Scene) -> f64 {
+    let mut run = SceneRun::start(scene, scene.step).expect("a start");
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    while !run.is_over() {
+        run.advance().expect("a step");
+        let value = run.read(scene.outputs[0]);
+        (least, most) = (least.min(value), most.max(value));
+    }
+    most - least
+}
+
+#[test]
+fn a_scene_that_asks_for_fixed_steps_keeps_them_and_gets_the_longest_that_are_accurate_enough() {
+    let (text, within) = (in_fixed_steps(TEETH), 0.1);
+    let found = asked(&text, &["left.speed:peak_to_peak"], within);
+    let richest = found.reference.scene.parameters;
+    assert_eq!(richest.solver.method, Method::Adaptive);
+    let mut tight = found.reference.scene.clone();
+    tight.parameters.solver.relative_tolerance = 1e-10;
+    let wanted = swing(&tight);
+    // the setting as a user runs it
+    let written = parsed(&chosen::text(&found, &text).expect("a file"));
+    let solver = written.parameters.solver;
+    assert_eq!(solver.method, Method::FixedStep);
+    let error = |scene: &Scene| (swing(scene) / wanted - 1.0).abs();
+    assert!(error(&written) <= within, "{}", error(&written));
+    assert!((error(&written) - found.choice().expect("a setting").error()).abs() < 1e-3);
+    // next longer in 1, 2, 5
+    let longer = |factor: f64| {
+        let mut scene = written.clone();
+        scene.parameters.solver.fixed_step *= factor;
+        error(&scene)
+    };
+    assert!(longer(2.5) > within, "{}", longer(2.5));
+    assert!(solver.fixed_step < 2e-4, "{}", solver.fixed_step);
+    let said = report::text(&found);
+    assert!(said.contains(&format!("fixed steps of {:e} s", solver.fixed_step)), "{said}");
+}
+
+#[test]
+fn an_accuracy_that_no_affordable_fixed_step_reaches_is_said() {
+    let short = TEETH.replace("0.04", "0.004");
+    let ask = |text: &str| asked(text, &["left.speed:peak_to_peak"], 1e-4);
+    let found = ask(&in_fixed_steps(&short));
+    assert!(found.chosen.is_none() && ask(&short).chosen.is_some());
+    let said = report::text(&found).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("no fixed steps") && said.contains("solver.method = adaptive"), "{said}");
+}
+
+#[test]
+fn a_scene_that_asks_for_radau_is_answered_as_the_adaptive_one() {
+    let text = format!("{TEETH}solver.method = \"radau\"\n");
+    let [radau, adaptive] = [&text, TEETH].map(|text| asked(text, &["left.speed:max"], 0.05));
+    let [of_radau, of_adaptive] = [&radau, &adaptive].map(|found| found.choice().expect("a setting").scene.parameters);
+    assert_eq!((of_radau, of_radau.solver.method), (of_adaptive, Method::Adaptive));
+    let [said, other] = [&radau, &adaptive].map(report::text);
+    assert!(
+        said.contains("adaptive: the scene's method radau is for comparison") && !other.contains("radau"),
+        "{said}"
+    );
+    assert_eq!(parsed(&chosen::text(&radau, &text).expect("a file")).parameters.solver.method, Method::Adaptive);
 }

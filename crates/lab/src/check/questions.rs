@@ -32,7 +32,7 @@ const KINDS: [(&str, &[&str]); 12] = [
     ("run", &["of", "out"]),
     ("export", &["of", "format"]),
     ("loads", &["of", "out", "every"]),
-    ("accuracy", &["of", "want", "within", "from", "timed"]),
+    ("accuracy", &["of", "want", "within", "from"]),
     ("pattern", &["ofs"]),
     ("geometry", &["set", "facets", "thicken", "solids"]),
     ("word", &["statistic"]),
@@ -174,7 +174,7 @@ fn value(key: &str, random: &mut Random) -> Value {
         "every" | "from" | "thicken" => json!(random.pick(&["1 ms", "0.1", "1e-300", "-1", "nan", "1 mm", "0.05mm"])),
         "within" => json!(random.pick(&["1%", "0.01", "5 %", "0", "nan", "1e-9", "200%", "1"])),
         "want" => json!((0..random.below(3)).map(|_| wanted(random)).collect::<Vec<_>>()),
-        "timed" | "solids" => json!(random.chance(2)),
+        "solids" => json!(random.chance(2)),
         "facets" => json!([2, 7, 32, 0, 1_000_000][random.below(5)]),
         "statistic" => {
             json!(format!("{}{}", random.pick(&["mean", "mesh_order_", "order 2 of shaft", "tip"]), odd(random)))

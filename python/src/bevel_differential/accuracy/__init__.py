@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 # beginnings of the text of a setting with their markers, in the order of the legend; the first that fits counts
 KINDS = [("ideal", "o"), ("lumped", "s"), ("tooth impact", "^"), ("tooth line +", "P"), ("tooth line_weber +", "D"),
          ("tooth line_weber", "X"), ("tooth line", "v"), ("solid", "<")]
-# other methods of integration, as settings name them: counts of different methods cannot be compared
-METHODS = ("rodas4", "dormand_prince", "fixed steps", "radau")
+# settings with fixed steps: their counts cannot be compared with those of the adaptive method
+FIXED = "fixed steps"
 # smallest error that is drawn, as a part of the accuracy; smaller errors are drawn at this one
 FLOOR = 1e-7
 LONGEST = 90
@@ -95,18 +95,17 @@ class Accuracy:
 
 
 def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: float | str = "1%", *, from_: str | float | None = None,
-             set: Mapping[str, Value] | None = None, timed: bool = True, file: FileName | None = None,
+             set: Mapping[str, Value] | None = None, file: FileName | None = None,
              display_units: Sequence[str] = (), progress: Progress | None = None) -> Accuracy:
-    """The cheapest level, law, set of effects and tolerance that give the wanted quantities of a scene to an accuracy.
+    """The cheapest level, law, set of effects and tolerance that give the wanted quantities of a scene to an accuracy. A scene with
+    `solver.method` = fixed_step keeps it, and gets the longest fixed steps instead of a tolerance.
 
     `scene`: a file, the name of a shipped scene, or a `Scene`. `want`: one or several "OUTPUT:STATISTIC", such as
     "left.speed:mean"; without it all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this time
-    on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `timed`: whether processor times are
-    measured, too. `file`: the intended place of a scene file with the setting, which is not written: its text is `answer["file"]`.
-    Ctrl-C stops the work. Raises `DifferentialError`."""
+    on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `file`: the intended place of a scene file
+    with the setting, which is not written: its text is `answer["file"]`. Ctrl-C stops the work. Raises `DifferentialError`."""
     question = {"ask": "accuracy", "of": about(scene, set, display_units), "want": [want] if isinstance(want, str) else list(want),
-                "within": str(within), "from": None if from_ is None else str(from_), "timed": timed,
-                "file": None if file is None else Path(file)}
+                "within": str(within), "from": None if from_ is None else str(from_), "file": None if file is None else Path(file)}
     found = ask(question, progress=progress)
     runs = [Run(**{**row, "error": float("inf") if row["error"] is None else row["error"]}) for row in found["runs"]]
     places = {run.place: run for run in runs if run.place}
@@ -137,7 +136,9 @@ def _drawn(style, found, file):
     def point(run):
         return run.price / found.reference.price, 100.0 * max(run.error, FLOOR * within)
 
-    tried = [run for run in runs[:-1] if not any(method in run.setting for method in METHODS)]
+    chosen = [run for run in runs if run.place == "chosen"]
+    is_fixed = any(FIXED in run.setting for run in chosen)
+    tried = [run for run in runs[:-1] if (FIXED in run.setting) == is_fixed]
     others = [point(run) for run in runs[:-1] if run not in tried]
     for number, (text, marker) in enumerate(KINDS):
         of_kind = [point(run) for run in tried if kind(run.setting) == number]
@@ -145,7 +146,7 @@ def _drawn(style, found, file):
             axes.plot(*zip(*of_kind), marker, color=style.CYCLE[number % len(style.CYCLE)], ms=6, alpha=0.75,
                       label=text.replace(" +", " + gear bodies"))
     if others:
-        axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="another method (cost from its time)")
+        axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="adaptive" if is_fixed else FIXED)
     axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its stray with the tolerance)")
     front, best = [], float("inf")
     for x, y in sorted(point(run) for run in tried):
@@ -153,7 +154,6 @@ def _drawn(style, found, file):
             front.append((x, y))
             best = y
     axes.step(*zip(*front), where="post", color=style.GREY, lw=1, zorder=1)
-    chosen = [run for run in runs if run.place == "chosen"]
     for run in chosen:
         axes.plot(*point(run), "o", mfc="none", mec=style.RED, mew=2.2, ms=17, label="chosen")
     axes.axhline(100.0 * within, color=style.RED, lw=1, ls="--")
@@ -165,7 +165,7 @@ def _drawn(style, found, file):
     axes.set_title(f"{found.scene}: {short}")
     axes.legend(ncols=2)
     chosen_text = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
-    style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects or tolerance, compared with "
+    style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects, tolerance or step, compared with "
                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
                   f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.")
     if file is not None:

@@ -4,10 +4,7 @@ import argparse
 import time
 
 from ..command import DONE, FINDING
-from ..command.arguments import add_file, add_progress, add_quick, add_scene, add_units, changes
-
-# what --quick leaves out
-LEFT_OUT = "no times are measured, and no other solver is tried"
+from ..command.arguments import add_file, add_progress, add_scene, add_units, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +20,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_file(parser, "--write", "scene", "write the scene with the chosen setting")
     add_file(parser, "--ssv", "parameter set", "write the start values of the chosen setting for hosts of the FMU")
     add_file(parser, "--python", "Python script", "write the scene with the chosen setting as a script")
-    add_quick(parser, LEFT_OUT)
     add_progress(parser)
 
 
@@ -43,12 +39,10 @@ def run(arguments: argparse.Namespace) -> int:
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=changes(arguments),
-                         display_units=arguments.unit, file=arguments.write, timed=not arguments.quick, progress=progress)
+                         display_units=arguments.unit, file=arguments.write, progress=progress)
     print(found.text)
-    each = "" if arguments.quick else f" of {found.reference.seconds:.2g} s each"
-    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs{each}: {time.monotonic() - begin:.2g} s in all")
-    if arguments.quick:
-        print(f"quick: {LEFT_OUT}")
+    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
+          f"{time.monotonic() - begin:.2g} s in all")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:
