@@ -3,10 +3,11 @@
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::pairs::Spot;
+use bevel_differential::geometry::Pair;
 use bevel_differential::model::{BODIES, Body, Inputs, Parameters, PlanetSpin, Simulation};
 
-use crate::angular_momentum::Differential;
-use crate::angular_momentum::space::UnitForce;
+use super::solids::Solid;
+use super::space::UnitForce;
 
 /// Of the forces: rounding, and the tables of tip corners (1e-11 of a gap).
 const ROUNDING: f64 = 1e-9;
@@ -46,7 +47,7 @@ fn thrusts_and_pin_forces_are_the_parts_of_the_normals_in_space() {
     let mut spots = [0; 3];
     for (name, p, inputs) in turns() {
         let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
-        let pair = Differential::of(&simulation).pair;
+        let pair = Pair::new(&p.gears());
         for k in 1..=100 {
             simulation.advance(f64::from(k) * 2e-3).expect("a step");
             let mut loads = Vec::new();
@@ -85,7 +86,7 @@ fn thrusts_and_pin_forces_are_the_parts_of_the_normals_in_space() {
 fn reported_parts_at_their_points_have_the_arm_of_an_involute_about_both_axes() {
     for (name, p, inputs) in turns() {
         let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
-        let pair = Differential::of(&simulation).pair;
+        let pair = Pair::new(&p.gears());
         for k in 1..=100 {
             simulation.advance(f64::from(k) * 2e-3).expect("a step");
             simulation.tooth_loads(|load| {
@@ -118,13 +119,13 @@ fn washers_and_pins_rub_with_the_forces_of_the_teeth_in_space_and_of_the_orbit()
         (with.coefficient, with.pin_coefficient) = (0.07, 0.04);
         let inputs = Inputs { carrier_speed: 20.0, planet_spin: 3.5, ..Inputs::default() };
         let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
-        let differential = Differential::of(&simulation);
+        let (pair, planet) = (Pair::new(&p.gears()), Solid::new(&p.gears(), 0, p.material.density));
         let of = |body: Body| BODIES.len() + BODIES.iter().position(|&b| b == body).expect("a body");
         for k in 1..=100 {
             simulation.advance(f64::from(k) * 2e-3).expect("a step");
             let (mut thrust, mut across, mut along, mut sides) = (0.0, 0.0, 0.0, [0.0; 2]);
             simulation.tooth_loads(|load| {
-                let parts = UnitForce::of(&differential.pair, load).parts(load.side).map(|part| load.normal * part);
+                let parts = UnitForce::of(&pair, load).parts(load.side).map(|part| load.normal * part);
                 thrust += parts[0];
                 across += parts[2];
                 along += if load.side == 0 { parts[1] } else { -parts[1] };
@@ -133,7 +134,7 @@ fn washers_and_pins_rub_with_the_forces_of_the_teeth_in_space_and_of_the_orbit()
             });
             let states = simulation.states();
             let orbit = states[of(if pins { Body::Pin(0) } else { Body::Carrier })];
-            thrust += differential.solids[0].moment * orbit * orbit;
+            thrust += planet.moment * orbit * orbit;
             let with = &p.specs.thrust_friction;
             let on_planet = with.coefficient * with.planet_washer_radius * thrust
                 + with.pin_coefficient * with.pin_radius * across.hypot(along);
