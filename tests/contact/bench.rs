@@ -1,5 +1,6 @@
 //! The contact law against Adams' IMPACT table and Hertz' closed forms (tests/data/golden_contact_bench.json).
 
+use bevel_differential::contact::damping::{Damping, restitution};
 use bevel_differential::contact::hertz;
 use bevel_differential::contact::impact::Impact;
 use serde_json::Value;
@@ -75,9 +76,9 @@ fn a_body_in_a_dead_zone_swings_as_far_as_its_energy_allows() {
     }
 }
 
-/// Rebound speed over impact speed, and greatest penetration, of a mass hitting the law: Runge–Kutta of fourth order.
-fn rebound(law: &Impact, mass: f64, speed: f64, step: f64) -> (f64, f64) {
-    let slope = |[d, v]: [f64; 2]| [v, if d > 0.0 { -law.force(d, v).total / mass } else { 0.0 }];
+/// Rebound speed over impact speed, and greatest penetration, of a mass hitting a law: Runge–Kutta of fourth order.
+fn rebound(force: impl Fn(f64, f64) -> f64, mass: f64, speed: f64, step: f64) -> (f64, f64) {
+    let slope = |[d, v]: [f64; 2]| [v, if d > 0.0 { -force(d, v) / mass } else { 0.0 }];
     let along = |[d, v]: [f64; 2], k: [f64; 2], h: f64| [d + h * k[0], v + h * k[1]];
     let (mut y, mut deepest) = ([0.0, speed], 0.0f64);
     loop {
@@ -113,11 +114,28 @@ fn a_mass_rebounds_from_impact_with_the_golden_restitution() {
             damping: number("c=") * 1e3,
             per_full_depth: 1e4,
         };
-        let (e, depth) = rebound(&law, 1.0, number("v0=") * 1e-3, 1e-8);
+        let (e, depth) = rebound(|d, v| law.force(d, v).total, 1.0, number("v0=") * 1e-3, 1e-8);
         worst_e = worst_e.max((e - row[0].as_f64().expect("e")).abs());
         worst_d = worst_d.max((depth * 1e3 / row[1].as_f64().expect("mm") - 1.0).abs());
     }
     println!("restitution off by {worst_e:e}, depth by {worst_d:e} (relative)");
     // the depth is the greatest at a step of either integration, not between them
     assert!(worst_e < 1e-8 && worst_d < 2e-5);
+}
+
+#[test]
+fn a_mass_rebounds_from_damping_by_restitution_with_the_speed_of_the_exact_relation() {
+    let (mass, speed) = (0.7, 0.8);
+    for exponent in [1.0, 1.5] {
+        for dimensionless in [0.0, 0.1, 0.5, 1.0, 2.0] {
+            let stiffness = 1.7e10f64.powf(exponent / 1.5);
+            let damping = Damping::HuntCrossley { lambda: dimensionless / speed };
+            let force = |d: f64, rate: f64| {
+                let slope = stiffness * exponent * d.powf(exponent - 1.0);
+                damping.apply(slope * d / exponent, slope, d, rate).total
+            };
+            let error = (rebound(force, mass, speed, 1e-8).0 - restitution(dimensionless)).abs();
+            assert!(error < 1e-6, "n = {exponent}, D = {dimensionless}: off by {error:e}");
+        }
+    }
 }

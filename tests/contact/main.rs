@@ -6,8 +6,6 @@ mod errors;
 mod errors_explicit;
 mod friction;
 mod golden_pairs;
-mod hertz;
-mod hunt_crossley;
 mod impact;
 mod kinks;
 mod mesh_conjugacy;

@@ -44,33 +44,6 @@ fn a_clutch_that_slips_and_sticks_is_an_event() {
 }
 
 #[test]
-fn a_tooth_that_breaks_is_an_event_whose_time_is_known() {
-    let onset = 3e-5;
-    let mut felt = Vec::new();
-    for tooth in 0..10 {
-        let mut solver = Solver::new(|host| {
-            level(host, 3);
-            assert_eq!(host.set_boolean("effects.tooth_fault", 1), Status::Ok);
-            assert_eq!(host.set_integer("tooth_fault.gear", 2), Status::Ok);
-            assert_eq!(host.set_integer("tooth_fault.tooth", tooth), Status::Ok);
-            assert_eq!(host.set_boolean("tooth_fault.at_onset", 1), Status::Ok);
-            assert_eq!(host.set("tooth_fault.onset", onset), Status::Ok);
-        });
-        let info = solver.event();
-        assert_eq!((info.next_event_defined, info.next_event), (1, onset));
-        solver.steps(1e-6, 29);
-        solver.set(onset, &solver.states());
-        let before = solver.host.get("der(left.speed)");
-        let info = solver.event();
-        assert_eq!((info.next_event_defined, info.states_changed), (0, 0));
-        if solver.host.get("der(left.speed)") != before {
-            felt.push(tooth);
-        }
-    }
-    assert!(!felt.is_empty() && felt.len() < 6, "teeth in mesh are felt at once, others are not: {felt:?}");
-}
-
-#[test]
 fn a_lock_commanded_between_events_requests_an_event() {
     let mut solver = Solver::new(|host| level(host, 1));
     solver.steps(1e-5, 3);

@@ -58,17 +58,6 @@ fn with_logging_off_only_calls_that_fail_are_logged() {
 }
 
 #[test]
-fn a_sweep_with_logging_off_logs_nothing() {
-    for _ in 0..20 {
-        let host = Host::with_logging(0);
-        host.start();
-        host.steps(0.0, 1e-3, 3);
-        assert_eq!(host.terminate(), Status::Ok);
-        assert!(host.log().is_empty(), "{:?}", host.log());
-    }
-}
-
-#[test]
 fn categories_select_what_is_logged_but_errors_are_logged_always() {
     let run = |logging, categories: &[Text]| {
         let host = Host::with_logging(0);
@@ -88,21 +77,6 @@ fn categories_select_what_is_logged_but_errors_are_logged_always() {
     assert_eq!(run(0, &[warning, events]), selected(&[DISCARD, ERROR]), "switched off, categories mean nothing");
     // unknown names are reported, known ones count
     assert_eq!(run(1, &[error, c"logNonsense".as_ptr(), ptr::null()]), (Status::Warning, vec![ERROR.to_owned()]));
-}
-
-#[test]
-fn a_law_outside_its_range_is_reported_once_with_logging_on_and_never_with_logging_off() {
-    for (on, expected) in [(1, 1), (0, 0)] {
-        let host = Host::with_logging(on);
-        assert_eq!(host.set_boolean("effects.tooth_friction", 1), Status::Ok);
-        assert_eq!(host.set_integer("tooth_friction.law", 4), Status::Ok, "{:?}", host.log());
-        assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
-        assert_eq!(host.set("spin.command", 3.0), Status::Ok);
-        host.start();
-        host.steps(0.0, 1e-3, 20);
-        let lines = host.log().into_iter().filter(|line| line.message.contains("tooth_friction.law")).count();
-        assert_eq!(lines, expected, "{:?}", host.log());
-    }
 }
 
 #[test]
@@ -139,28 +113,4 @@ fn a_logger_that_calls_back_is_refused_and_does_no_harm() {
         assert_eq!(fmi2EnterInitializationMode(c), Status::Ok);
         fmi2FreeInstance(c);
     }
-}
-
-#[test]
-fn a_value_that_changes_nothing_is_a_warning_by_name_once_in_a_run() {
-    let unfelt = |host: &Host| -> Vec<String> {
-        let lines = host.log();
-        let said = lines.iter().filter(|line| line.message.contains("changes nothing in this scene"));
-        said.map(|line| line.message.clone()).collect()
-    };
-    let host = Host::new();
-    assert_eq!(host.set("left.brake_torque", 200.0), Status::Ok);
-    host.start();
-    let said = ["left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"];
-    assert_eq!(unfelt(&host), said);
-    for value in [100.0, 300.0] {
-        assert_eq!(host.set_many(&["left.brake_torque", "right.brake_torque"], &[value, 0.0]), Status::Ok);
-    }
-    assert_eq!(unfelt(&host), said, "a start value is no warning, and the other has been named");
-    assert_eq!(host.reset(), Status::Ok);
-    host.clear_log();
-    host.start();
-    assert!(unfelt(&host).is_empty());
-    assert_eq!(host.set("right.brake_torque", 90.0), Status::Ok);
-    assert_eq!(unfelt(&host).len(), 1);
 }

@@ -112,21 +112,6 @@ fn states_of_every_phase_can_be_stored_and_restored() {
 }
 
 #[test]
-fn a_stored_state_recovers_an_instance_whose_step_failed() {
-    let host = Host::on_level(3);
-    host.start();
-    host.record_steps(0, 2);
-    let state = host.get_state();
-    let expected = host.record_steps(2, 2);
-    assert_eq!(host.set_state(state), Status::Ok);
-    assert_eq!(host.set("left.load_torque", 1e7), Status::Ok);
-    assert_eq!(host.step(2e-3, 1e-2), Status::Discard);
-    assert_eq!(host.set_state(state), Status::Ok);
-    assert!(host.record_steps(2, 2) == expected);
-    host.free_state(state);
-}
-
-#[test]
 fn damaged_truncated_and_foreign_bytes_are_refused_and_change_nothing() {
     let host = Host::on_level(3);
     host.start();

@@ -90,21 +90,6 @@ fn steps_end_at_the_stop_time_with_a_tolerance() {
 }
 
 #[test]
-fn steps_may_vary_in_size() {
-    // the ideal level in the straight case moves evenly, so the angle is proportional to time
-    let host = Host::new();
-    host.set_integer("scene.gear_contact", 1);
-    host.start();
-    let mut t = 0.0;
-    for h in [1e-3, 5e-4, 0.1, 1e-6, 0.0123] {
-        assert_eq!(host.step(t, h), Status::Ok);
-        t += h;
-    }
-    let expected = 2861f64.to_radians() * t;
-    assert!((host.get("carrier.angle") - expected).abs() < 1e-9 * expected);
-}
-
-#[test]
 fn an_invalid_experiment_is_refused() {
     for start in [f64::NAN, f64::INFINITY] {
         let (host, status) = with_experiment(None, start, None);

@@ -8,29 +8,6 @@ use bevel_differential::variables::table;
 use crate::common::{Host, assert_contains, reference};
 
 #[test]
-fn a_value_that_is_not_finite_is_discarded_and_changes_nothing() {
-    for level in [1, 3] {
-        let plain = Host::on_level(level);
-        plain.start();
-        let expected = plain.record_steps(0, 6);
-        let host = Host::on_level(level);
-        host.start();
-        let mut seen = host.record_steps(0, 3);
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200] {
-            // the first value is valid, but must not be set either
-            let status = host.set_many(&["right.load_torque", "left.load_torque"], &[1.0, bad]);
-            assert_eq!(status, Status::Discard);
-            assert_contains(
-                &host.last_message(),
-                &["fmi2SetReal", "left.load_torque", &format!("{bad}"), "N.m", "100000000"],
-            );
-        }
-        seen.extend(host.record_steps(3, 3));
-        assert!(seen == expected, "level {level}");
-    }
-}
-
-#[test]
 fn a_parameter_that_is_not_finite_is_discarded_at_once() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", f64::NAN), Status::Discard);
@@ -102,23 +79,6 @@ fn a_tunable_parameter_acts_in_a_running_simulation() {
     assert_eq!(tuned.set("contact.damping", -1.0), Status::Discard);
     assert_contains(&tuned.last_message(), &["contact.damping", "-1"]);
     assert_eq!(tuned.get("contact.damping"), 2.0 * damping);
-}
-
-#[test]
-fn an_enumeration_accepts_its_choices_and_lists_them_for_any_other_value() {
-    let host = Host::new();
-    for value in 1..=4 {
-        assert_eq!(host.set_integer("geometry.addendum_system", value), Status::Ok);
-        assert_eq!(host.get_integer("geometry.addendum_system"), value);
-    }
-    for value in [0, 5, -1, i32::MAX] {
-        assert_eq!(host.set_integer("geometry.addendum_system", value), Status::Error);
-        assert_contains(
-            &host.last_message(),
-            &["geometry.addendum_system", &value.to_string(), "1 = standard, 2 = gleason"],
-        );
-        assert_eq!(host.get_integer("geometry.addendum_system"), 4);
-    }
 }
 
 #[test]

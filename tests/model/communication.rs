@@ -280,18 +280,3 @@ fn a_copy_within_a_step_goes_on_to_the_same_bits() {
         }
     }
 }
-
-#[test]
-fn a_tooth_breaks_on_time_between_communication_points() {
-    let scene = turn("fault", |p| {
-        p.effects.tooth_fault = true;
-        (p.specs.tooth_fault.at_onset, p.specs.tooth_fault.onset) = (true, 0.01234);
-    });
-    for points in ways(0.03) {
-        let mut simulation = scene.start();
-        for &point in &points {
-            simulation.advance(point).unwrap();
-            assert_eq!(simulation.state().is_tooth_broken, point >= 0.01234 - 1e-15, "at {point}");
-        }
-    }
-}

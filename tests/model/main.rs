@@ -1,6 +1,5 @@
-//! The whole model in a simulation: motion, statics, balance of momentum, mirror images, what values are felt.
+//! The whole model in a simulation: motion, statics, tooth forces in space, mirror images, what values are felt.
 
-mod angular_momentum;
 mod assembled_jacobian;
 mod body_compliance;
 mod commands;

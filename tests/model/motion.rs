@@ -1,67 +1,12 @@
 //! Motion against closed forms and conservation laws.
 
-use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
-
-use crate::angular_momentum::Differential;
-
-/// Error of the momentum's balance, of all its terms: rounding.
-const ROUNDING: f64 = 1e-9;
+use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation};
 
 fn turn() -> (Parameters, Inputs) {
     let mut p = Parameters::default();
     p.scene.planet_spin = PlanetSpin::Imposed;
     let inputs = Inputs { carrier_speed: 954f64.to_radians(), planet_spin: 200f64.to_radians(), ..Inputs::default() };
     (p, inputs)
-}
-
-/// Energy residual over ∫Σ|P_in| dt after 0.5 s of undamped turning.
-fn undamped_residual(start: Start, tolerance: f64) -> f64 {
-    let (mut p, inputs) = turn();
-    p.contact.damping = 0.0;
-    p.scene.start = start;
-    p.solver.relative_tolerance = tolerance;
-    let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
-    let (mut turnover, steps) = (0.0, 5000);
-    let differential = Differential::of(&s);
-    for k in 1..=steps {
-        s.advance(0.5 * f64::from(k) / f64::from(steps)).unwrap();
-        let balance = differential.at(&s);
-        assert!(balance.error() < ROUNDING, "{start:?}, t = {}: {balance:?}", s.time());
-        let f = s.forces();
-        turnover += (f.power_in.abs() + f.power_out.abs()) * 0.5 / f64::from(steps);
-    }
-    assert_eq!(s.ledger().heat[CONTACT_HEAT], 0.0);
-    (s.ledger().energy_residual / turnover).abs()
-}
-
-#[test]
-fn an_undamped_turn_conserves_energy_and_better_at_tighter_tolerance() {
-    for start in [Start::Equilibrium, Start::Rolling] {
-        let (loose, default, tight) =
-            (undamped_residual(start, 1e-4), undamped_residual(start, 1e-6), undamped_residual(start, 1e-8));
-        assert!(default < 1e-6, "{start:?}: {default:e}");
-        // a loose tolerance damps the little that swings after a start in equilibrium, so that less is left to lose
-        assert!(tight < default && default < loose, "{start:?}: {loose:e} {default:e} {tight:e}");
-        assert!(tight < 0.1 * loose, "{start:?}: {loose:e} {default:e} {tight:e}");
-    }
-}
-
-#[test]
-fn no_tooth_slips_in_the_turn() {
-    let (mut p, inputs) = turn();
-    p.scene.start = Start::Rolling;
-    let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
-    let r = 10.0 / 16.0;
-    // elastic deflection under (835 N·m) is below 0.1 mm, and half the lash 0.036 mm, along the line of action
-    let bound = 0.15e-3 / (s.pair().mean_cone * s.pair().sin_base()[1]);
-    for k in 1..=2000 {
-        s.advance(f64::from(k) * 1e-3).unwrap();
-        let m = s.motion();
-        let left = m.side_angle[0] - m.carrier_angle - r * m.spin_angle[0];
-        let right = m.side_angle[1] - m.carrier_angle + r * m.spin_angle[0];
-        assert!(left.abs() < bound && right.abs() < bound, "t = {}: {left} {right}", s.time());
-        assert!((m.spin_angle[0] - inputs.planet_spin * s.time()).abs() < 1e-9);
-    }
 }
 
 fn ideal() -> Parameters {
@@ -112,7 +57,6 @@ fn an_ideal_torque_driven_differential_with_unequal_ends_follows_its_mass_matrix
     let all = j.carrier * carrier + j.side[0] * left + j.side[1] * right - (500.0 - 40.0);
     let roll = r * (j.side[0] * left - j.side[1] * right) + 2.0 * j.planet * spin - r * (30.0 - 10.0);
     assert!(all.abs() < 1e-9 && roll.abs() < 1e-9, "{all} {roll}");
-    assert!(Differential::of(&s).at(&s).error() < ROUNDING);
 }
 
 #[test]
@@ -130,31 +74,8 @@ fn a_jump_of_an_imposed_speed_is_counted_as_work() {
         }
         let m = s.motion();
         assert!((m.side_speed[0] / inputs.carrier_speed - 1.0).abs() < 1e-4, "{contact:?}: {m:?}");
-        if contact == GearContact::Tooth {
-            assert!(Differential::of(&s).at(&s).error() < ROUNDING);
-        }
         let b = s.ledger();
         assert!(b.energy_residual.abs() < 1e-2 * b.heat[CONTACT_HEAT].max(1.0), "{contact:?}: {b:?}");
-    }
-}
-
-#[test]
-fn one_long_step_equals_many_short_ones() {
-    let (mut p, inputs) = turn();
-    p.scene.start = Start::Rolling;
-    let at = |steps: u32| {
-        let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
-        for k in 1..=steps {
-            s.advance(0.4 * f64::from(k) / f64::from(steps)).unwrap();
-        }
-        s.motion().side_speed
-    };
-    let reference = at(40_000);
-    for steps in [1, 4, 40, 400, 4000] {
-        let speed = at(steps);
-        for side in 0..2 {
-            assert!((speed[side] / reference[side] - 1.0).abs() < 2e-6, "{steps} steps: {speed:?} {reference:?}");
-        }
     }
 }
 
@@ -164,7 +85,6 @@ fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     p.effects.corner_contact = false;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     s.advance(0.5).unwrap();
-    assert!(Differential::of(&s).at(&s).error() < ROUNDING);
     // each jump is of some tenths of a joule, and there are a dozen of them
     let residual = s.ledger().energy_residual;
     assert!(residual.abs() < 1e-3, "{residual} J");

@@ -7,13 +7,14 @@ drive that imposes the carrier's speed must give follows from the torques of the
 INSTANT   of all terms at an instant: rounding
 SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/theory.md states
 RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off
+SLIDING   slowest motion that tells in which direction a brake acts [rad/s]
 WARMER    of an oil that warms up: drag follows it by 0.1 K, in steps within which it changes as much [K]"""
 
 import numpy as np
 import outline_solids
 import theory
 
-INSTANT, SOLIDS, RUN, WARMER = 1e-9, 2e-5, 10.0, 0.2
+INSTANT, SOLIDS, RUN, SLIDING, WARMER = 1e-9, 2e-5, 10.0, 1e-3, 0.2
 SIDES = ["left", "right"]
 # dry friction between side gears and carrier, of which no output tells
 RUBBING = ["effects.thrust_friction", "effects.limited_slip"]
@@ -41,6 +42,8 @@ class Momentum:
         self.pins = [f"planet[{i + 1}].pin_speed" if self.on["effects.pin_compliance"] else "carrier.speed"
                      for i in range(self.planets)]
         self.bodies = ["carrier.speed", *self.pins, "left.speed", "right.speed"]
+        self.brake_varies = any(v.name.startswith("wheel_brake.") and v.causality == "parameter" and v.name != "wheel_brake.stiffness"
+                                and opened.get(v.name) != v.start for v in opened.fmu.variables.values())
         self.gained = self.given = self.turned_over = 0.0
         self.momentum, self.external = self.now(), self.commands()
 
@@ -115,9 +118,21 @@ class Momentum:
         # sin zθ of an angle of many turns is not known to more than its rounding
         assert abs(drive - wanted) <= rounding + facets + 1e-9 * abs(wanted), f"drive gives {drive} N.m, not {wanted}"
         for s, side in enumerate(SIDES):
-            if self.twists[s] and not self.imposed[f"{side}_drive"] and one.get(f"{side}.brake_torque") == 0.0:
-                needed = self.ends[s] * one.get(f"der({side}.end_speed)") + one.get(f"{side}.load_torque")
-                assert abs(shafts[s] - needed) <= rounding + INSTANT * abs(needed), f"the end at the {side} is off"
+            self.check_shaft(side, shafts[s], f"{side}.end_speed" if self.twists[s] else f"{side}.speed", rounding)
+
+    def check_shaft(self, side, torque, wheel, rounding):
+        """Asserts that the torque of a shaft is that of its spring, and what the wheel at its end needs."""
+        one, speed = self.opened, self.opened.get(wheel)
+        if wheel.endswith("end_speed"):
+            spring, damper = one.read([f"half_shaft.{side}_stiffness", f"half_shaft.{side}_damping"])
+            terms = [spring * one.get(f"{side}.shaft_twist"), damper * (one.get(f"{side}.speed") - speed)]
+            assert abs(torque - sum(terms)) <= rounding + INSTANT * sum(map(abs, terms)), f"the spring at the {side} is off"
+        brake = one.get(f"{side}.brake_torque") if self.on["effects.wheel_brake"] else 0.0
+        # a brake whose friction varies, or that holds
+        if self.imposed[f"{side}_drive"] or brake and (self.brake_varies or one.get("held.wheels") or abs(speed) < SLIDING):
+            return
+        needed = one.get(f"inertia.{side}_end") * one.get(f"der({wheel})") + one.get(f"{side}.load_torque") + brake * np.sign(speed)
+        assert abs(torque - needed) <= rounding + INSTANT * abs(needed), f"the end at the {side} is off"
 
     def now(self):
         """Momentum with the ends, and the magnitudes of its parts."""

@@ -15,6 +15,8 @@ SCENES = {
     "lumped": {**WHEELS, "scene.gear_contact": "lumped", "left.load_torque": 800.0},
     "ideal": {**WHEELS, "scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.load_torque": 800.0},
     "half-shafts": {**WHEELS, "effects.half_shaft": True, "scene.carrier_drive": "torque", "left.load_torque": 820.0},
+    "four planets": {**WHEELS, "scene.carrier_drive": "torque", "geometry.planet_count": 4},
+    "pins and drag": {**WHEELS, **theory.DRAG, "effects.half_shaft": True, "effects.pin_compliance": True},
     "solid": {"scene.gear_contact": "solid"},
     "limited slip": {**WHEELS, "scene.gear_contact": "ideal", **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0,
                      "left.load_torque": 400.0},

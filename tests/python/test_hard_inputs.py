@@ -115,17 +115,6 @@ def test_all_that_is_wrong_is_told_at_once(fmu):
         assert_usable_after_reset(opened)
 
 
-@pytest.mark.parametrize("size", [0.0, -1e-3, NONE, *ENDLESS])
-def test_a_communication_step_that_is_none_is_refused(fmu, size):
-    with fmu.open() as opened:
-        opened.initialise()
-        with pytest.raises(DifferentialError) as failure:
-            opened.step(size)
-        assert failure.value.status == ERROR
-        assert "communication step size" in opened.messages[-1] and "finite and positive" in opened.messages[-1]
-        assert_usable_after_reset(opened)
-
-
 def test_loads_that_break_the_run_discard_the_step_and_leave_a_state_to_go_on_from(fmu, outputs):
     for load in (5e6, 1e8, -1e8):
         with fmu.open() as opened:

@@ -1,8 +1,6 @@
-"""Uses of an FMU beyond a single run: several instances, threads, unusual folders. Names of tests are sentences."""
+"""Uses of an FMU beyond a single run: several instances, unusual folders. Names of tests are sentences."""
 
 import shutil
-from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier
 
 import numpy as np
 import pytest
@@ -50,20 +48,6 @@ def test_two_instances_step_alternately_and_are_freed_in_any_order(fmu):
         pair[left].close()
         assert records[left] == expected[left]
         assert records[first_freed] == expected[first_freed][:STEPS // 2]
-
-
-def test_instances_in_threads_give_the_same_bits_as_alone(fmu):
-    loads = [835.0, 400.0, -200.0, 100.0]
-    expected = [alone(fmu, load) for load in loads]
-    together = Barrier(len(loads))
-
-    def run(load):
-        with Loaded(fmu, "thread", load) as instance:
-            together.wait(timeout=60.0)
-            return instance.record()
-
-    with ThreadPoolExecutor(len(loads)) as pool:
-        assert list(pool.map(run, loads)) == expected
 
 
 @pytest.mark.parametrize("name", ["with two spaces", "Größe µ 差速器", "percent %41 # & 'quote'"])

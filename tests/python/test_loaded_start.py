@@ -104,20 +104,6 @@ def test_teeth_that_errors_keep_apart_carry_from_the_start_on_without_a_blow(fmu
         assert without_blow(fmu, values, opened)
 
 
-@pytest.mark.parametrize("name", OPENED)
-def test_the_mirrored_start_is_the_mirror_image(fmu, name):
-    values = INERTIAS | OPENED[name]
-    load = values["left.load_torque"]
-    names = ["left.relative_angle", "right.relative_angle", "planet[1].spin_angle", "planet[2].spin_angle"]
-    found = []
-    for sign in (1.0, -1.0):
-        with fmu.open() as opened:
-            opened.initialise(values | {f"{side}.load_torque": sign * load for side in SIDES} | {"carrier.speed_command": sign * 50.0})
-            found.append((sign * np.array(opened.read(names)), opened.read(forces(values))))
-    np.testing.assert_allclose(found[0][0], found[1][0], atol=1e-10)
-    np.testing.assert_allclose(found[0][1], found[1][1], rtol=1e-7)
-
-
 def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_log_says_so(fmu, request):
     without = []
     for number in range(request.config.getoption("--scenes")):

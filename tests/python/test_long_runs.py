@@ -8,37 +8,6 @@ from driving import CARRIER, SIDES, TURN, UNDAMPED
 DAY = 86400.0
 
 
-@pytest.fixture(scope="module")
-def fine(run):
-    return run(TURN, stop=0.5, step=5e-4, output=[f"{side}.speed" for side in SIDES])
-
-
-@pytest.mark.parametrize("step", [1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
-def test_the_communication_step_does_not_change_the_trajectory(drive, fine, step):
-    scene, record = drive(TURN), []
-    scene.to(min(0.5, 2e4 * step), step, lambda s: record.append((s.time, *s.read([f"{side}.speed" for side in SIDES]))))
-    compared = 0
-    for time, left, right in record:
-        k = np.searchsorted(fine["time"], time - 1e-9)
-        # past the first blows, where a speed that turns within microseconds is a matter of the tolerance
-        if time > 0.005 and abs(fine["time"][k] - time) < 1e-9:
-            assert [left, right] == pytest.approx([fine["left.speed"][k], fine["right.speed"][k]], rel=3e-6), time
-            compared += 1
-    assert compared >= 5
-    assert scene.imbalance() < UNDAMPED
-
-
-def test_irregular_communication_steps_give_the_same_end(drive):
-    ends = []
-    for seed in [1, 2, 3]:
-        random, scene = np.random.default_rng(seed), drive(TURN)
-        while scene.time < 0.5 - 1e-12:
-            scene.step(min(10.0 ** random.uniform(-6.0, -1.0), 0.5 - scene.time))
-        ends.append(scene.read([f"{side}.speed" for side in SIDES]))
-        assert scene.imbalance() < UNDAMPED
-    np.testing.assert_allclose(ends, [ends[0]] * 3, rtol=3e-6)
-
-
 @pytest.mark.parametrize("step", [10.0, 60.0])
 def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, step):
     scene = drive({"scene.start": "rolling"}).to(DAY, step)

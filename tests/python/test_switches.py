@@ -64,9 +64,10 @@ def test_an_effect_that_is_on_balances_its_energy(run, plain, effect):
 
 
 @pytest.mark.parametrize("planets", [2, 4])
-@pytest.mark.parametrize("law", ["impact", "line"])
+@pytest.mark.parametrize("law", [{}, {"contact.law": "line"}, {"contact.law": "line_weber", "effects.body_compliance": True}],
+                         ids=["impact", "line", "on elastic bodies"])
 def test_planets_simulated_once_give_the_same_bits_as_each_simulated(run, planets, law):
-    base = {**STEADY_TURN, "geometry.planet_count": planets, "contact.law": law}
+    base = {**STEADY_TURN, "geometry.planet_count": planets, **law}
     once = run(base, stop=0.2, output=OUTPUTS)
     each = run({**base, "solver.merge_planets": False}, stop=0.2, output=OUTPUTS)
     for output in OUTPUTS:

@@ -156,32 +156,6 @@ def test_a_state_saved_while_a_wheel_is_held_goes_on_with_the_same_bits(drive, c
     assert go_on(drive(values).restore(kept)) == first
 
 
-SIGNED = ["angle", "speed", "shaft_torque"]
-
-
-@pytest.mark.parametrize("contact", CONTACTS)
-def test_mirrored_scenes_have_mirrored_motions(drive, contact):
-    """Backwards, and with left and right exchanged."""
-
-    def motion(sign, left, right):
-        values = BRAKED | EXACT | {f"{left}.brake_torque": 300.0, f"{right}.brake_torque": 100.0,
-                                   f"{left}.load_torque": sign * 20.0, "scene.gear_contact": contact,
-                                   "scene.start": "rest", **drive_torque(sign * 500.0)}
-        driven, rows = drive(values), []
-        names = [f"{side}.{name}" for side in (left, right) for name in SIGNED] + ["carrier.speed", "heat.brake"]
-        driven.to(0.1, 1e-2, lambda d: rows.append(d.read(names)))
-        driven.set(drive_torque(sign * -200.0))
-        driven.to(0.2, 1e-2, lambda d: rows.append(d.read(names)))
-        return np.array(rows)
-
-    ahead = motion(1.0, *SIDES)
-    signs = np.array([-1.0] * 7 + [1.0])
-    scale = np.abs(ahead).max(axis=0)
-    # teeth have another flank backwards, of the same shape
-    assert np.abs(motion(-1.0, *SIDES) * signs - ahead).max(axis=0) == pytest.approx(0.0, abs=1e-5 * scale.max())
-    assert (np.abs(motion(1.0, *SIDES[::-1]) - ahead) / scale).max() < 1e-5
-
-
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_without_the_effect_a_brake_torque_changes_no_bit(drive, contact):
     base = BRAKED | {"effects.wheel_brake": False, "scene.gear_contact": contact}

@@ -69,17 +69,6 @@ def test_angles_of_wheels_are_the_integrals_of_their_speeds(drive, scene):
     assert wheel(driven, "angle") - begin == pytest.approx(turned, rel=1e-7)
 
 
-def test_wheels_turn_backwards_as_they_turn_forwards(drive):
-    mirrored = {name: -value for name, value in UNEQUAL.items()} | {"carrier.speed_command": -50.0}
-    forward, backward = drive(SHAFTS | UNEQUAL | {"carrier.speed_command": 50.0}), drive(SHAFTS | mirrored)
-    for one, sign in ((forward, 1.0), (backward, -1.0)):
-        one.set({"left.load_torque": sign * 250.0})
-        for _ in range(10):
-            one.step(1e-3)
-    assert wheel(backward) == pytest.approx(-wheel(forward), rel=1e-9)
-    assert wheel(backward, "angle") == pytest.approx(-wheel(forward, "angle"), rel=1e-9)
-
-
 def test_a_host_that_integrates_reads_the_same_wheels_and_their_derivatives(fmu):
     with fmu.open("ModelExchange") as opened:
         opened.initialise(SHAFTS | UNEQUAL)

@@ -30,43 +30,38 @@ PACKAGES = "pip install -r tests/hosts/requirements.txt"
 
 @dataclass(frozen=True)
 class Host:
-    """A host. `call`: a script of tests/hosts with its arguments, or the name of a host in the program of tests/hosts/rust;
-    `language` it is used from, and the one it is written in; `loader`: what imports the FMU; `sets`: what it sets before
-    initialisation; `hint`: what to do if it cannot be loaded; `steps`: False if it evaluates derivatives; `three`: the call for the
-    FMU of FMI 3.0, if the host reads it, and `unset`: types and causalities that it does not set there."""
+    """A host. `call`: a script of tests/hosts with its arguments; `loader`: what imports the FMU; `sets`: what it sets before
+    initialisation; `hint`: what to do if it cannot be loaded; `steps`: False if it evaluates derivatives; `three`: True if
+    the host reads the FMU of FMI 3.0, and `unset`: types and causalities that it does not set there."""
 
     name: str
     call: tuple[str, ...]
-    language: str
     loader: str
     sets: str
     hint: str = PACKAGES
     enumerations: bool = True
     reads_start: bool = True
     steps: bool = True
-    three: tuple[str, ...] = ()
+    three: bool = False
     unset: tuple[str, ...] = ()
+
+
 # what hosts that evaluate derivatives are compared with
-DERIVATIVES = Host("fmpy, derivatives", ("derivatives.py",), "Python", "its own, ctypes", "all types", steps=False)
+DERIVATIVES = Host("fmpy, derivatives", ("derivatives.py",), "its own, ctypes", "all types", steps=False)
 # the others are compared with the first one
 ALL = [
-    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types", three=("with_fmpy.py",)),
-    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference",
-         three=("with_fmuloader.py",)),
-    Host("libcosim", ("with_libcosim.py",), "Python, C++", "FMI Library", "no Enumerations",
+    Host("fmpy", ("with_fmpy.py",), "its own, ctypes", "all types", three=True),
+    Host("libcosim", ("with_libcosim.py",), "FMI Library", "no Enumerations",
          enumerations=False, reads_start=False),
-    Host("ecos", ("with_ecos.py",), "Python, C++", "fmi4c", "no Enumerations",
-         "apt install libtbb12", enumerations=False, three=("with_ecos.py",), unset=("Enumeration", "structuralParameter")),
-    Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "no Enumerations",
-         "apt install libtbb12", enumerations=False, three=("with_ecos.py", "--process"),
+    Host("ecos", ("with_ecos.py",), "fmi4c", "no Enumerations",
+         "apt install libtbb12", enumerations=False, three=True, unset=("Enumeration", "structuralParameter")),
+    Host("ecos, process", ("with_ecos.py", "--process"), "fmi4c, proxyfmu", "no Enumerations",
+         "apt install libtbb12", enumerations=False, three=True,
          unset=("Enumeration", "structuralParameter")),
-    Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
-         "choices as Integers", three=("with_fmu_container.py",), unset=("structuralParameter",)),
-    Host("casadi", ("with_casadi.py",), "Python, C++", "its own, derivatives", "all types", steps=False),
-    Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types", "cargo must reach crates.io"),
-    Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types",
-         "cargo must reach crates.io, and a C compiler is needed", three=("fmi-rs-3",)),
-    Host(FMI_SIM, ("with_fmi_sim.py",), "Rust", "fmi", "by --init-values, choices as numbers",
+    Host("fmucontainer", ("with_fmu_container.py",), "its own, an FMU around it",
+         "choices as Integers", three=True, unset=("structuralParameter",)),
+    Host("casadi", ("with_casadi.py",), "its own, derivatives", "all types", steps=False),
+    Host(FMI_SIM, ("with_fmi_sim.py",), "fmi", "by --init-values, choices as numbers",
          "cargo must reach crates.io, and libclang is needed"),
 ]
 
@@ -130,53 +125,39 @@ def largest(record):
 class Bench:
     """What hosts need before they run."""
 
-    def __init__(self, fmu, plain, folder, with_rust):
-        self.fmu, self.plain, self.folder, self.with_rust = fmu, plain, folder, with_rust
+    def __init__(self, fmu, plain, folder, with_fmi_sim):
+        self.fmu, self.plain, self.folder, self.with_fmi_sim = fmu, plain, folder, with_fmi_sim
         self.three = fmu.with_name(f"{fmu.stem}3.fmu")
         self.needs = {each.name: {each.type, each.causality} for each in read_model_description(str(self.three)).modelVariables}
-        self.programs = {}
-        if with_rust:
-            say(0.0, "building fmu-runner and fmi-rs")
-            self._built("rust", folder / "rust" / "release" / "rust-hosts", "build", "--release", "--manifest-path",
-                        HOSTS / "rust" / "Cargo.toml", "--target-dir", folder / "rust")
+        self.fmi_sim = "left out without --with-fmi-sim, as its build takes minutes"
+        if with_fmi_sim:
             say(0.0, "building fmi-sim (many minutes)")
-            self._built(FMI_SIM, folder / FMI_SIM / "bin" / FMI_SIM, "install", FMI_SIM, "--version", FMI_SIM_VERSION, "--root",
-                        folder / FMI_SIM)
-
-    def _built(self, name, program, *arguments):
-        done = subprocess.run([os.environ.get("CARGO", "cargo"), *arguments, "--locked", "--quiet"], capture_output=True, text=True)
-        self.programs[name] = program if done.returncode == 0 else f"it does not build: {last_line(done.stderr)}"
-
-    def _program(self, name):
-        """The path of a program in Rust."""
-        found = self.programs.get(name, "left out without --with-fmi-sim, as its build takes minutes")
-        if isinstance(found, str):
-            raise Absent(found)
-        return found
+            root = folder / FMI_SIM
+            done = subprocess.run([os.environ.get("CARGO", "cargo"), "install", FMI_SIM, "--version", FMI_SIM_VERSION, "--root", root,
+                                   "--locked", "--quiet"], capture_output=True, text=True)
+            self.fmi_sim = f"it does not build: {last_line(done.stderr)}" if done.returncode else root / "bin" / FMI_SIM
 
     def leaves_out(self, host):
-        """Whether it was left out on demand."""
-        return not self.with_rust and host.language == "Rust"
+        """True if the host was left out on demand."""
+        return not self.with_fmi_sim and host.name == FMI_SIM
 
     def can_by_three(self, host, scene):
         """Whether a host runs a scene with the FMU of FMI 3.0: it reads it, and sets all that the scene sets."""
         needed = {need for part in ("parameters", "inputs") for name in scene.known[part] for need in self.needs[name]}
-        return bool(host.three) and needed.isdisjoint(host.unset)
+        return host.three and needed.isdisjoint(host.unset)
 
     def run(self, host, scene, three=False):
         """Runs a host on a scene, by FMI 3.0 if `three`: its record and its version. Raises `Absent`."""
         out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}{'_3' if three else ''}.csv"
-        program, *arguments = host.three if three else host.call
+        program, *arguments = host.call
         environment = dict(os.environ)
-        if program.endswith(".py"):
-            command = [sys.executable, HOSTS / program]
-        else:
-            command = [self._program("rust"), program]
         if host.name == FMI_SIM:
-            environment["FMI_SIM"] = str(self._program(FMI_SIM))
+            if isinstance(self.fmi_sim, str):
+                raise Absent(self.fmi_sim)
+            environment["FMI_SIM"] = str(self.fmi_sim)
         fmu = self.three if three else self.fmu if host.enumerations else self.plain
         # some write logs into the current folder
-        ended = subprocess.run([*command, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
+        ended = subprocess.run([sys.executable, HOSTS / program, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
                                text=True)
         if ended.returncode == CANNOT_LOAD:
             raise Absent(f"{last_line(ended.stderr)} ({host.hint})")

@@ -18,10 +18,12 @@ use scene::Scene;
 use table::lines;
 use teeth::View;
 
-/// Random scenes that are reversed, and that are looked at otherwise.
-const REVERSED: usize = 100;
-const OTHERWISE: usize = 20;
-/// Scenes among the reversed ones whose planets roll over some teeth.
+/// Random scenes of a survey, and those among them that are looked at in all ways.
+const SCENES: usize = 50;
+const OTHERWISE: usize = 10;
+/// Random scenes whose planets change places.
+const RENUMBERED: usize = 20;
+/// Scenes whose planets roll over some teeth.
 const ROLLING: usize = 10;
 /// Least part of all values that twins let compare, and of the values of any one output.
 const SHARE: f64 = 0.7;
@@ -32,51 +34,57 @@ const SHARE_OF_ONE: f64 = 0.2;
 const ALONE: f64 = 0.05;
 const DEVIATIONS: f64 = 2.0;
 
-/// Compares a scene with its image; `None` if there is no such scene.
-fn compared(scene: &Scene, view: View) -> Option<Findings> {
+/// Compares a scene with its images in `views`; `None` if there is no such scene.
+fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     let base = scene.run().ok()?;
     let twins = [1.0, -1.0].map(|sign| scene.disturbed(sign).run());
     let twins: Vec<_> = twins.into_iter().collect::<Result<_, _>>().ok()?;
-    let mut image = scene.image(view);
-    image.from = scene.image_of_start(view, &base.start, &base.layout);
-    let image = image.run().unwrap_or_else(|problems| panic!("the image cannot be built: {problems:?}"));
-    Some(compare(scene, &base, &twins, &image, &scene.map(view)))
+    let found = views.iter().map(|&view| {
+        let mut image = scene.image(view);
+        image.from = scene.image_of_start(view, &base.start, &base.layout);
+        let image = image.run().unwrap_or_else(|problems| panic!("the image cannot be built: {problems:?}"));
+        compare(scene, &base, &twins, &image, &scene.map(view))
+    });
+    Some(found.collect())
 }
 
-/// Compares `count` random scenes, from number `first` on, with their images.
-fn survey(view: View, first: u64, count: usize) -> Findings {
-    survey_of(random::scene, view, first, count)
-}
-
-/// The same of the scenes that `draw` gives.
-fn survey_of(draw: fn(u64) -> Option<Scene>, view: View, first: u64, count: usize) -> Findings {
-    let mut all = Findings::new();
+/// Compares `count` of the scenes that `draw` gives, from number `first` on, with their images in the first view, and some of them with
+/// their images in all `views`. Returns what is found in each view.
+fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usize, views: [View; N]) -> [Findings; N] {
+    let mut all = views.map(|_| Findings::new());
     for index in first.. {
-        if all.scenes >= count {
+        if all[0].scenes >= count {
             break;
         }
-        let Some(scene) = draw(index).and_then(|scene| fitting(scene, view)) else { continue };
-        let Some(mut found) = compared(&scene, view) else { continue };
-        found.wrong = found.wrong.iter().map(|wrong| format!("scene {index}: {wrong}")).collect();
-        all.add(found);
+        let views = if all[0].scenes < OTHERWISE { &views[..] } else { &views[..1] };
+        let Some(found) = draw(index).and_then(|scene| compared(&scene, views)) else { continue };
+        for (all, mut found) in all.iter_mut().zip(found) {
+            found.wrong = found.wrong.iter().map(|wrong| format!("scene {index}: {wrong}")).collect();
+            all.add(found);
+        }
     }
     all
 }
 
-/// The scene as it can be looked at, if it can.
-fn fitting(mut scene: Scene, view: View) -> Option<Scene> {
-    if view == View::Renumbered {
-        let p = &mut scene.parameters;
-        p.solver.merge_planets = false;
-        let n = p.geometry.planet_count;
-        if n > 2 {
-            // the pins are displaced in the direction of planet 1
-            p.specs.tooth_errors.axis_offset = 0.0;
-        }
-        // otherwise neighbours are half a pitch apart
-        return (2 * p.geometry.side_teeth / n % 2 == 0).then_some(scene);
+/// Scene number `index` with parts that warm up, and with friction that depends on speed and temperature.
+fn warm(index: u64) -> Option<Scene> {
+    let Scene { mut parameters, inputs, steps, .. } = random::scene(index)?;
+    random::warm(&mut random::Draw::new(index ^ random::WARM), &mut parameters);
+    Scene::new(parameters, inputs, steps).ok()
+}
+
+/// Scene number `index` whose planets may change places.
+fn renumberable(index: u64) -> Option<Scene> {
+    let mut scene = random::scene(index)?;
+    let p = &mut scene.parameters;
+    p.solver.merge_planets = false;
+    let n = p.geometry.planet_count;
+    if n > 2 {
+        // the pins are displaced in the direction of planet 1
+        p.specs.tooth_errors.axis_offset = 0.0;
     }
-    Some(scene)
+    // otherwise neighbours are half a pitch apart
+    (2 * p.geometry.side_teeth / n % 2 == 0).then_some(scene)
 }
 
 fn report(view: View, found: &Findings) {
@@ -89,37 +97,32 @@ fn report(view: View, found: &Findings) {
 }
 
 #[test]
-fn a_reversed_differential_does_the_same_in_reverse() {
-    let half = REVERSED / 2;
+fn a_reversed_a_swapped_and_a_shifted_differential_do_the_same() {
+    // a start one tooth further changes nothing
+    const VIEWS: [View; 3] = [View::Reversed, View::Swapped, View::Shifted];
     let mut found = std::thread::scope(|scope| {
-        let other = scope.spawn(|| survey(View::Reversed, 1000, half));
-        let rolling = scope.spawn(|| survey_of(random::rolling, View::Reversed, 5000, ROLLING));
-        let mut found = survey(View::Reversed, 0, half);
-        found.add(other.join().expect("a survey that ends"));
-        found.add(rolling.join().expect("a survey that ends"));
+        let other = scope.spawn(|| survey(warm, 1000, SCENES, VIEWS));
+        let rolling = scope.spawn(|| survey(random::rolling, 5000, ROLLING, [View::Reversed]));
+        let mut found = survey(random::scene, 0, SCENES, VIEWS);
+        let other = other.join().expect("a survey that ends");
+        found.iter_mut().zip(other).for_each(|(found, other)| found.add(other));
+        let [rolling] = rolling.join().expect("a survey that ends");
+        found[0].add(rolling);
         found
     });
     // every output takes part, and is something else than 0 at times
-    for (i, line) in lines().iter().enumerate().filter(|&(i, _)| found.compared[i][1] > 0) {
-        let [compared, all] = found.compared[i].map(|count| count as f64);
+    let reversed = &found[0];
+    for (i, line) in lines().iter().enumerate().filter(|&(i, _)| reversed.compared[i][1] > 0) {
+        let [compared, all] = reversed.compared[i].map(|count| count as f64);
         assert!(compared > SHARE_OF_ONE * all, "{} is compared in {compared} of {all} values", line.pattern);
-        assert!(found.telling[i] > 0, "{} is always 0", line.pattern);
+        assert!(reversed.telling[i] > 0, "{} is always 0", line.pattern);
     }
-    found.wrong.sort();
-    report(View::Reversed, &found);
-}
-
-#[test]
-fn sides_that_change_places_do_what_the_other_did() {
-    report(View::Swapped, &survey(View::Swapped, 2000, OTHERWISE));
+    found.iter_mut().for_each(|found| found.wrong.sort());
+    VIEWS.iter().zip(&found).for_each(|(&view, found)| report(view, found));
 }
 
 #[test]
 fn planets_that_change_places_do_what_the_others_did() {
-    report(View::Renumbered, &survey(View::Renumbered, 3000, OTHERWISE));
-}
-
-#[test]
-fn a_start_one_tooth_further_changes_nothing() {
-    report(View::Shifted, &survey(View::Shifted, 4000, OTHERWISE));
+    let [found] = survey(renumberable, 3000, RENUMBERED, [View::Renumbered]);
+    report(View::Renumbered, &found);
 }

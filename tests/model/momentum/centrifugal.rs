@@ -7,8 +7,7 @@ use bevel_differential::model::{
     BODIES, Body, CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, STATES, SideDrive, Simulation, Start,
 };
 
-use crate::angular_momentum::Differential;
-use crate::angular_momentum::solids::Solid;
+use super::solids::Solid;
 
 /// Planets that roll at `spin` on a carrier at `carrier` [rad/s], without load.
 fn rolling(carrier: f64, spin: f64) -> (Parameters, Inputs) {
@@ -81,8 +80,8 @@ fn masses_of_solids_are_those_of_the_program() {
     for spec in [GearSpec::default(), GearSpec { planet_bore: 14e-3, side_bore: 30e-3, ..GearSpec::default() }] {
         let p = Parameters { geometry: spec, ..Parameters::default() };
         let simulation = Simulation::start(&p, &Inputs::default(), 0.0).expect("a scene");
-        let (differential, found) = (Differential::of(&simulation), *simulation.inertias());
-        let [planet, side] = differential.solids;
+        let found = *simulation.inertias();
+        let [planet, side] = [0, 1].map(|i| Solid::new(&p.gears(), i, p.material.density));
         for (found, wanted) in [
             (found.planet_mass_moment, planet.moment),
             (found.planet, planet.axial),

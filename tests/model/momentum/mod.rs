@@ -1,6 +1,7 @@
-//! Forces of the teeth in space, and the angular momentum about the axle: what changes it, and how fast.
+//! Forces of the teeth in space and masses of the gears, computed without the program: from the geometry of the teeth and from the
+//! surfaces of the exported solids. `tests/python/momentum.py` balances the angular momentum with them.
 
 mod centrifugal;
 mod forces;
-mod rate;
-mod scenes;
+mod solids;
+mod space;

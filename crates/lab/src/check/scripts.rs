@@ -190,14 +190,10 @@ pub const HOSTS: Script = Script {
         vec![
             flag("require", "Fail if a host cannot be loaded"),
             flag("write", "Also renew docs/fmi.md"),
-            flag("with-fmi-sim", "Also run hosts in Rust: fmi-sim, fmi-rs and fmu-runner (builds for many minutes)"),
+            flag("with-fmi-sim", "Also run fmi-sim (builds for many minutes)"),
         ]
     },
-    needs: Needs::Own([
-        "tests/hosts",
-        "hosts/venv",
-        "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox, CasADi",
-    ]),
+    needs: Needs::Own(["tests/hosts", "hosts/venv", "fmpy, libcosimpy, ecospy, FMU Manipulation Toolbox, CasADi"]),
     file: "crates/lab/python/hosts.py",
     doing: "running hosts",
     folder: Some("hosts"),

@@ -63,10 +63,4 @@ impl UnitForce {
         let along = if side == 0 { -self.normal.y } else { self.normal.y };
         [-self.normal.z, self.normal.x, along]
     }
-
-    /// Moments per cone distance on the side gear `side` about the axle, and on the planet about its axis to the apex.
-    pub fn moments(&self, side: usize) -> [f64; 2] {
-        let moment = self.point.cross(&self.normal);
-        [if side == 0 { moment.x } else { -moment.x }, moment.z]
-    }
 }
