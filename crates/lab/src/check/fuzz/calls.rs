@@ -124,17 +124,8 @@ pub type Getter<T> = unsafe fn(ComponentPointer, *const u32, usize, *mut T, usiz
 /// Sets variables: references and their number, values and their number.
 pub type Setter<T> = unsafe fn(ComponentPointer, *const u32, usize, *const T, usize) -> Status;
 /// Unknowns, knowns, seeds and results, each with its number.
-pub type Sensitivity = unsafe fn(
-    ComponentPointer,
-    *const u32,
-    usize,
-    *const u32,
-    usize,
-    *const f64,
-    usize,
-    *mut f64,
-    usize,
-) -> Status;
+pub type Sensitivity =
+    unsafe fn(ComponentPointer, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
 type Filler = unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status;
 type Setup<B> = unsafe extern "C" fn(ComponentPointer, B, f64, f64, B, f64) -> Status;
 type Completed<B> = unsafe extern "C" fn(ComponentPointer, B, *mut B, *mut B) -> Status;
@@ -368,7 +359,8 @@ pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> (Status, Option<f64>,
     let is_within = until >= point && (until <= point + h || same_time(until, point + h));
     let mut outcome = s.result(status);
     if status == Status::Ok && !(is_reached && is_within) {
-        outcome.broken = Some(format!("a step from {point} by {h} has ended at {until}, and the time is {after:?}"));
+        outcome.broken =
+            Some(format!("a step from {point:?} by {h:?} has ended at {until:?}, and the time is {after:?}"));
     }
     outcome
 }

@@ -30,7 +30,9 @@ macro_rules! none {
 
 /// Call of a getter or setter of `shape` on variables of a kind.
 macro_rules! values {
-    ($shape:ident, $kind:expr, $function:ident) => { |s| $shape(s, $kind, |c, v, n, x, m| unsafe { $function(c, v, n, x, m) }) };
+    ($shape:ident, $kind:expr, $function:ident) => {
+        |s| $shape(s, $kind, |c, v, n, x, m| unsafe { $function(c, v, n, x, m) })
+    };
 }
 
 // SAFETY of all calls: as in `calls`
@@ -150,13 +152,15 @@ pub static VERSION: Version = Version {
     free: |c| unsafe { fmi3FreeInstance(c) },
     reset: |c| unsafe { fmi3Reset(c) },
     log_all: |c| unsafe { fmi3SetDebugLogging(c, 0, 0, ptr::null()) },
-    initialise: |c| unsafe {
-        [fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), fmi3ExitInitializationMode(c)]
-    },
+    initialise: |c| unsafe { [fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), fmi3ExitInitializationMode(c)] },
     run: |c, kind| unsafe {
         let ([mut a, mut b, mut d, mut e, mut f], mut next) = ([0; 5], 0.0);
         fmi3UpdateDiscreteStates(c, &mut a, &mut b, &mut d, &mut e, &mut f, &mut next);
-        if kind == Kind::ModelExchange { fmi3EnterContinuousTimeMode(c) } else { fmi3EnterStepMode(c) };
+        if kind == Kind::ModelExchange {
+            fmi3EnterContinuousTimeMode(c)
+        } else {
+            fmi3EnterStepMode(c)
+        };
     },
     time: |c, now| unsafe { fmi3GetFloat64(c, &(table().rows.len() as u32), 1, now, 1) },
     step: |c, point, h| unsafe {
@@ -214,8 +218,9 @@ fn make(making: &Making, host: &Host) -> ComponentPointer {
 /// Records a line of the log.
 unsafe extern "C" fn log(environment: *mut c_void, status: Status, category: Text, message: Text) {
     // SAFETY: `environment` is the host, which outlives the instance; the strings come from the FMU
-    let (host, [category, message]) =
-        unsafe { (&*environment.cast::<Host>(), [category, message].map(|text| CStr::from_ptr(text).to_string_lossy())) };
+    let (host, [category, message]) = unsafe {
+        (&*environment.cast::<Host>(), [category, message].map(|text| CStr::from_ptr(text).to_string_lossy()))
+    };
     host.recorder.lines().push(Line { status, category: category.into_owned(), message: message.into_owned() });
 }
 
@@ -235,7 +240,8 @@ unsafe extern "C" fn update(
     let count = host.updates.get() + 1;
     host.updates.set(count);
     let mut numbers = [f64::NAN; 4];
-    let references: Vec<u32> = table().outputs.iter().cycle().skip(count as usize % 97).take(3).map(|&i| i as u32).collect();
+    let references: Vec<u32> =
+        table().outputs.iter().cycle().skip(count as usize % 97).take(3).map(|&i| i as u32).collect();
     let references = [table().rows.len() as u32, references[0], references[1], references[2]];
     // SAFETY: a live instance, and room for the values
     let status = unsafe { fmi3GetFloat64(host.component.get(), references.as_ptr(), 4, numbers.as_mut_ptr(), 4) };
@@ -298,7 +304,8 @@ fn update_discrete_states(s: &mut Site) -> CallResult {
 
 fn do_step(s: &mut Site, point: f64, h: f64) -> (Status, Option<f64>, bool) {
     let (mut event, mut end, mut early, mut last) = (9u8, 9u8, 9u8, f64::NAN);
-    let (event, end, flag) = (s.place(&raw mut event, true), s.place(&raw mut end, true), s.place(&raw mut early, true));
+    let (event, end, flag) =
+        (s.place(&raw mut event, true), s.place(&raw mut end, true), s.place(&raw mut early, true));
     let reached = s.place(&raw mut last, true);
     let status = unsafe { fmi3DoStep(s.c, point, h, s.r.u8(..2), event, end, flag, reached) };
     (status, Some(last), early == 1)

@@ -109,9 +109,8 @@ impl FuzzedInstance {
     pub fn bytes(&mut self) -> Option<Vec<u8>> {
         // SAFETY: a live component; the state is NULL or this instance's own
         let status = unsafe { (self.version.get_state)(self.component, &mut self.comparison_state) };
-        let bytes = (status == Status::Ok)
-            .then(|| serialised(self.version, self.component, self.comparison_state))
-            .flatten();
+        let bytes =
+            (status == Status::Ok).then(|| serialised(self.version, self.component, self.comparison_state)).flatten();
         self.take_log();
         bytes
     }

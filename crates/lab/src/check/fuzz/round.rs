@@ -122,8 +122,7 @@ fn make_call(
     check(function, c != instance.component, is_other, instance.is_filtered, &outcome, &lines).map_err(broken)?;
     if let Some(before) = before {
         tally.compared += 1;
-        compare(function, refused, &before, instance)
-            .map_err(|what| broken(format!("{what}; it said: {lines:?}")))?;
+        compare(function, refused, &before, instance).map_err(|what| broken(format!("{what}; it said: {lines:?}")))?;
     }
     if let Some(restored) = outcome.restored
         && !instance.has_announced

@@ -106,8 +106,13 @@ impl Function {
 
     /// True if it may change the instance although it fails: a start or a step may fail halfway.
     pub fn may_change_on_failure(&self) -> bool {
-        let halfway =
-            ["DoStep", "ExitInitializationMode", "CompletedIntegratorStep", "NewDiscreteStates", "UpdateDiscreteStates"];
+        let halfway = [
+            "DoStep",
+            "ExitInitializationMode",
+            "CompletedIntegratorStep",
+            "NewDiscreteStates",
+            "UpdateDiscreteStates",
+        ];
         halfway.contains(&&self.name["fmi2".len()..])
     }
 
