@@ -5,6 +5,7 @@ them."""
 
 import numpy as np
 import pytest
+import plausible_scenes
 import random_scenes
 from bevel_differential import DifferentialError
 from integrals import Walk, motions
@@ -28,7 +29,7 @@ def scenes(fmu, method):
         if index % len(METHODS) + 1 != number:
             continue
         start = scene["start"] | {"solver.method": number, "solver.relative_tolerance": TOLERANCE, "solver.fixed_step": FIXED}
-        if start["scene.start"] == random_scenes.STEADY_HEAT:
+        if start["scene.start"] == plausible_scenes.STEADY_HEAT:
             # at this tolerance the heat's cycles take more steps than are granted, and the start is refused after seconds
             start["scene.start"] = EQUILIBRIUM
         yield index, start, [(short * size, inputs) for size, inputs in scene["steps"]]

@@ -201,7 +201,7 @@ fn derivatives_of_a_patch_contain_how_its_ends_move() {
                 let gaps: Option<&dyn Gaps> = Some(&gaps);
                 let mut deepest = 0.0f64;
                 both.look(gaps, &state, |slice: &SliceLoad| deepest = deepest.max(slice.arc));
-                let (r, h) = (both.plain.cone, 1e-3 * deepest);
+                let (r, h) = (both.plain.cone, 1e-4 * deepest);
                 let h = [h, h, h * r, 1e-3, 1e-3, 1e-3 * r];
                 if !smooth(&both, gaps, &state, &h) {
                     continue;

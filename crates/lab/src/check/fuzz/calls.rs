@@ -344,9 +344,11 @@ pub fn set_states(
     s.result(status)
 }
 
-/// Makes a step, mostly from the present time. `step(site, point, size)` returns the status, the time that was reached if the function
-/// gives it, and true if the step ended early.
-pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> (Status, Option<f64>, bool)) -> CallResult {
+/// End of a step: its status, the time that was reached if the function gives it, and true if the step ended early.
+pub type Ended = (Status, Option<f64>, bool);
+
+/// Makes a step, mostly from the present time, by `step(site, point, size)`.
+pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> Ended) -> CallResult {
     let now = s.instance.time().unwrap_or(0.0);
     let point = if s.r.chance(20) { real(s.r) } else { now };
     // no step that is meant to take hours: the host gets what it wants

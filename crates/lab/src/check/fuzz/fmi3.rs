@@ -302,7 +302,7 @@ fn update_discrete_states(s: &mut Site) -> CallResult {
     s.result(status).with(&[next]).unless(flags.contains(&9), "a flag was not written")
 }
 
-fn do_step(s: &mut Site, point: f64, h: f64) -> (Status, Option<f64>, bool) {
+fn do_step(s: &mut Site, point: f64, h: f64) -> Ended {
     let (mut event, mut end, mut early, mut last) = (9u8, 9u8, 9u8, f64::NAN);
     let (event, end, flag) =
         (s.place(&raw mut event, true), s.place(&raw mut end, true), s.place(&raw mut early, true));
