@@ -4,8 +4,8 @@ Scenes with teeth are run again with communication points at round times, as hos
 them."""
 
 import numpy as np
-import pytest
 import plausible_scenes
+import pytest
 import random_scenes
 from bevel_differential import DifferentialError
 from integrals import Walk, motions
