@@ -47,7 +47,9 @@ impl Instance {
             known.into_iter().zip(&mut sums).try_for_each(|(known, sum)| {
                 column.fill(0.0);
                 columns.write(&unknowns, std::iter::once(known), &mut column)?;
-                *sum = column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum();
+                let product = column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum();
+                // a finite seed may be so large that the sum is not
+                *sum = finite_slope(row(known.0)?, product)?;
                 Ok(())
             })
         })?;

@@ -240,11 +240,8 @@ mod tests {
 
     #[test]
     fn solution_satisfies_the_system() {
-        let mut seed = 1u64;
-        let mut random = || {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
+        let mut generator = fastrand::Rng::with_seed(1);
+        let mut random = || generator.f64() - 0.5;
         for _ in 0..20 {
             solution_satisfies::<1>(Shape { first: 1, end: 1, count: 1 }, &mut random);
             solution_satisfies::<4>(Shape { first: 3, end: 4, count: 4 }, &mut random);

@@ -1,8 +1,7 @@
-/* The life cycle of instances of both kinds in a C host: refused calls, steps, states, serialisation, random calls.
-   For memcheck: life LIBRARY GUID INPUT OUTPUT CALLS, with value references of an input and an output. */
+/* The life cycle of instances of both kinds in a C host: refused calls, steps, states, serialisation.
+   For memcheck: life LIBRARY GUID INPUT OUTPUT, with value references of an input and an output. */
 
 #include <math.h>
-#include <stdint.h>
 
 #include "fmi2.h"
 
@@ -136,63 +135,10 @@ static void exchange(void)
     FreeInstance(c);
 }
 
-static uint64_t seed = 88172645463325252u;
-
-static unsigned below(unsigned n)
-{
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return (unsigned)((seed >> 11) % n);
-}
-
-/* Random calls on two instances that exchange their states. */
-static void at_random(long calls)
-{
-    void *units[2] = {make(CO_SIMULATION), make(MODEL_EXCHANGE)}, *states[2] = {NULL, NULL};
-    for (long i = 0; i < calls; ++i) {
-        unsigned u = below(2), any[3] = {below(420), below(420), below(420)}, n = below(4);
-        void *c = units[u];
-        double reals[3] = {below(2000) - 1e3, NAN, 1e-3}, room[64], now = 0.0;
-        int integers[3] = {(int)below(30), 1, -1}, event, end;
-        EventInfo info;
-        Status status = OK;
-        switch (below(24)) {
-        case 0: status = SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0); break;
-        case 1: status = EnterInitializationMode(c); break;
-        case 2: status = ExitInitializationMode(c); break;
-        case 3: status = below(20) ? OK : Terminate(c); break;
-        case 4: status = below(10) ? OK : Reset(c); break;
-        case 5: status = SetReal(c, any, n, reals); break;
-        case 6: status = SetInteger(c, any, n, integers); break;
-        case 7: status = SetBoolean(c, any, n, integers); break;
-        case 8: status = GetReal(c, any, n, room); break;
-        case 9: status = GetInteger(c, any, n, integers); break;
-        case 10: status = GetFMUstate(c, &states[below(2)]); break;
-        case 11: status = SetFMUstate(c, states[below(2)]); break;
-        case 12: status = FreeFMUstate(c, &states[below(2)]); break;
-        case 13: status = GetDirectionalDerivative(c, &output, 1, &input, 1, &(double){1.0}, room); break;
-        case 14: status = NewDiscreteStates(c, &info); break;
-        case 15: status = EnterContinuousTimeMode(c); break;
-        case 16: status = CompletedIntegratorStep(c, 1, &event, &end); break;
-        case 17: status = SetTime(c, below(100) * 1e-6); break;
-        case 18: status = GetDerivatives(c, room, STATES); break;
-        case 19: status = GetEventIndicators(c, room, INDICATORS); break;
-        case 20: status = GetStatus(c, (int)below(4), &status); break;
-        default:
-            GetRealStatus(c, 2, &now);
-            status = DoStep(c, now, 1e-5, 1);
-        }
-        MUST(status <= ERROR);
-    }
-    for (int k = 0; k < 2; ++k)
-        MUST(FreeFMUstate(units[k], &states[k]) == OK);
-    FreeInstance(units[0]);
-    FreeInstance(units[1]);
-}
-
 int main(int count, char **arguments)
 {
-    if (count != 6) {
-        fprintf(stderr, "usage: life LIBRARY GUID INPUT OUTPUT CALLS\n");
+    if (count != 5) {
+        fprintf(stderr, "usage: life LIBRARY GUID INPUT OUTPUT\n");
         return 2;
     }
     open_library(arguments[1]);
@@ -204,7 +150,6 @@ int main(int count, char **arguments)
         failed_initialisation(kind);
     steps();
     exchange();
-    at_random(atol(arguments[5]));
     printf("%ld messages\n", lines);
     return 0;
 }

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each test file uses a part
 
 pub mod counting_allocator;
+pub mod random;
 pub mod recorder;
 
 use std::ffi::CString;

@@ -17,6 +17,8 @@ mod mesh_potential;
 mod mesh_rotated_flanks;
 mod mesh_shared;
 mod profiles;
+#[path = "../common/random.rs"]
+mod random;
 mod root_loads;
 mod solid_contact;
 mod stiffness_pairs;

@@ -1,7 +1,8 @@
 //! Conjugate flanks: both gears' flanks, turned by s/sinδ_b, meet along the great circle of action for any pair.
 
-use crate::mesh_explicit::{Lcg, V3, about, pitch_angles, random_spec};
+use crate::mesh_explicit::{V3, about, pitch_angles, random_spec};
 use bevel_differential::geometry::Pair;
+use fastrand::Rng;
 use nalgebra::Rotation3;
 
 const PAIRS: usize = 400;
@@ -9,7 +10,7 @@ const STEPS: i32 = 24;
 
 #[test]
 fn the_gear_law_holds_on_the_sphere_for_any_pair() {
-    let mut random = Lcg(1);
+    let mut random = Rng::with_seed(1);
     for _ in 0..PAIRS {
         let spec = random_spec(&mut random, false);
         let pair = Pair::new(&spec);
@@ -30,7 +31,7 @@ fn the_gear_law_holds_on_the_sphere_for_any_pair() {
 
 #[test]
 fn the_line_of_action_touches_both_base_circles_at_the_arcs_psi() {
-    let mut random = Lcg(2);
+    let mut random = Rng::with_seed(2);
     for _ in 0..PAIRS {
         let spec = random_spec(&mut random, false);
         let pair = Pair::new(&spec);
@@ -64,7 +65,7 @@ fn line_of_action(pressure: &f64, pair: &Pair) -> (V3, V3, [V3; 2]) {
 
 #[test]
 fn rotated_flanks_of_random_pairs_coincide_along_the_path_with_common_normals() {
-    let mut random = Lcg(3);
+    let mut random = Rng::with_seed(3);
     let (mut worst_point, mut worst_normal, mut worst_lever) = (0.0f64, 0.0f64, 0.0f64);
     for _ in 0..PAIRS {
         let spec = random_spec(&mut random, false);

@@ -1,4 +1,3 @@
 //! The C interface of FMI 3.0.
 
-mod random;
 mod sources;

@@ -3,11 +3,8 @@
 use bevel_differential::integrate::*;
 
 fn curves() -> Vec<Curve> {
-    let mut seed = 1u64;
-    let mut draw = || {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut draw = || 2.0 * random.f64() - 1.0;
     let mut all: Vec<Curve> = (0..300)
         .map(|_| Curve { start: draw(), end: draw(), coefficients: [8.0 * draw(), 8.0 * draw(), 8.0 * draw()] })
         .collect();

@@ -59,11 +59,9 @@ fn ways(stop: f64) -> Vec<Vec<f64>> {
         let count = (stop / h).round();
         (1..=count as u32).map(|k| stop * f64::from(k) / count).collect::<Vec<f64>>()
     };
-    let (mut seed, mut time, mut irregular) = (1u64, 0.0, Vec::new());
+    let (mut random, mut time, mut irregular) = (fastrand::Rng::with_seed(1), 0.0, Vec::new());
     while time < stop {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        let random = (seed >> 11) as f64 / (1u64 << 53) as f64;
-        time = f64::min(time + 10f64.powf(-5.0 + 3.5 * random), stop);
+        time = f64::min(time + 10f64.powf(-5.0 + 3.5 * random.f64()), stop);
         irregular.push(time);
     }
     vec![even(1e-5), even(1e-3), even(7e-3), irregular]

@@ -13,8 +13,8 @@ from sampling import spread
 EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
 ADAPTIVE, FIXED_STEP, RADAU = 1, 2, 3
 MODULE = 4.5e-3
-# number of choices when the seeds were chosen: a start with steady heat is drawn apart
-FIRST_CHOICES = {"scene.start": 3}
+# starts
+EQUILIBRIUM, STEADY_HEAT = 1, 4
 
 # in place of start values of zero
 TYPICAL = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1, "bearing_drag.carrier_torque": 0.5,
@@ -97,7 +97,7 @@ def value(variable, u, scene):
     if variable.kind == "Boolean":
         return u < 0.5
     if variable.kind == "Enumeration":
-        return 1 + int(u * FIRST_CHOICES.get(variable.name, len(variable.literals)))
+        return 1 + int(u * len(variable.literals))
     low, high = limits(variable)
     if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
@@ -190,6 +190,9 @@ def effects(scene, u):
     level = {IDEAL: "ideal", LUMPED: "lumped", TOOTH: "tooth"}[gear_contact]
     known = effects_list.effects(os.environ["FMU"])
     scene.update({effect.switch: False for effect in known if effect.switch and level not in effect.contact})
+    # steady heat is that of scenes that warm up
+    if scene["scene.start"] == STEADY_HEAT and not scene["effects.warm_up"]:
+        scene["scene.start"] = EQUILIBRIUM
     if gear_contact == IDEAL:
         scene["limited_slip.torque_coefficient"] = 0.0
     grade = int(u["tooth_errors.accuracy_grade"] * 10)

@@ -2,8 +2,6 @@
 
 from math import copysign, exp, log
 
-import numpy as np
-
 # ranges that span more than this are drawn by their logarithm
 DECADES = 100.0
 # where a range begins at zero, its logarithm begins this much below the start value, or below the end without one
@@ -12,10 +10,9 @@ BELOW_START, BELOW_END = 1e-3, 1e-9
 AT_ZERO = 0.1
 
 
-def latin(count, dimensions, random):
-    """Latin hypercube: in each dimension one value in each of `count` equal parts of [0, 1)."""
-    columns = [random.permutation(count) for _ in range(dimensions)]
-    return (np.stack(columns, axis=1) + random.random((count, dimensions))) / count
+def latin(count, random):
+    """A dimension of a Latin hypercube: one value in each of `count` equal parts of [0, 1), in any order."""
+    return (random.permutation(count) + random.random(count)) / count
 
 
 def spread(u, low, high, start):

@@ -4,6 +4,7 @@ Scenes with teeth are run again with communication points at round times, as hos
 them."""
 
 import numpy as np
+import plausible_scenes
 import pytest
 import random_scenes
 from bevel_differential import DifferentialError
@@ -28,7 +29,7 @@ def scenes(fmu, method):
         if index % len(METHODS) + 1 != number:
             continue
         start = scene["start"] | {"solver.method": number, "solver.relative_tolerance": TOLERANCE, "solver.fixed_step": FIXED}
-        if start["scene.start"] == random_scenes.STEADY_HEAT:
+        if start["scene.start"] == plausible_scenes.STEADY_HEAT:
             # at this tolerance the heat's cycles take more steps than are granted, and the start is refused after seconds
             start["scene.start"] = EQUILIBRIUM
         yield index, start, [(short * size, inputs) for size, inputs in scene["steps"]]

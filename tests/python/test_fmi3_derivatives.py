@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from bevel_differential import Scene, shipped_scenes
 from fmi3 import Unit3
+from fmpy.fmi1 import FMICallException
 
 # |T_left - T_right| and which wheel is ahead: they have a kink where the wheels are alike
 KINKED = {"locking_value", "torque_bias_ratio"}
@@ -120,3 +121,11 @@ def test_the_adjoint_is_the_transpose(unit):
     size = np.abs(columns * seed).sum(axis=1).max(initial=1e-300)
     assert np.max(np.abs(columns @ seed - adjoint)) <= 1e-12 * size
     assert np.count_nonzero(adjoint) >= 5
+
+
+def test_an_adjoint_that_is_no_finite_number_is_refused(unit):
+    names, knowns = unknowns(unit), inputs(unit)
+    slopes = unit.sensitivity(names, knowns, np.ones(len(names)), adjoint=True)
+    assert np.abs(slopes).max() > 1e-3
+    with pytest.raises(FMICallException):
+        unit.sensitivity(names, knowns, np.full(len(names), 1.7e308), adjoint=True)

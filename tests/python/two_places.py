@@ -13,6 +13,8 @@ SPEED = 2
 SIDES = ["left", "right"]
 SIGMA = {"left": 1.0, "right": -1.0}
 PAIRS, ENDS = 3, ("toe", "middle", "heel")
+# the pressure at an end of a tilted face is extrapolated from places within, where the largest is taken
+EXTRAPOLATED = 1e-4
 CLOSE = 1e-9
 # base pitches between the ends of the path and pairs whose place is compared
 MARGIN = 0.01
@@ -245,7 +247,7 @@ def stresses(scene, o):
         ends = ENDS if grows else ["middle"]
         for end in ends:
             own = sqrt(factor) * pair[f"{end}_pressure"]
-            yield f"pressure at the {end} below the largest", AtMost(own), o["stress.contact_max"], own
+            yield f"pressure at the {end} below the largest", AtMost((1.0 - EXTRAPOLATED) * own), o["stress.contact_max"], own
     rated = o["stress.contact_rated"]
     if scene.is_even and pitch > 0.0:
         yield scene.constant("rated pressure over that at the pitch point", rated / pitch, 1.0)

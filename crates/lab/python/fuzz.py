@@ -1,6 +1,6 @@
 """Calls at random in several processes of the laboratory's program, so that a crash or a hang is reported with its seed.
 
-usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND    CALLS: of a round; COMMAND: how users call the program"""
+usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND [FMI]    CALLS: of a round; COMMAND: how users call the program"""
 
 import json
 import os
@@ -24,10 +24,10 @@ class Worker:
     """A process that works off rounds from a seed on. `round`: the seed of the present one; `rounds`: how many were begun; `tally`: what
     it counted; `why`: what went wrong."""
 
-    def __init__(self, program, seed, rounds, calls, command):
-        self.again = f"{command} fuzz --calls {calls} --seed "
+    def __init__(self, program, seed, rounds, calls, command, version):
+        self.again = " ".join([command, "fuzz", *version, "--calls", str(calls), "--seed "])
         self.round, self.rounds, self.tally, self.why, self.since = seed, 0, None, None, time.monotonic()
-        self.process = subprocess.Popen([program, "fuzz", "--worker", "--seed", str(seed), "--calls", str(rounds * calls)], text=True,
+        self.process = subprocess.Popen([program, "fuzz", "--worker", "--seed", str(seed), "--calls", str(rounds * calls), *version], text=True,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def follow(self, ended):
@@ -89,20 +89,26 @@ def page(tallies):
     rows = [[name, *map(str, (sum(counts), *counts)), f"{1e6 * seconds[name] / max(sum(counts), 1):.1f}", f"{1e3 * longest[name]:.1f}"]
             for name, counts in statuses.items()]
     most = max((tally["longest"] for tally in tallies), key=lambda call: call["seconds"])
-    scenes, compared = (sum(tally[name] for tally in tallies) for name in ("scenes", "compared"))
+    scenes, compared, updates = (sum(tally[name] for tally in tallies) for name in ("scenes", "compared", "updates"))
+
+    def done(name):
+        return sum(statuses.get(f"fmi{version}{name}", [0])[0] for version in (2, 3))
+
     text = (f"longest call: {most['function'] or 'none'}, {most['seconds']:.3f} s of the processor (call {most['at']} of the round "
-            f"with seed {most['seed']}); simulations started: {scenes}; communication steps done: {statuses['fmi2DoStep'][0]}; steps "
-            f"completed in model exchange: {statuses['fmi2CompletedIntegratorStep'][0]}; states compared before and after a call: {compared}")
+            f"with seed {most['seed']}); simulations started: {scenes}; communication steps done: {done('DoStep')}; updates within them: "
+            f"{updates}; steps completed in model exchange: {done('CompletedIntegratorStep')}; states compared before and after a call: "
+            f"{compared}")
     return f"{markdown([HEAD, *rows])}\n{textwrap.fill(text, 118)}"
 
 
 def main():
     program, rounds, calls, seed, command = sys.argv[1], *map(int, sys.argv[2:5]), sys.argv[5]
+    version = ["--fmi", *sys.argv[6:]] if len(sys.argv) > 6 else []
     begin, first, workers = time.monotonic(), seed, []
     crew = min(os.cpu_count() or 1, max(rounds, 1))
     for k in range(crew):
         share = rounds // crew + (k < rounds % crew)
-        workers.append(Worker(program, first, share, calls, command))
+        workers.append(Worker(program, first, share, calls, command, version))
         first += share
     print(page(worked(workers, rounds, calls)))
     print(f"every promise kept in {rounds} rounds, {time.monotonic() - begin:.0f} s")

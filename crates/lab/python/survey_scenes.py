@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 # communication steps of a scene, and cycles of the teeth that it lasts for
 STEPS, CYCLES = 240.0, 2.6
 # load of a wheel [N·m] per cube of the outer cone distance [m³], around which loads are drawn: that of the study
@@ -12,34 +14,6 @@ WANTS = ["left.speed:mean", "left.speed:peak_to_peak", "right.speed:rms", "carri
          "planet[1].left_normal_force:mean", "planet[1].left_normal_force:max", "planet[1].left_transmission_error:mean",
          "planet[1].left_transmission_error:peak_to_peak", "planet[1].left_transmission_error:mesh_order_1", "efficiency:mean",
          "planet[1].spin_speed:max"]
-ALL = 2**64 - 1
-
-
-class Random:
-    """Numbers at random, the same for the same seed on every machine: SplitMix64 of Steele, Lea and Flood (2014)."""
-
-    def __init__(self, seed):
-        self.state = seed & ALL
-
-    def bits(self):
-        """53 of them."""
-        self.state = (self.state + 0x9E3779B97F4A7C15) & ALL
-        a = ((self.state ^ (self.state >> 30)) * 0xBF58476D1CE4E5B9) & ALL
-        b = ((a ^ (a >> 27)) * 0x94D049BB133111EB) & ALL
-        return (b ^ (b >> 31)) >> 11
-
-    def fraction(self):
-        return self.bits() / 2.0**53
-
-    def between(self, low, high):
-        return low + self.fraction() * (high - low)
-
-    def whole(self, low, high):
-        return low + self.bits() % (high - low + 1)
-
-    def share(self, share):
-        """True for a share of all draws."""
-        return self.fraction() < share
 
 
 @dataclass(frozen=True)
@@ -60,21 +34,21 @@ class Drawn:
 
 def drawn(seed, index):
     """Scene number `index` of a seed; some cannot be built."""
-    d = Random(seed * 0x9E3779B9 + index)
-    planet = d.whole(9, 14)
-    side = planet + d.whole(3, 12)
+    d = np.random.default_rng([seed, index])
+    planet = int(d.integers(9, 15))
+    side = planet + int(d.integers(3, 13))
     fitting = [count for count in (2, 3, 4) if 2 * side % count == 0]
-    module = d.between(2.5e-3, 7e-3)
+    module = d.uniform(2.5e-3, 7e-3)
     cone = 0.5 * module * math.hypot(planet, side)
     values = {"geometry.planet_teeth": planet, "geometry.side_teeth": side,
-              "geometry.planet_count": fitting[d.whole(0, len(fitting) - 1)], "geometry.module": module, "geometry.pressure_angle": f"{d.between(20.0, 24.0):.2f} deg",
-              "geometry.face_width": cone * d.between(0.2, 0.33), "geometry.backlash": module * d.between(0.01, 0.03)}
-    if d.share(0.5):
-        values |= {"geometry.planet_bore": module * d.between(2.0, 3.5), "geometry.side_bore": module * d.between(4.0, 7.0)}
-    load, spin, carrier = LOAD * cone**3 * d.between(0.1, 1.2), d.between(400.0, 1500.0), d.between(500.0, 2500.0)
+              "geometry.planet_count": int(d.choice(fitting)), "geometry.module": module, "geometry.pressure_angle": f"{d.uniform(20.0, 24.0):.2f} deg",
+              "geometry.face_width": cone * d.uniform(0.2, 0.33), "geometry.backlash": module * d.uniform(0.01, 0.03)}
+    if d.random() < 0.5:
+        values |= {"geometry.planet_bore": module * d.uniform(2.0, 3.5), "geometry.side_bore": module * d.uniform(4.0, 7.0)}
+    load, spin, carrier = LOAD * cone**3 * d.uniform(0.1, 1.2), d.uniform(400.0, 1500.0), d.uniform(500.0, 2500.0)
     values |= {"carrier.speed_command": f"{carrier:.1f} deg/s", **_drive(d, load, spin, carrier, planet / side)}
     values |= _effects(d, module, load)
-    first = d.whole(0, len(WANTS) - 1)
+    first = int(d.integers(len(WANTS)))
     stop = CYCLES * 360.0 / (planet * spin)
     # of different kinds
     wants = [WANTS[(first + k) % len(WANTS)] for k in (0, 5, 9)]
@@ -83,7 +57,7 @@ def drawn(seed, index):
 
 def _drive(d, load, spin, carrier, ratio):
     """A turn with imposed spin, wheels that are driven by speed, or wheels with inertia."""
-    kind = d.whole(0, 2)
+    kind = int(d.integers(3))
     if kind == 1:
         values = {"scene.carrier_drive": "torque", "carrier.torque_command": 2.0 * load}
         for side, sign in (("left", 1.0), ("right", -1.0)):
@@ -92,25 +66,25 @@ def _drive(d, load, spin, carrier, ratio):
     values = {"scene.planet_spin": "imposed", "spin.command": f"{spin:.1f} deg/s",
               "left.load_torque": load, "right.load_torque": load}
     if kind == 2:
-        values |= {"inertia.left_end": load * 1e-3, "inertia.right_end": load * 1e-3 * d.between(0.5, 2.0)}
+        values |= {"inertia.left_end": load * 1e-3, "inertia.right_end": load * 1e-3 * d.uniform(0.5, 2.0)}
     return values
 
 
 def _effects(d, module, load):
     values = {}
-    if d.share(0.5):
-        values |= {"effects.tooth_errors": True, "tooth_errors.accuracy_grade": d.whole(5, 8), "tooth_errors.seed": d.whole(1, 1000)}
-        if d.share(0.5):
-            values |= {f"tooth_errors.{gear}_tip_relief": module * d.between(0.002, 0.006) for gear in ("planet", "side")}
-        if d.share(0.3):
-            values["tooth_errors.crowning"] = module * d.between(0.001, 0.004)
+    if d.random() < 0.5:
+        values |= {"effects.tooth_errors": True, "tooth_errors.accuracy_grade": int(d.integers(5, 9)), "tooth_errors.seed": int(d.integers(1, 1001))}
+        if d.random() < 0.5:
+            values |= {f"tooth_errors.{gear}_tip_relief": module * d.uniform(0.002, 0.006) for gear in ("planet", "side")}
+        if d.random() < 0.3:
+            values["tooth_errors.crowning"] = module * d.uniform(0.001, 0.004)
     for effect, share in (("tooth_friction", 0.5), ("thrust_friction", 0.4), ("bearing_drag", 0.4), ("limited_slip", 0.2)):
-        if d.share(share):
+        if d.random() < share:
             values[f"effects.{effect}"] = True
     values["limited_slip.preload"] = 0.05 * load
     values["limited_slip.torque_coefficient"] = 0.1
     values |= {"bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4,
                "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
-    if d.share(0.3):
+    if d.random() < 0.3:
         values["effects.pin_compliance"] = True
     return values

@@ -3,9 +3,10 @@
 use bevel_differential::contact::detailed::DetailedState;
 use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
+use fastrand::Rng;
 
 use super::setup::{Both, STATES, coulomb, random_state};
-use crate::mesh_explicit::{Lcg, V3};
+use crate::mesh_explicit::V3;
 use crate::mesh_laws::{GEARS, Kind, UNDAMPED};
 
 /// Angular velocities [rad/s] of planet and side gear relative to the carrier that make the rates of q and x.
@@ -19,7 +20,7 @@ fn friction_dissipates_the_power_of_sliding_flanks() {
     const MU: f64 = 0.07;
     let (mut worst, mut shares) = (0.0f64, 0);
     for kind in [Kind::Impact, Kind::Line, Kind::LineWeber] {
-        let mut random = Lcg(25);
+        let mut random = Rng::with_seed(25);
         for of in GEARS {
             let plain = Both::new(of, kind, UNDAMPED);
             let rough = Both::made(of, kind, UNDAMPED, false, Some(coulomb(MU, 1e-9)));
@@ -77,7 +78,7 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
         let pair = &plain.pair;
         let rough = Both::made(of, Kind::Line, UNDAMPED, false, Some(coulomb(MU, 1e-9)));
         let (start, tangent, axes) = line_of_action(pair);
-        let mut random = Lcg(26);
+        let mut random = Rng::with_seed(26);
         let mut seen = 0;
         for _ in 0..20 * STATES {
             let state = random_state(&mut random, pair, 0.0);

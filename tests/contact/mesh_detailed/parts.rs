@@ -1,15 +1,15 @@
 //! The parts of a normal force along both axes are those of the flank's normal in space, at tip corners too.
 
 use bevel_differential::geometry::action::LineOfAction;
+use fastrand::Rng;
 use nalgebra::Vector3;
 
 use super::setup::{Both, STATES, random_state};
-use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{GEARS, Kind, UNDAMPED};
 
 #[test]
 fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
-    let mut random = Lcg(31);
+    let mut random = Rng::with_seed(31);
     let mut spots = [0; 3];
     for of in GEARS {
         let both = Both::new(of, Kind::Line, UNDAMPED);

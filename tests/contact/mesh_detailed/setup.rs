@@ -1,5 +1,6 @@
 //! Meshes with gaps and friction, random states, and differences that stay clear of switches.
 
+use crate::random::Draws;
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
     Detailed, DetailedLoad, DetailedState, Face, Gaps, MeshTeeth, Opening, PairName, SliceLoad,
@@ -10,8 +11,8 @@ use bevel_differential::contact::tooth_friction::ToothFriction;
 use bevel_differential::friction::ToothFrictionSpec;
 use bevel_differential::geometry::Pair;
 use bevel_differential::numeric::{Dual, Jet};
+use fastrand::Rng;
 
-use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, gears};
 
 pub const STATES: usize = 2000;
@@ -127,7 +128,7 @@ impl Gaps for Even {
     }
 }
 
-pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState {
+pub fn random_state(random: &mut Rng, pair: &Pair, w: f64) -> DetailedState {
     let depth = random.between(1e-5, DEEPEST);
     let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
     DetailedState {

@@ -5,44 +5,26 @@
 
 #![allow(dead_code)] // each test binary uses its own part
 
+use crate::random::Draws;
 use bevel_differential::geometry::{AddendumSystem, GearSpec};
+use fastrand::Rng;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use std::f64::consts::{PI, TAU};
 
 pub type V3 = Vector3<f64>;
 
-/// Numerical Recipes' 64-bit LCG: the same random numbers everywhere.
-pub struct Lcg(pub u64);
-
-impl Lcg {
-    /// Uniform in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Integer from `low` to `high` inclusive.
-    pub fn integer(&mut self, low: i32, high: i32) -> i32 {
-        low + (self.unit() * f64::from(high - low + 1)) as i32
-    }
-}
-
 /// Random gear pairs whose gears stay well inside a half space (tips below 85°); `right` fixes Σ to 90°.
-pub fn random_spec(random: &mut Lcg, right: bool) -> GearSpec {
+pub fn random_spec(random: &mut Rng, right: bool) -> GearSpec {
     loop {
         let spec = GearSpec {
             module: random.between(1e-3, 10e-3),
-            planet_teeth: random.integer(6, 40),
-            side_teeth: random.integer(6, 40),
+            planet_teeth: random.whole(6, 40),
+            side_teeth: random.whole(6, 40),
             pressure_angle: random.between(14.5, 27.0).to_radians(),
             shaft_angle: if right { PI / 2.0 } else { random.between(50.0, 130.0).to_radians() },
             backlash: 0.0,
             addendum_system: [AddendumSystem::Standard, AddendumSystem::Gleason, AddendumSystem::Iso23509]
-                [random.integer(0, 2) as usize],
+                [random.whole(0, 2) as usize],
             ..GearSpec::default()
         };
         let (delta, _) = pitch_angles(&spec);

@@ -3,13 +3,13 @@
 use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::corner::CornerGap;
+use fastrand::Rng;
 
 use super::setup::{OTHERS, STATES, difference, impact_meshes, loaded, random_state, smooth};
-use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{RESTITUTION, STEP, UNDAMPED, meshes};
 
 fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)], has_pairs: bool) {
-    let mut random = Lcg(11);
+    let mut random = Rng::with_seed(11);
     let (mut worst, mut spots) = (0.0f64, [0; 3]);
     for (mesh, pair) in meshes {
         for _ in 0..STATES {

@@ -1,11 +1,12 @@
 //! Meshes under IMPACT, random states, and differences that stay clear of switches.
 
+use crate::random::Draws;
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::pairs::{Flank, Spot, ToothPair};
 use bevel_differential::geometry::Pair;
+use fastrand::Rng;
 
-use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{Kind, PER_FULL_DEPTH, meshes};
 
 pub const STATES: usize = 4000;
@@ -25,7 +26,7 @@ pub fn at(position: [f64; 2]) -> MeshState {
     MeshState { position, ..MeshState::default() }
 }
 
-pub fn random_state(random: &mut Lcg, pair: &Pair) -> MeshState {
+pub fn random_state(random: &mut Rng, pair: &Pair) -> MeshState {
     let depth = random.between(1e-5, DEEPEST);
     let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
     MeshState {

@@ -1,5 +1,6 @@
 //! Both meshes of a planet on the bodies of its gears, and random states.
 
+use crate::random::Draws;
 use bevel_differential::contact::bodies::{MeshOnBodies, PairCouplings, Support};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
@@ -15,8 +16,7 @@ use bevel_differential::contact::stiffness::{Elasticity, PairStiffness, RootSpec
 use bevel_differential::contact::tooth_friction::ToothFriction;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::numeric::Jet;
-
-use crate::mesh_explicit::Lcg;
+use fastrand::Rng;
 
 pub const STEEL: Elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
 pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 1e4 };
@@ -186,12 +186,12 @@ impl Gaps for Waves {
 }
 
 /// A state of both meshes: each on either flank, a third of them within the lash or barely out of it.
-pub fn random_states(random: &mut Lcg, pair: &Pair, w: f64) -> [DetailedState; 2] {
+pub fn random_states(random: &mut Rng, pair: &Pair, w: f64) -> [DetailedState; 2] {
     [0, 1].map(|_| {
         let depth =
             if random.between(0.0, 3.0) < 1.0 { random.between(-3e-4, 3e-4) } else { random.between(1e-5, 2e-3) };
         let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
-        let between = |random: &mut Lcg, size: f64| random.between(-size, size);
+        let between = |random: &mut Rng, size: f64| random.between(-size, size);
         let axial = if w == 0.0 { [0.0; 2] } else { [between(random, w), between(random, 0.02)] };
         DetailedState {
             position: [

@@ -1,8 +1,10 @@
 //! Gear pairs for tests of tooth stiffness: those of the references, and random ones as odd as the interface admits.
 #![allow(dead_code)] // each test file uses its part
 
+use crate::random::Draws;
 use bevel_differential::contact::stiffness::{Elasticity, PairStiffness, RootSpec};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
+use fastrand::Rng;
 
 /// Pa per N/(mm·µm).
 pub const PER_MM_UM: f64 = 1e9;
@@ -40,27 +42,13 @@ pub fn default() -> PairStiffness {
     stiffness(&GearSpec::default(), RootSpec::default().fillet)
 }
 
-/// Uniform numbers in [0, 1): a 64-bit linear congruential generator (Knuth's constants).
-struct Uniform(u64);
-
-impl Uniform {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
-
 /// Endless specifications.
 pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
-    let mut u = Uniform(seed);
+    let mut u = Rng::with_seed(seed);
     std::iter::repeat_with(move || {
         // few teeth as often as many
-        let teeth = |u: &mut Uniform| (5.0 * 40.999f64.powf(u.next())) as i32;
-        let system = (u.next() * 6.0) as i32;
+        let teeth = |u: &mut Rng| (5.0 * 40.999f64.powf(u.f64())) as i32;
+        let system = (u.f64() * 6.0) as i32;
         let (planet_teeth, side_teeth) = (teeth(&mut u), teeth(&mut u));
         let module = 1e-3 * u.between(0.5, 20.0);
         // odd addenda with dedenda that leave some clearance
@@ -71,8 +59,8 @@ pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
             planet_teeth,
             side_teeth,
             pressure_angle: u.between(10.0, 30.0).to_radians(),
-            shaft_angle: if u.next() < 0.5 { 90.0 } else { u.between(40.0, 130.0) }.to_radians(),
-            backlash: if u.next() < 0.5 { 0.0 } else { module * u.between(0.0, 0.1) },
+            shaft_angle: if u.f64() < 0.5 { 90.0 } else { u.between(40.0, 130.0) }.to_radians(),
+            backlash: if u.f64() < 0.5 { 0.0 } else { module * u.between(0.0, 0.1) },
             addendum_system: match system {
                 0 => AddendumSystem::Standard,
                 1 => AddendumSystem::Gleason,

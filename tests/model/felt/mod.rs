@@ -5,13 +5,15 @@ mod ways;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use crate::mirror::random::{self, Draw};
+use crate::common::random::Draws;
+use crate::mirror::random;
 use crate::mirror::scene::Step;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{Situation, is_felt};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
+use fastrand::Rng;
 use ways::{Test, ways};
 
 /// Gears of starts before: most values do not shape them, and what does is tried against fresh ones in `gear_cache`.
@@ -28,7 +30,7 @@ struct Run {
 impl Run {
     fn random(index: u64) -> Option<Self> {
         let mut scene = random::scene(index)?;
-        random::warm(&mut Draw::new(index ^ random::WARM), &mut scene.parameters);
+        random::warm(&mut Rng::with_seed(index ^ random::WARM), &mut scene.parameters);
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
 
@@ -113,7 +115,7 @@ impl Run {
 }
 
 /// Another value of `row` within its range.
-fn other(row: &Variable, now: f64, d: &mut Draw) -> f64 {
+fn other(row: &Variable, now: f64, d: &mut Rng) -> f64 {
     match row.access {
         Access::Boolean(_) => 1.0 - now,
         Access::Enumeration(kind, ..) => {
@@ -124,7 +126,7 @@ fn other(row: &Variable, now: f64, d: &mut Draw) -> f64 {
             let Range { min, max } = row.range.unwrap_or(Range { min: 0.0, max: 1.0 });
             let near = now * d.between(0.7, 1.3);
             let far = min.max(0.0) + (max - min.max(0.0)) * 10f64.powf(d.between(-5.0, 0.0));
-            let value = if now != 0.0 && d.chance(0.7) { near } else { far }.clamp(min, max);
+            let value = if now != 0.0 && d.share(0.7) { near } else { far }.clamp(min, max);
             if matches!(row.access, Access::Integer(_)) { value.round() } else { value }
         }
     }
@@ -137,7 +139,7 @@ fn settable() -> impl Iterator<Item = (usize, &'static Variable)> {
 }
 
 /// Makes `test` hold.
-fn satisfy(run: &mut Run, test: &Test, d: &mut Draw) {
+fn satisfy(run: &mut Run, test: &Test, d: &mut Rng) {
     let (row, start) = (test.row, Situation::START);
     let value = match test.sign {
         '=' => test.values[d.whole(0, test.values.len() as i32 - 1) as usize],
@@ -174,11 +176,11 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
     let (mut compared, mut wrong) = (0, Vec::new());
     for index in 0..count {
         let Some(mut run) = Run::random(index) else { continue };
-        let d = &mut Draw::new(index ^ 0x5eed);
+        let d = &mut Rng::with_seed(index ^ 0x5eed);
         // conditions that scenes seldom meet by themselves
         for (_, row) in settable() {
             for test in ways(row).concat() {
-                if !d.chance(0.03) {
+                if !d.share(0.03) {
                     continue;
                 }
                 let before = run.clone();
@@ -285,7 +287,7 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
 struct Case {
     run: Run,
     expected: Vec<u64>,
-    draw: Draw,
+    draw: Rng,
 }
 
 /// How the tooth fault of a case is set, where a row of it is looked for: a tooth that is broken, or that breaks.
@@ -304,7 +306,7 @@ impl Cases {
 
     fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<Case> {
         let mut run = Run::random(1000 + attempt)?;
-        let mut draw = Draw::new(attempt ^ 0xfee1);
+        let mut draw = Rng::with_seed(attempt ^ 0xfee1);
         if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
             (fault.at_onset, fault.onset, fault.tooth) = (breaks, 1e-6, 0);

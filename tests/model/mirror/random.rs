@@ -8,7 +8,10 @@ use bevel_differential::model::{
     CarrierDrive, GearContact, InputDerivatives, Inputs, Method, Parameters, PlanetSpin, SideDrive, Start,
 };
 
+use fastrand::Rng;
+
 use super::scene::{Scene, Step};
+use crate::common::random::Draws;
 
 /// Communication steps of a scene.
 const STEPS: usize = 14;
@@ -20,58 +23,16 @@ const LATER: u64 = 1 << 40;
 const ROLLING: u64 = 1 << 41;
 pub const WARM: u64 = 1 << 42;
 
-/// SplitMix64.
-#[derive(Clone)]
-pub struct Draw(u64);
-
-impl Draw {
-    pub fn new(seed: u64) -> Self {
-        let mut draw = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        draw.unit();
-        draw
-    }
-
-    /// Evenly from 0 to 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + self.unit() * (high - low)
-    }
-
-    /// By logarithm, up to `factor` times more or less than `middle`.
-    fn about(&mut self, middle: f64, factor: f64) -> f64 {
-        middle * factor.powf(self.between(-1.0, 1.0))
-    }
-
-    pub fn chance(&mut self, share: f64) -> bool {
-        self.unit() < share
-    }
-
-    pub fn whole(&mut self, low: i32, high: i32) -> i32 {
-        low + (self.unit() * f64::from(high - low + 1)) as i32
-    }
-
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.unit() * choices.len() as f64) as usize]
-    }
-}
-
 /// Scene number `index`; some cannot be built or loaded.
 pub fn scene(index: u64) -> Option<Scene> {
-    let d = &mut Draw::new(index);
+    let d = &mut Rng::with_seed(index);
     let mut p = Parameters::default();
     gears(d, &mut p);
     contact(d, &mut p);
     drives(d, &mut p);
     effects(d, &mut p);
-    bodies(&mut Draw::new(!index), &mut p);
-    later(&mut Draw::new(index ^ LATER), &mut p);
+    bodies(&mut Rng::with_seed(!index), &mut p);
+    later(&mut Rng::with_seed(index ^ LATER), &mut p);
     solver(d, &mut p);
     let inputs = inputs(d, &p);
     let duration = d.between(3e-3, 8e-3);
@@ -79,39 +40,43 @@ pub fn scene(index: u64) -> Option<Scene> {
     Scene::new(p, inputs, steps).ok()
 }
 
-fn gears(d: &mut Draw, p: &mut Parameters) {
+fn gears(d: &mut Rng, p: &mut Parameters) {
     let g = &mut p.geometry;
     g.module = d.about(MODULE, 2.0);
     g.planet_teeth = d.whole(9, 15);
     g.side_teeth = g.planet_teeth + d.whole(2, 14);
     let fitting: Vec<i32> = (2..=4).filter(|n| 2 * g.side_teeth % n == 0).collect();
-    g.planet_count = d.of(&fitting);
+    g.planet_count = d.pick(&fitting);
     g.pressure_angle = d.between(0.31, 0.42);
     let ratio = f64::from(g.side_teeth) / f64::from(g.planet_teeth);
     let cone = 0.5 * g.module * f64::from(g.planet_teeth) * (1.0 + ratio * ratio).sqrt();
     g.face_width = cone * d.between(0.15, 0.33);
     g.backlash = g.module * d.between(0.0, 0.04);
-    g.addendum_system =
-        d.of(&[AddendumSystem::Standard, AddendumSystem::Gleason, AddendumSystem::Iso23509, AddendumSystem::Explicit]);
+    g.addendum_system = d.pick(&[
+        AddendumSystem::Standard,
+        AddendumSystem::Gleason,
+        AddendumSystem::Iso23509,
+        AddendumSystem::Explicit,
+    ]);
     g.root_fillet = d.between(0.1, 0.4);
-    p.effects.backlash = d.chance(0.9);
-    p.effects.corner_contact = d.chance(0.9);
+    p.effects.backlash = d.share(0.9);
+    p.effects.corner_contact = d.share(0.9);
     let growth = (g.module / MODULE).powi(5);
     p.inertia.carrier = growth * d.about(0.02, 3.0);
-    p.inertia.left_end = if d.chance(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
-    p.inertia.right_end = if d.chance(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
+    p.inertia.left_end = if d.share(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
+    p.inertia.right_end = if d.share(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
 }
 
-fn contact(d: &mut Draw, p: &mut Parameters) {
+fn contact(d: &mut Rng, p: &mut Parameters) {
     let c = &mut p.contact;
-    c.law = d.of(&[ContactLaw::Impact, ContactLaw::Line, ContactLaw::LineWeber]);
-    c.stiffness_from_hertz = d.chance(0.5);
+    c.law = d.pick(&[ContactLaw::Impact, ContactLaw::Line, ContactLaw::LineWeber]);
+    c.stiffness_from_hertz = d.share(0.5);
     c.stiffness *= d.between(0.3, 2.0);
     c.damping *= d.between(0.2, 2.0);
-    c.damping_model = d.of(&[DampingModel::Step, DampingModel::Restitution]);
+    c.damping_model = d.pick(&[DampingModel::Step, DampingModel::Restitution]);
     c.restitution = d.between(0.3, 0.95);
-    c.mesh_stiffness_from_geometry = d.chance(0.5);
-    p.scene.gear_contact = match d.unit() {
+    c.mesh_stiffness_from_geometry = d.share(0.5);
+    p.scene.gear_contact = match d.f64() {
         u if u < 0.08 => GearContact::Ideal,
         u if u < 0.2 => GearContact::Lumped,
         u if u < 0.26 => GearContact::Solid,
@@ -123,10 +88,10 @@ fn contact(d: &mut Draw, p: &mut Parameters) {
     }
 }
 
-fn drives(d: &mut Draw, p: &mut Parameters) {
+fn drives(d: &mut Rng, p: &mut Parameters) {
     let s = &mut p.scene;
     let (speed, torque) = (SideDrive::Speed, SideDrive::Torque);
-    let (imposed, left, right, spin) = d.of(&[
+    let (imposed, left, right, spin) = d.pick(&[
         (true, torque, torque, PlanetSpin::Free),
         (true, torque, torque, PlanetSpin::Imposed),
         (false, torque, torque, PlanetSpin::Free),
@@ -137,85 +102,85 @@ fn drives(d: &mut Draw, p: &mut Parameters) {
     ]);
     s.carrier_drive = if imposed { CarrierDrive::Speed } else { CarrierDrive::Torque };
     (s.left_drive, s.right_drive, s.planet_spin) = (left, right, spin);
-    s.start = d.of(&[Start::Equilibrium, Start::Equilibrium, Start::Rolling, Start::Rest]);
+    s.start = d.pick(&[Start::Equilibrium, Start::Equilibrium, Start::Rolling, Start::Rest]);
 }
 
-fn effects(d: &mut Draw, p: &mut Parameters) {
+fn effects(d: &mut Rng, p: &mut Parameters) {
     let contact = p.scene.gear_contact;
     let [tooth, elastic] = [contact == GearContact::Tooth, matches!(contact, GearContact::Tooth | GearContact::Lumped)];
     let m = p.geometry.module;
     let (e, s) = (&mut p.effects, &mut p.specs);
-    e.tooth_errors = (tooth || contact == GearContact::Solid) && d.chance(0.4);
+    e.tooth_errors = (tooth || contact == GearContact::Solid) && d.share(0.4);
     let t = &mut s.tooth_errors;
     t.seed = d.whole(0, 1000);
     if tooth {
-        t.accuracy_grade = if d.chance(0.6) { d.whole(4, 10) } else { 0 };
-        t.runout_by_grade = t.accuracy_grade > 0 && d.chance(0.5);
+        t.accuracy_grade = if d.share(0.6) { d.whole(4, 10) } else { 0 };
+        t.runout_by_grade = t.accuracy_grade > 0 && d.share(0.5);
         (t.planet_runout, t.side_runout) = (m * d.between(0.0, 0.01), m * d.between(0.0, 0.01));
         (t.planet_tip_relief, t.side_tip_relief) = (m * d.between(0.0, 0.01), m * d.between(0.0, 0.01));
     }
-    t.crowning = if d.chance(0.5) { m * d.between(0.0, 0.01) } else { 0.0 };
-    t.shaft_angle_error = if d.chance(0.5) { d.between(-1e-3, 1e-3) } else { 0.0 };
-    t.planet_axial_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
-    t.side_axial_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
-    t.axis_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
-    e.tooth_fault = tooth && d.chance(0.25);
+    t.crowning = if d.share(0.5) { m * d.between(0.0, 0.01) } else { 0.0 };
+    t.shaft_angle_error = if d.share(0.5) { d.between(-1e-3, 1e-3) } else { 0.0 };
+    t.planet_axial_offset = if d.share(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    t.side_axial_offset = if d.share(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    t.axis_offset = if d.share(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    e.tooth_fault = tooth && d.share(0.25);
     let f = &mut s.tooth_fault;
-    (f.gear, f.missing_fraction) = (d.of(&[FaultyGear::Planet, FaultyGear::Side]), d.between(0.55, 1.0));
+    (f.gear, f.missing_fraction) = (d.pick(&[FaultyGear::Planet, FaultyGear::Side]), d.between(0.55, 1.0));
     // teeth that are in mesh at the start, or come into it soon
     f.index = d.whole(0, 1);
     let teeth = if f.gear == FaultyGear::Planet { p.geometry.planet_teeth } else { p.geometry.side_teeth };
     f.tooth = d.whole(-2, 2).rem_euclid(teeth);
-    f.at_onset = d.chance(0.5);
+    f.at_onset = d.share(0.5);
     f.onset = if f.at_onset { d.between(0.0, 6e-3) } else { 0.0 };
-    e.tooth_friction = tooth && d.chance(0.3);
-    s.tooth_friction.law = d.of(&[
+    e.tooth_friction = tooth && d.share(0.3);
+    s.tooth_friction.law = d.pick(&[
         FrictionLaw::CoulombStribeck,
         FrictionLaw::BenedictKelley,
         FrictionLaw::Iso14179,
         FrictionLaw::XuKahraman,
     ]);
-    e.thrust_friction = elastic && d.chance(0.3);
+    e.thrust_friction = elastic && d.share(0.3);
     s.thrust_friction.radii_from_geometry = true;
     s.thrust_friction.coefficient = d.between(0.0, 0.15);
     s.thrust_friction.pin_coefficient = d.between(0.0, 0.15);
-    e.limited_slip = d.chance(0.25);
+    e.limited_slip = d.share(0.25);
     s.limited_slip.preload = d.between(0.0, 100.0);
     s.limited_slip.torque_coefficient = if contact == GearContact::Ideal { 0.0 } else { d.between(0.0, 0.3) };
     s.limited_slip.static_ratio = d.between(1.0, 1.5);
-    e.half_shaft = d.chance(0.4);
+    e.half_shaft = d.share(0.4);
     s.half_shaft.stiffness = [d.about(1e4, 4.0), d.about(1e4, 4.0)];
     s.half_shaft.damping = [d.between(0.0, 10.0), d.between(0.0, 10.0)];
-    e.pin_compliance = elastic && d.chance(0.25);
+    e.pin_compliance = elastic && d.share(0.25);
     s.pin_compliance.damping_time = d.between(0.0, 1e-4);
-    e.bearing_drag = d.chance(0.3);
-    e.final_drive = d.chance(0.2);
+    e.bearing_drag = d.share(0.3);
+    e.final_drive = d.share(0.2);
     s.final_drive.ring_teeth = d.whole(20, 60);
-    e.strength = contact != GearContact::Ideal && d.chance(0.4);
+    e.strength = contact != GearContact::Ideal && d.share(0.4);
     // so weak that damage shows in a moment
     s.strength.bending_cycles = 1e5;
     s.strength.bending_strength = d.about(3e8, 2.0);
     s.strength.contact_strength = d.about(5e8, 2.0);
-    e.wheel_brake = d.chance(0.3);
+    e.wheel_brake = d.share(0.3);
 }
 
 /// Gear bodies, drawn by a generator of their own.
-fn bodies(d: &mut Draw, p: &mut Parameters) {
+fn bodies(d: &mut Rng, p: &mut Parameters) {
     let m = p.geometry.module;
     p.effects.body_compliance =
-        p.scene.gear_contact == GearContact::Tooth && p.contact.law != ContactLaw::Impact && d.chance(0.5);
-    p.geometry.planet_bore = if d.chance(0.5) { m * d.between(0.5, 3.0) } else { 0.0 };
-    p.geometry.side_bore = if d.chance(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
+        p.scene.gear_contact == GearContact::Tooth && p.contact.law != ContactLaw::Impact && d.share(0.5);
+    p.geometry.planet_bore = if d.share(0.5) { m * d.between(0.5, 3.0) } else { 0.0 };
+    p.geometry.side_bore = if d.share(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
 }
 
 /// Effects that were added later, drawn by a generator of their own, which leaves the scenes what they were.
-fn later(d: &mut Draw, p: &mut Parameters) {
-    p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.chance(0.5);
+fn later(d: &mut Rng, p: &mut Parameters) {
+    p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
 }
 
 /// Small nodes, which warm up within a moment, and frictions that feel it.
-pub fn warm(d: &mut Draw, p: &mut Parameters) {
-    p.effects.warm_up = d.chance(0.3);
+pub fn warm(d: &mut Rng, p: &mut Parameters) {
+    p.effects.warm_up = d.share(0.3);
     let s = &mut p.specs;
     (s.warm_up.clutch_capacity, s.warm_up.washer_capacity) = (d.about(3.0, 3.0), d.about(1.0, 3.0));
     for sliding in [&mut s.limited_slip.sliding, &mut s.thrust_friction.sliding, &mut s.wheel_brake.sliding] {
@@ -223,8 +188,8 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
         (sliding.cold_factor, sliding.hot_factor) = (d.between(0.8, 1.3), d.between(0.5, 1.1));
     }
     (s.thrust_friction.static_ratio, s.wheel_brake.static_ratio) = (d.between(1.0, 1.5), d.between(1.0, 1.5));
-    s.bearing_drag.viscosity_from_oil = d.chance(0.5);
-    s.tooth_friction.viscosity_from_oil = d.chance(0.5);
+    s.bearing_drag.viscosity_from_oil = d.share(0.5);
+    s.tooth_friction.viscosity_from_oil = d.share(0.5);
     (p.oil.temperature, s.wheel_brake.temperature) = (d.between(250.0, 400.0), d.between(250.0, 600.0));
     let warm_up = &mut s.warm_up;
     for above in [
@@ -236,38 +201,38 @@ pub fn warm(d: &mut Draw, p: &mut Parameters) {
         *above = d.between(-20.0, 20.0);
     }
     warm_up.cycle = d.between(2e-3, 1e-2);
-    if p.effects.warm_up && d.chance(0.2) {
+    if p.effects.warm_up && d.share(0.2) {
         p.scene.start = Start::SteadyHeat;
     }
     let drag = &mut s.bearing_drag;
     (drag.carrier_torque, drag.carrier_viscous, drag.carrier_churning) = (0.5, 5e-3, 1e-4);
     (drag.side_torque, drag.side_viscous) = (0.2, 1e-3);
-    drag.churning_from_geometry = d.chance(0.5);
-    drag.oil_level = if d.chance(0.8) { d.unit() } else { 0.0 };
-    drag.seal_diameter = if d.chance(0.5) { d.between(0.01, 0.05) } else { 0.0 };
-    drag.bearing_load = if d.chance(0.5) { d.between(0.0, 1e4) } else { 0.0 };
+    drag.churning_from_geometry = d.share(0.5);
+    drag.oil_level = if d.share(0.8) { d.f64() } else { 0.0 };
+    drag.seal_diameter = if d.share(0.5) { d.between(0.01, 0.05) } else { 0.0 };
+    drag.bearing_load = if d.share(0.5) { d.between(0.0, 1e4) } else { 0.0 };
     let s = &mut p.specs;
     for (sliding, middle) in
         [(&mut s.limited_slip.sliding, 1e5), (&mut s.thrust_friction.sliding, 1e5), (&mut s.wheel_brake.sliding, 1e6)]
     {
-        sliding.pv_limit = if d.chance(0.5) { d.about(middle, 30.0) } else { 0.0 };
+        sliding.pv_limit = if d.share(0.5) { d.about(middle, 30.0) } else { 0.0 };
         sliding.beyond_limit = d.between(0.5, 1.5);
     }
 }
 
 /// Scene number `index` with planets that roll over some teeth.
 pub fn rolling(index: u64) -> Option<Scene> {
-    let d = &mut Draw::new(index ^ ROLLING);
+    let d = &mut Rng::with_seed(index ^ ROLLING);
     let Scene { parameters: mut p, mut inputs, mut steps, .. } = scene(index)?;
     if p.scene.gear_contact == GearContact::Ideal {
         return None;
     }
     p.effects.mesh_history = true;
-    warm(&mut Draw::new(index ^ WARM), &mut p);
+    warm(&mut Rng::with_seed(index ^ WARM), &mut p);
     p.scene.carrier_drive = CarrierDrive::Speed;
     (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Torque, SideDrive::Torque);
     p.scene.planet_spin = PlanetSpin::Imposed;
-    let spin = d.between(200.0, 300.0) * if d.chance(0.5) { 1.0 } else { -1.0 };
+    let spin = d.between(200.0, 300.0) * if d.share(0.5) { 1.0 } else { -1.0 };
     inputs.planet_spin = spin;
     for step in &mut steps {
         step.inputs.planet_spin = spin;
@@ -278,8 +243,8 @@ pub fn rolling(index: u64) -> Option<Scene> {
     Scene::new(p, inputs, steps).ok()
 }
 
-fn solver(d: &mut Draw, p: &mut Parameters) {
-    p.solver.method = d.of(&[
+fn solver(d: &mut Rng, p: &mut Parameters) {
+    p.solver.method = d.pick(&[
         Method::Adaptive,
         Method::Adaptive,
         Method::Adaptive,
@@ -292,49 +257,49 @@ fn solver(d: &mut Draw, p: &mut Parameters) {
     ]);
     p.solver.relative_tolerance = 10f64.powf(d.between(-6.5, -4.5));
     p.solver.fixed_step = 2e-5;
-    p.solver.merge_planets = d.chance(0.8);
+    p.solver.merge_planets = d.share(0.8);
 }
 
-fn inputs(d: &mut Draw, p: &Parameters) -> Inputs {
+fn inputs(d: &mut Rng, p: &Parameters) -> Inputs {
     let load = 800.0 * (p.geometry.module / MODULE).powi(3);
     let mut i = Inputs::ZERO;
     i.carrier_speed = d.between(-120.0, 120.0);
     i.planet_spin = d.between(-60.0, 60.0);
     i.carrier_torque = 2.0 * load * d.between(-1.0, 1.0);
     let common = load * d.between(-1.0, 1.0);
-    let difference = if d.chance(0.5) { 0.0 } else { 0.2 * load * d.between(-1.0, 1.0) };
-    i.load_torque = if d.chance(0.15) { [0.0; 2] } else { [common + difference, common - difference] };
+    let difference = if d.share(0.5) { 0.0 } else { 0.2 * load * d.between(-1.0, 1.0) };
+    i.load_torque = if d.share(0.15) { [0.0; 2] } else { [common + difference, common - difference] };
     i.side_speed = [i.carrier_speed + d.between(-10.0, 10.0), i.carrier_speed + d.between(-10.0, 10.0)];
-    i.brake_torque = if d.chance(0.5) { [0.0; 2] } else { [load * d.unit(), 0.5 * load * d.unit()] };
-    i.lock = if d.chance(0.15) { d.unit() } else { 0.0 };
+    i.brake_torque = if d.share(0.5) { [0.0; 2] } else { [load * d.f64(), 0.5 * load * d.f64()] };
+    i.lock = if d.share(0.15) { d.f64() } else { 0.0 };
     // without draws of their own, so that the others stay what they were
     (i.ambient_change, i.sump_change) = (i.side_speed[0] / 6.0, i.planet_spin / 3.0);
     i
 }
 
 /// Irregular steps; at some of them inputs jump, or begin to change with time.
-fn steps(d: &mut Draw, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<Step> {
+fn steps(d: &mut Rng, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<Step> {
     let sizes: Vec<f64> = (0..STEPS).map(|_| d.between(0.2, 1.0)).collect();
     let whole: f64 = sizes.iter().sum();
     let mut steps = Vec::new();
     for size in sizes {
         let size = duration * size / whole;
-        if d.chance(0.1) {
+        if d.share(0.1) {
             inputs.load_torque[d.whole(0, 1) as usize] *= d.between(-0.5, 1.5);
         }
-        if d.chance(0.1) {
+        if d.share(0.1) {
             inputs.carrier_torque *= d.between(-1.0, 1.0);
         }
-        if d.chance(0.05) {
+        if d.share(0.05) {
             inputs.brake_torque = [inputs.brake_torque[1], 0.0];
         }
-        if d.chance(0.05) {
+        if d.share(0.05) {
             inputs.lock = if inputs.lock > 0.0 { 0.0 } else { 1.0 };
         }
-        if p.effects.tooth_fault && d.chance(0.1) {
+        if p.effects.tooth_fault && d.share(0.1) {
             inputs.fault = 1.0;
         }
-        let derivatives = d.chance(0.15).then(|| {
+        let derivatives = d.share(0.15).then(|| {
             let mut rate = Inputs::ZERO;
             rate.load_torque = [inputs.load_torque[0] * d.between(-50.0, 50.0), 0.0];
             rate.carrier_torque = inputs.carrier_torque * d.between(-50.0, 50.0);

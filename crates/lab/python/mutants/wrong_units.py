@@ -1,62 +1,48 @@
-"""Tests units with a wrong coefficient by their evidence: all in one build, each woken by an environment variable.
-
-usage: wrong_units.py REPOSITORY FMU FOLDER COUNT SEED
-
-Prints what `bevel-differential verify` says of each as Markdown, and writes FOLDER/coefficients.csv."""
+"""Units with a wrong coefficient, held to the evidence that they carry by `bevel-differential verify`."""
 
 import csv
 import json
 import os
 import subprocess
 import sys
-import tomllib
 import zipfile
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from build import WATCH, built
-from changes import drawn
 from coefficients import LARGER, MODULES, coefficients, opened
 
 HEAD = ("coefficient", "value", "noticed", "scene", "variable", "time_s", "off_by", "unit", "times_tolerance", "remark")
 
 
-def main():
-    repository, fmu, folder = map(Path, sys.argv[1:4])
-    count, seed = map(int, sys.argv[4:])
-    if not 0 < count < WATCH:
-        raise SystemExit(f"{count} changes: a run takes 1 to {WATCH - 1}")
-    folder.mkdir(parents=True, exist_ok=True)
+class WrongUnits:
+    """Judge of coefficients: `verify` on the unit with one of them wrong."""
 
-    def draw(source, refused):
-        opened(source)
-        return drawn(source, MODULES, count, seed, refused, coefficients)
+    modules, changes_of, prepare = MODULES, staticmethod(coefficients), staticmethod(opened)
+    build = ["cargo", "build", "--lib"]
+    explained = "coefficient"
 
-    changes, messages = built(repository, folder, draw, ["cargo", "build", "--lib"])
-    unit = packed(fmu, library_of(messages), folder / "wrong.fmu")
-    asleep = verified(unit, 0, folder)
-    if any(row["verdict"] != "passed" for row in asleep):
-        raise SystemExit("the unit does not pass with all changes asleep")
-    bits = digests(unit, 0)
+    def __init__(self, folder, _changes, messages, fmu):
+        self.folder, self.unit = folder, packed(fmu, library_of(messages), folder / "wrong.fmu")
+        if any(row["verdict"] != "passed" for row in verified(self.unit, 0, folder)):
+            raise SystemExit("the unit does not pass with all changes asleep")
+        self.bits = digests(self.unit, 0)
 
-    def tried(number):
-        rows = verified(unit, number, folder)
+    def fate(self, number):
+        """Fate of a change with its worst row, and what has other bits if no row fails."""
+        rows = verified(self.unit, number, self.folder)
         wrong = [row for row in rows if row["verdict"] != "passed"]
         worst = max(wrong or rows, key=ratio_of)
-        differ = None if wrong else [name for name, digest in digests(unit, number).items() if digest != bits[name]]
-        print(f"progress {number / (len(changes) + 1):.4f} {'noticed' if wrong else 'not noticed'}", file=sys.stderr, flush=True)
-        return worst, differ
+        differ = None if wrong else [name for name, digest in digests(self.unit, number).items() if digest != self.bits[name]]
+        return {"fate": "noticed" if wrong else "not noticed", "worst": worst, "differ": differ}
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        said = tomllib.loads((repository / "docs" / "mutants.toml").read_text(encoding="utf-8"))["coefficient"]
-        rows = [row_of(change, *found, said) for change, found in zip(changes, pool.map(tried, range(1, len(changes) + 1)))]
-    with (folder / "coefficients.csv").open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
-    noticed = sum(row[2] == "yes" for row in rows)
-    print(f"{len(rows)} coefficients, drawn by seed {seed}, each {LARGER - 1.0:.0%} larger: verify notices {noticed}\n")
-    print(f"| {' | '.join(HEAD)} |\n|{'---|' * len(HEAD)}")
-    for row in rows:
-        print(f"| {' | '.join(row)} |")
+    def report(self, changes, fates, seed, said):
+        """The table of coefficients, which is also written as coefficients.csv."""
+        rows = [row_of(change, fate["worst"], fate["differ"], said) for change, fate in zip(changes, fates)]
+        with (self.folder / "coefficients.csv").open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
+        noticed = sum(row[2] == "yes" for row in rows)
+        lines = [f"{len(rows)} coefficients, drawn by seed {seed}, each {LARGER - 1.0:.0%} larger: verify notices {noticed}", "",
+                 f"| {' | '.join(HEAD)} |", f"|{'---|' * len(HEAD)}", *(f"| {' | '.join(row)} |" for row in rows)]
+        return "\n".join(lines)
 
 
 def library_of(messages):
@@ -119,7 +105,3 @@ def row_of(change, worst, differ, said):
         return [*begin, worst["scene"], *[""] * 5, "the run breaks off"]
     found = [f"{float(worst['time']):.6g}", f"{deviation_of(worst):.3g}", worst["unit"], f"{ratio_of(worst):.3g}"]
     return [*begin, worst["scene"], worst["variable"], *found, f"bits differ in {', '.join(differ)}; {why}" if differ else ""]
-
-
-if __name__ == "__main__":
-    main()

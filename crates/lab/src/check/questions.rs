@@ -11,12 +11,13 @@ use answers::text::table::Table;
 use anyhow::Result;
 use bevel_differential::variables::table;
 use clap::Args;
+use fastrand::Rng;
 use fmu_build::tools::paths;
 use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 use serde_json::{Map, Value, json};
 
-use crate::tools::random::Random;
+use crate::tools::random::Draws;
 
 /// Whoever waits loses patience after so long.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -97,7 +98,7 @@ fn lost() -> Tally {
 }
 
 fn asked(count: usize, seed: u64) -> Tally {
-    let (mut random, mut tally) = (Random::new(seed), Tally::default());
+    let (mut random, mut tally) = (Rng::with_seed(seed), Tally::default());
     for _ in 0..count {
         let (question, numbers) = (text(&mut random), numbers(&mut random));
         let Ok(written) = CString::new(question.clone()) else { continue };
@@ -126,7 +127,7 @@ fn kind(reply: &str) -> Option<String> {
 }
 
 /// A question, some of them broken.
-fn text(random: &mut Random) -> String {
+fn text(random: &mut Rng) -> String {
     let mut text = question(random).to_string().into_bytes();
     if random.chance(5) {
         for _ in 0..=random.below(3) {
@@ -144,7 +145,7 @@ fn text(random: &mut Random) -> String {
     String::from_utf8_lossy(&text).into_owned()
 }
 
-fn question(random: &mut Random) -> Value {
+fn question(random: &mut Rng) -> Value {
     let (kind, keys) = random.pick(&KINDS);
     let mut question = Map::new();
     question.insert("ask".into(), json!(kind));
@@ -162,8 +163,8 @@ fn question(random: &mut Random) -> Value {
     Value::Object(question)
 }
 
-fn value(key: &str, random: &mut Random) -> Value {
-    let odd = |random: &mut Random| random.pick(&ODD).to_owned();
+fn value(key: &str, random: &mut Rng) -> Value {
+    let odd = |random: &mut Rng| random.pick(&ODD).to_owned();
     match key {
         "of" => source(random),
         "ofs" => json!((0..random.below(3)).map(|_| source(random)).collect::<Vec<_>>()),
@@ -187,7 +188,7 @@ fn value(key: &str, random: &mut Random) -> Value {
 }
 
 /// A scene: mostly one that exists, with changes.
-fn source(random: &mut Random) -> Value {
+fn source(random: &mut Rng) -> Value {
     let names = ["clunk", "hil", "limited_slip", "locked", "rattle", "split_friction", "study_turning", "torque_bias"];
     let name = if random.chance(10) { random.pick(&ODD) } else { random.pick(&names) };
     let mut source = json!({"name": name, "scenes": paths::scenes(), "set": assignments(random)});
@@ -200,8 +201,8 @@ fn source(random: &mut Random) -> Value {
     source
 }
 
-fn assignments(random: &mut Random) -> Value {
-    let assignment = |random: &mut Random| {
+fn assignments(random: &mut Rng) -> Value {
+    let assignment = |random: &mut Rng| {
         let name = if random.chance(6) { random.pick(&["stop_time", "step"]).to_owned() } else { variable(random) };
         let text = if random.chance(2) { random.pick(&ODD).to_owned() } else { odd_number(random).to_string() };
         if random.chance(30) { text } else { format!("{name}={text}") }
@@ -209,21 +210,21 @@ fn assignments(random: &mut Random) -> Value {
     json!((0..random.below(4)).map(|_| assignment(random)).collect::<Vec<_>>())
 }
 
-fn wanted(random: &mut Random) -> String {
+fn wanted(random: &mut Rng) -> String {
     format!("{}:{}", variable(random), random.pick(&["mean", "max", "final", "mesh_order_1", "moon", ""]))
 }
 
-fn variable(random: &mut Random) -> String {
+fn variable(random: &mut Rng) -> String {
     let rows = &table().rows;
     rows[random.below(rows.len())].name.to_owned()
 }
 
-fn odd_number(random: &mut Random) -> Value {
+fn odd_number(random: &mut Rng) -> Value {
     let plain = [0.0, 1.0, -1.0, 0.5, 1e-3, 1e9, 1e-12, 1e300, 3.0, 200.0];
     if random.chance(8) { json!(random.pick(&ODD)) } else { json!(random.pick(&plain) * random.between(0.5, 2.0)) }
 }
 
-fn anything(random: &mut Random) -> Value {
+fn anything(random: &mut Rng) -> Value {
     match random.below(7) {
         0 => Value::Null,
         1 => json!(random.chance(2)),
@@ -236,7 +237,7 @@ fn anything(random: &mut Random) -> Value {
 }
 
 /// Numbers that come beside a question.
-fn numbers(random: &mut Random) -> Vec<f64> {
+fn numbers(random: &mut Rng) -> Vec<f64> {
     let odd = [0.0, 1.0, 2.0, -1.0, 1e308, f64::NAN, f64::INFINITY];
     (0..random.below(13)).map(|i| if random.chance(4) { random.pick(&odd) } else { i as f64 }).collect()
 }

@@ -148,10 +148,10 @@ pub const COEFFICIENTS: Script = Script {
         ]
     },
     needs: MUTANTS.needs,
-    file: "crates/lab/python/mutants/wrong_units.py",
+    file: MUTANTS.file,
     doing: "verifying",
     folder: Some("coefficients/{seed}-{count}"),
-    given: &[Given::Workspace, Given::Fmu, Given::Folder, Given::Value("count"), Given::Value("seed")],
+    given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed"), Given::Fmu],
     sections: &[("docs/coefficients.csv", "", "coefficients.csv")],
     ..DEFAULTS
 };

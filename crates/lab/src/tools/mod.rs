@@ -1,5 +1,6 @@
 //! Tools that only the laboratory needs, beside those of `fmu_build`.
 
 pub mod command;
+#[path = "../../../../tests/common/random.rs"]
 pub mod random;
 pub mod script;

@@ -1,24 +1,26 @@
-//! Arguments as hosts hand them over, mostly right; now and then NULL, misaligned, or of an absurd length. And what a call with them
-//! gives.
+//! Arguments as hosts hand them over, mostly right; now and then NULL, misaligned, or of an absurd length. And the result of a call
+//! with them.
 
-use bevel_differential::fmi2::Status;
+use bevel_differential::fmi3::variables::{Item, added, planet_count};
+use bevel_differential::instance::Status;
 use bevel_differential::variables::{Access, Causality, Variability, Variable, table};
+use fastrand::Rng;
 
-use super::random::Random;
+use crate::tools::random::Draws;
 
 /// One pointer in so many is NULL or misaligned.
 const FLAWED: usize = 50;
 
-/// How the arguments of one call come out.
+/// Faults of the arguments of one call.
 #[derive(Default)]
 pub struct Flaws {
-    /// A pointer that FMI needs is NULL or misaligned, or a count is absurd: the call must be refused.
+    /// A pointer that FMI needs is NULL or misaligned, or a count is wrong: the call must be refused.
     pub any: bool,
 }
 
 impl Flaws {
-    /// `pointer`, or one that must be refused where `needed`.
-    pub fn pointer<T>(&mut self, r: &mut Random, pointer: *const T, needed: bool) -> *const T {
+    /// `pointer`, or one that must be refused if it is `needed`.
+    pub fn pointer<T>(&mut self, r: &mut Rng, pointer: *const T, needed: bool) -> *const T {
         if !r.chance(FLAWED) {
             return pointer;
         }
@@ -26,29 +28,39 @@ impl Flaws {
         if align_of::<T>() == 1 || r.chance(2) { std::ptr::null() } else { pointer.wrapping_byte_add(1) }
     }
 
-    /// The same for a place to write to.
-    pub fn place<T>(&mut self, r: &mut Random, pointer: *mut T, needed: bool) -> *mut T {
+    /// Place to write to, or one that must be refused if it is `needed`.
+    pub fn place<T>(&mut self, r: &mut Rng, pointer: *mut T, needed: bool) -> *mut T {
         self.pointer(r, pointer, needed).cast_mut()
     }
 
     /// `n`, or more than any memory holds.
-    pub fn count(&mut self, r: &mut Random, n: usize) -> usize {
+    pub fn count(&mut self, r: &mut Rng, n: usize) -> usize {
         if !r.chance(FLAWED) {
             return n;
         }
         self.any = true;
         r.pick(&[usize::MAX, usize::MAX - 7])
     }
+
+    /// Counts of references and of values: equal, or such as must be refused. There is room for `n + 1` values.
+    pub fn counts(&mut self, r: &mut Rng, n: usize) -> [usize; 2] {
+        let count = self.count(r, n);
+        if self.any || !r.chance(FLAWED) {
+            return [count, count];
+        }
+        self.any = true;
+        [n, n + 1]
+    }
 }
 
-/// What kind of variables a call is for.
+/// Kind of variables that a call is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
-    /// Real ones to read.
+    /// Real variables to read.
     Real,
-    /// Real ones that can be set while a simulation runs.
+    /// Real variables that can be set while a simulation runs.
     Settable,
-    /// Integers and choices.
+    /// Integers and choices, which FMI 2.0 does not distinguish.
     Integer,
     /// Switches.
     Boolean,
@@ -58,12 +70,25 @@ pub enum VariableKind {
     Input,
     /// Continuous states.
     State,
+    /// FMI 3.0: numbers, including the time, event indicators and the time of the last event.
+    Float64,
+    /// FMI 3.0: arrays over planets and tooth pairs.
+    Array,
+    /// FMI 3.0: integers, and place and number of the last event.
+    Int32,
+    /// FMI 3.0: choices, and the kind of the last event.
+    Enumeration,
+    /// FMI 3.0: the number of planets.
+    Structural,
+    /// FMI 3.0: the text of the last event.
+    Text,
 }
 
 impl VariableKind {
     fn fits(self, i: usize, row: &Variable) -> bool {
+        let is_structural = i == planet_count() as usize;
         match self {
-            Self::Real => matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_)),
+            Self::Real | Self::Float64 => matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_)),
             Self::Settable => {
                 matches!(row.access, Access::Input(_))
                     || matches!(row.access, Access::Real(_)) && row.variability == Variability::Tunable
@@ -73,22 +98,45 @@ impl VariableKind {
             Self::Output => matches!(row.access, Access::Output(_)) && row.causality == Causality::Output,
             Self::Input => matches!(row.access, Access::Input(_)),
             Self::State => table().states.contains(&i),
+            Self::Int32 => matches!(row.access, Access::Integer(_)) && !is_structural,
+            Self::Enumeration => matches!(row.access, Access::Enumeration(..)),
+            Self::Structural => is_structural,
+            Self::Array | Self::Text => false,
         }
+    }
+
+    /// True if a variable that only FMI 3.0 has is of this kind.
+    fn fits_added(self, item: &Item) -> bool {
+        match item {
+            Item::Row(_) => false,
+            Item::Time | Item::EventTime | Item::Indicator(_) => self == Self::Float64,
+            Item::EventPlace | Item::EventCount => self == Self::Int32,
+            Item::EventKind => self == Self::Enumeration,
+            Item::EventText => self == Self::Text,
+            Item::Planets(_) | Item::Pairs(_) => self == Self::Array,
+        }
+    }
+
+    /// References of all variables of this kind.
+    pub fn all(self) -> Vec<u32> {
+        let rows = &table().rows;
+        let own = rows.iter().enumerate().filter(|(i, row)| self.fits(*i, row)).map(|(i, _)| i);
+        let added = added().iter().enumerate().filter(|(_, added)| self.fits_added(&added.item));
+        own.chain(added.map(|(i, _)| rows.len() + i)).map(|i| i as u32).collect()
     }
 }
 
 /// Value references: none to four of the right kind, now and then any, now and then all.
-pub fn references(r: &mut Random, wanted: VariableKind) -> Vec<u32> {
-    let rows = &table().rows;
-    let fitting: Vec<u32> =
-        rows.iter().enumerate().filter(|(i, row)| wanted.fits(*i, row)).map(|(i, _)| i as u32).collect();
+pub fn references(r: &mut Rng, wanted: VariableKind) -> Vec<u32> {
+    let fitting = wanted.all();
     if r.chance(16) {
         return fitting;
     }
     let wild = r.chance(12);
-    let reference = |r: &mut Random| match r.below(4) {
-        0 if wild => r.bits() as u32,
-        1 if wild => r.below(rows.len()) as u32,
+    let known = table().rows.len() + added().len();
+    let reference = |r: &mut Rng| match r.below(4) {
+        0 if wild => r.u32(..),
+        1 if wild => r.below(known) as u32,
         _ => r.pick(&fitting),
     };
     (0..r.below(5)).map(|_| reference(r)).collect()
@@ -105,22 +153,30 @@ pub struct CallResult {
     pub status: Status,
     /// Numbers that it wrote; looked at only if it was carried out.
     pub numbers: Vec<f64>,
-    /// Whether it had to be refused for its arguments.
+    /// True if it had to be refused for its arguments.
     pub must_fail: bool,
-    /// Bytes of the state that the instance is to be in now.
+    /// Bytes of the state that the instance must be in now.
     pub restored: Option<Vec<u8>>,
-    /// What is wrong, seen by the driver already.
+    /// Broken promise that the driver has already seen.
     pub broken: Option<String>,
 }
 
 impl CallResult {
-    /// With `status`, for arguments with `flaws`.
+    /// Result with `status`, for arguments with `flaws`.
     pub fn of(status: Status, flaws: &Flaws) -> Self {
         Self { status, numbers: Vec::new(), must_fail: flaws.any, restored: None, broken: None }
     }
 
-    /// With the numbers that the call wrote.
+    /// Result with the numbers that the call wrote.
     pub fn with(self, numbers: &[f64]) -> Self {
         Self { numbers: numbers.to_vec(), ..self }
+    }
+
+    /// Result with a broken promise, if a successful call `is_broken`.
+    pub fn unless(mut self, is_broken: bool, what: &str) -> Self {
+        if self.status == Status::Ok && is_broken {
+            self.broken = Some(what.into());
+        }
+        self
     }
 }

@@ -1,331 +1,372 @@
-//! One call of one function with arguments at random.
+//! Calls with arguments at random, by the shapes of functions. Both versions of FMI share them; their tables say which function has
+//! which shape.
 
-use std::ffi::CString;
 use std::ptr;
 
-use bevel_differential::fmi2::*;
+use bevel_differential::instance::{ComponentPointer, Kind, Status, Text};
 use bevel_differential::model::STATES;
-use bevel_differential::variables::{guid, table};
+use bevel_differential::variables::table;
+use fastrand::Rng;
 
 use super::arguments::{CallResult, Flaws, VariableKind, references, row};
-use super::functions::Function;
 use super::instance::FuzzedInstance;
-use super::random::Random;
-use super::states::{HELD, HeldStates, a_state, deserialize, get_state};
+use super::random::{integer_for, real, value_for};
+use super::states::HeldStates;
+use super::version::Version;
+use crate::tools::random::Draws;
 
 /// Room for arrays of states and event indicators, and the largest count announced for it.
 const ROOM: usize = 64;
-
 /// Sizes of communication steps that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
+/// Largest deviation of the time after a step from its end, relative to the time or to 1 s.
+const ROUNDING: f64 = 1e-12;
 
-/// Calls `function` on `instance` through `c`, which is its component or a pointer that must be refused.
-#[allow(clippy::too_many_lines)] // one arm per function
-pub fn call(
-    function: Function,
-    c: ComponentPointer,
-    r: &mut Random,
-    instance: &mut FuzzedInstance,
-    held: &mut HeldStates,
-) -> CallResult {
-    use Function as F;
-    let f = &mut Flaws::default();
-    let wanted = match function {
-        F::fmi2GetReal => VariableKind::Real,
-        F::fmi2SetReal if instance.kind == MODEL_EXCHANGE && r.chance(2) => VariableKind::State,
-        F::fmi2SetReal => VariableKind::Settable,
-        F::fmi2GetInteger | F::fmi2SetInteger => VariableKind::Integer,
-        F::fmi2GetBoolean | F::fmi2SetBoolean => VariableKind::Boolean,
-        F::fmi2SetRealInputDerivatives => VariableKind::Input,
-        _ => VariableKind::Output,
-    };
-    let vr = references(r, wanted);
-    let n = vr.len();
-    let (mut numbers, mut integers) = (vec![f64::NAN; n.max(ROOM)], vec![i32::MIN; n.max(1)]);
-    let orders: Vec<i32> = vr.iter().map(|_| if r.chance(10) { r.bits() as i32 } else { 1 }).collect();
-    let mut values: Vec<f64> =
-        vr.iter().map(|&v| row(v).map_or(0.0, |row| r.value_for(row)) * if r.chance(2) { 1.0 } else { 0.9 }).collect();
-    if wanted == VariableKind::State {
-        let x = next_states(instance, r);
-        let states = vr.iter().map(|&v| table().state(v));
-        values.iter_mut().zip(states).for_each(|(value, k)| *value = k.map_or(*value, |k| x[k]));
+/// A call that is to be made.
+pub struct Site<'a> {
+    /// Version of FMI of the function, which may be another one than that of the instance.
+    pub version: &'static Version,
+    /// The component, or a pointer that must be refused.
+    pub c: ComponentPointer,
+    /// The generator.
+    pub r: &'a mut Rng,
+    /// Faults of the arguments so far.
+    pub flaws: Flaws,
+    /// The instance.
+    pub instance: &'a mut FuzzedInstance,
+    /// States of all instances.
+    pub held: &'a mut HeldStates,
+}
+
+impl Site<'_> {
+    /// `pointer`, or one that must be refused if it is `needed`.
+    pub fn read<T>(&mut self, pointer: *const T, needed: bool) -> *const T {
+        self.flaws.pointer(self.r, pointer, needed)
     }
-    let whole: Vec<i32> = vr.iter().map(|&v| row(v).map_or(0, |row| r.integer_for(row))).collect();
-    let needed = n > 0;
-    let count = match function {
-        F::fmi2GetReal | F::fmi2SetReal | F::fmi2GetInteger | F::fmi2SetInteger | F::fmi2GetBoolean => f.count(r, n),
-        F::fmi2SetBoolean | F::fmi2SetRealInputDerivatives | F::fmi2GetRealOutputDerivatives => f.count(r, n),
-        _ => n,
-    };
-    // SAFETY, for all calls below: the component is alive or one that the library checks for, and so are the pointers;
-    // lengths are those of the arrays, or more than the library may ever take for true
-    macro_rules! run {
-        ($($call:tt)+) => { unsafe { $($call)+ } };
+
+    /// Place to write to, or one that must be refused if it is `needed`.
+    pub fn place<T>(&mut self, pointer: *mut T, needed: bool) -> *mut T {
+        self.flaws.place(self.r, pointer, needed)
     }
-    macro_rules! read {
-        ($pointer:expr) => {
-            f.pointer(r, $pointer, needed)
-        };
+
+    /// Counts of references and values, or such as must be refused.
+    fn counts(&mut self, n: usize) -> [usize; 2] {
+        if self.version.number == 2 { [self.flaws.count(self.r, n); 2] } else { self.flaws.counts(self.r, n) }
     }
-    match function {
-        F::fmi2GetTypesPlatform | F::fmi2GetVersion => {
-            let text = if function == F::fmi2GetVersion { fmi2GetVersion() } else { fmi2GetTypesPlatform() };
-            let mut outcome = CallResult::of(Status::Ok, f);
-            outcome.broken = text.is_null().then(|| "NULL".into());
-            outcome
+
+    /// Result with a status.
+    pub fn result(&self, status: Status) -> CallResult {
+        CallResult::of(status, &self.flaws)
+    }
+
+    /// A step of Euler's from where the instance is, now and then with something wild in it.
+    fn next_states(&mut self) -> [f64; ROOM] {
+        let (mut x, mut rates) = ([0.0; ROOM], [0.0; STATES]);
+        let version = self.instance.version;
+        // SAFETY: a live component and places for all states
+        unsafe {
+            (version.get_states)(self.instance.component, x.as_mut_ptr(), STATES);
+            (version.get_rates)(self.instance.component, rates.as_mut_ptr(), STATES);
         }
-        F::fmi2Instantiate => instantiate(r),
-        // the round frees and makes instances; here only what must do nothing
-        F::fmi2FreeInstance => {
-            run!(fmi2FreeInstance(ptr::null_mut()));
-            run!(fmi2FreeInstance(instance.component.wrapping_byte_add(1)));
-            CallResult::of(Status::Ok, f)
+        self.instance.take_log();
+        let h = self.r.pick(&[0.0, 1e-7, 1e-6]);
+        x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
+        if self.r.chance(8) {
+            x[self.r.below(STATES)] = real(self.r);
         }
-        F::fmi2SetDebugLogging => {
-            let names = [c"logStatusError", c"logStatusDiscard", c"logEvents", c"logNonsense", c""].map(|t| t.as_ptr());
-            let count = if r.chance(3) { 0 } else { r.below(names.len() + 1) };
-            let pointer = f.pointer(r, names.as_ptr(), count > 0);
-            let status = run!(fmi2SetDebugLogging(c, r.below(2) as i32, count, pointer));
-            instance.is_filtered |= c == instance.component && status != Status::Error;
-            CallResult::of(status, f)
+        x
+    }
+
+    /// Values for `references`, for states those of a next step.
+    fn reals(&mut self, references: &[u32], wanted: VariableKind) -> Vec<f64> {
+        let share = |r: &mut Rng| if r.chance(2) { 1.0 } else { 0.9 };
+        let drawn = |&v: &u32| row(v).map_or(0.0, |row| value_for(self.r, row)) * share(self.r);
+        let mut values: Vec<f64> = references.iter().map(drawn).collect();
+        if wanted == VariableKind::State {
+            let x = self.next_states();
+            let states = references.iter().map(|&v| table().state(v));
+            values.iter_mut().zip(states).for_each(|(value, k)| *value = k.map_or(*value, |k| x[k]));
         }
-        F::fmi2SetupExperiment => {
-            let defined = [r.below(2), r.below(3) / 2].map(|x| x as i32);
-            let start = if r.chance(2) { 0.0 } else { r.real() };
-            let (tolerance, stop) = (if r.chance(2) { 1e-5 } else { r.real() }, r.real());
-            let status = run!(fmi2SetupExperiment(c, defined[0], tolerance, start, defined[1], stop));
-            if status == Status::Ok {
-                instance.has_announced = defined != [0; 2];
-            }
-            CallResult::of(status, f)
-        }
-        F::fmi2EnterInitializationMode => CallResult::of(run!(fmi2EnterInitializationMode(c)), f),
-        F::fmi2ExitInitializationMode => CallResult::of(run!(fmi2ExitInitializationMode(c)), f),
-        F::fmi2Terminate => CallResult::of(run!(fmi2Terminate(c)), f),
-        F::fmi2Reset => {
-            let status = run!(fmi2Reset(c));
-            instance.has_announced &= status != Status::Ok;
-            CallResult::of(status, f)
-        }
-        F::fmi2GetReal => {
-            let (vr, place) = (read!(vr.as_ptr()), f.place(r, numbers.as_mut_ptr(), needed));
-            CallResult::of(run!(fmi2GetReal(c, vr, count, place)), f).with(&numbers[..n])
-        }
-        F::fmi2GetInteger | F::fmi2GetBoolean => {
-            let (vr, place) = (read!(vr.as_ptr()), f.place(r, integers.as_mut_ptr(), needed));
-            let status = match function {
-                F::fmi2GetInteger => run!(fmi2GetInteger(c, vr, count, place)),
-                _ => run!(fmi2GetBoolean(c, vr, count, place)),
-            };
-            let mut outcome = CallResult::of(status, f);
-            let unwritten = status == Status::Ok && integers[..n].contains(&i32::MIN);
-            outcome.broken = unwritten.then(|| "a value was not written".into());
-            outcome
-        }
-        F::fmi2GetString => CallResult::of(run!(fmi2GetString(c, read!(vr.as_ptr()), n, ptr::null_mut())), f),
-        F::fmi2SetString => CallResult::of(run!(fmi2SetString(c, read!(vr.as_ptr()), n, ptr::null())), f),
-        F::fmi2SetReal => CallResult::of(run!(fmi2SetReal(c, read!(vr.as_ptr()), count, read!(values.as_ptr()))), f),
-        F::fmi2SetInteger => {
-            CallResult::of(run!(fmi2SetInteger(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f)
-        }
-        F::fmi2SetBoolean => {
-            CallResult::of(run!(fmi2SetBoolean(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f)
-        }
-        F::fmi2GetFMUstate => get_state(c, r, f, held),
-        F::fmi2SetFMUstate => {
-            let (state, bytes) = a_state(r, f, held);
-            let mut outcome = CallResult::of(run!(fmi2SetFMUstate(c, state)), f);
-            outcome.restored = (outcome.status == Status::Ok).then_some(bytes);
-            outcome
-        }
-        F::fmi2FreeFMUstate => {
-            let mut outcome = CallResult::of(Status::Ok, f);
-            if r.chance(4) || held.states.len() < HELD / 2 {
-                let mut nothing = ptr::null_mut();
-                let place = if r.chance(2) { ptr::null_mut() } else { &raw mut nothing };
-                outcome.status = run!(fmi2FreeFMUstate(c, place));
-            } else {
-                let at = r.below(held.states.len());
-                let state = &mut held.states[at].0;
-                outcome.status = run!(fmi2FreeFMUstate(c, state));
-                if outcome.status == Status::Ok {
-                    outcome.broken = (!state.is_null()).then(|| "the pointer was not cleared".into());
-                    held.states.swap_remove(at);
-                }
-            }
-            outcome
-        }
-        F::fmi2SerializedFMUstateSize => {
-            let (state, bytes) = a_state(r, f, held);
-            let mut size = 0;
-            let place = f.place(r, &raw mut size, true);
-            let mut outcome = CallResult::of(run!(fmi2SerializedFMUstateSize(c, state, place)), f);
-            if outcome.status == Status::Ok && size != bytes.len() {
-                outcome.broken = Some(format!("{size} bytes, {} before", bytes.len()));
-            }
-            outcome
-        }
-        F::fmi2SerializeFMUstate => {
-            let (state, bytes) = a_state(r, f, held);
-            let mut room = vec![0u8; bytes.len() + 8];
-            let size = if r.chance(6) { r.below(room.len() + 1) } else { bytes.len() };
-            f.any |= size != bytes.len();
-            let place = f.place(r, room.as_mut_ptr(), true);
-            let mut outcome = CallResult::of(run!(fmi2SerializeFMUstate(c, state, place.cast(), size)), f);
-            let differ = outcome.status == Status::Ok && room[..size] != bytes;
-            outcome.broken = differ.then(|| "other bytes than before".into());
-            outcome
-        }
-        F::fmi2DeSerializeFMUstate => deserialize(c, r, f, held),
-        F::fmi2GetDirectionalDerivative => {
-            let by = r.pick(&[VariableKind::Input, VariableKind::State]);
-            let known = references(r, by);
-            let change: Vec<f64> = known.iter().map(|_| if r.chance(6) { r.real() } else { 1.0 }).collect();
-            let (vr, place) = (read!(vr.as_ptr()), f.place(r, numbers.as_mut_ptr(), needed));
-            let known_needed = !known.is_empty();
-            let (by, along) = (f.pointer(r, known.as_ptr(), known_needed), f.pointer(r, change.as_ptr(), known_needed));
-            let status = run!(fmi2GetDirectionalDerivative(c, vr, n, by, known.len(), along, place));
-            CallResult::of(status, f).with(&numbers[..n])
-        }
-        F::fmi2EnterEventMode => CallResult::of(run!(fmi2EnterEventMode(c)), f),
-        F::fmi2NewDiscreteStates => {
-            let mut info = EventInfo { next_event: f64::NAN, ..EventInfo::default() };
-            let place = f.place(r, &raw mut info, true);
-            CallResult::of(run!(fmi2NewDiscreteStates(c, place)), f).with(&[info.next_event])
-        }
-        F::fmi2EnterContinuousTimeMode => CallResult::of(run!(fmi2EnterContinuousTimeMode(c)), f),
-        F::fmi2CompletedIntegratorStep => {
-            let (mut event, mut end) = (0, 0);
-            let (event, end) = (f.place(r, &raw mut event, true), f.place(r, &raw mut end, true));
-            CallResult::of(run!(fmi2CompletedIntegratorStep(c, r.below(2) as i32, event, end)), f)
-        }
-        F::fmi2SetTime => {
-            let now = time_of(instance);
-            let time = if r.chance(12) { r.real() } else { now + r.pick(&[0.0, 1e-6, 1e-5, 1e-4]) };
-            CallResult::of(run!(fmi2SetTime(c, time)), f)
-        }
-        F::fmi2SetContinuousStates => {
-            let x = next_states(instance, r);
-            let count = counted(r, f, STATES);
-            CallResult::of(run!(fmi2SetContinuousStates(c, f.pointer(r, x.as_ptr(), true), count)), f)
-        }
-        F::fmi2GetDerivatives => fill(c, r, f, STATES, fmi2GetDerivatives),
-        F::fmi2GetEventIndicators => fill(c, r, f, EVENT_INDICATORS, fmi2GetEventIndicators),
-        F::fmi2GetContinuousStates => fill(c, r, f, STATES, fmi2GetContinuousStates),
-        F::fmi2GetNominalsOfContinuousStates => fill(c, r, f, STATES, fmi2GetNominalsOfContinuousStates),
-        F::fmi2SetRealInputDerivatives => {
-            let rates: Vec<f64> = values.iter().map(|x| if r.chance(3) { 0.0 } else { x * 0.1 }).collect();
-            let (vr, orders) = (read!(vr.as_ptr()), read!(orders.as_ptr()));
-            CallResult::of(run!(fmi2SetRealInputDerivatives(c, vr, count, orders, read!(rates.as_ptr()))), f)
-        }
-        F::fmi2GetRealOutputDerivatives => {
-            let (vr, orders) = (read!(vr.as_ptr()), read!(orders.as_ptr()));
-            let place = f.place(r, numbers.as_mut_ptr(), needed);
-            CallResult::of(run!(fmi2GetRealOutputDerivatives(c, vr, count, orders, place)), f).with(&numbers[..n])
-        }
-        F::fmi2DoStep => {
-            let now = time_of(instance);
-            let point = if r.chance(20) { r.real() } else { now };
-            // no step that is meant to take hours: the host gets what it asks for
-            let h = if r.chance(8) { r.pick(&NO_STEPS) } else { r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
-            f.any |= NO_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
-            CallResult::of(run!(fmi2DoStep(c, point, h, r.below(2) as i32)), f)
-        }
-        F::fmi2CancelStep => CallResult::of(run!(fmi2CancelStep(c)), f),
-        F::fmi2GetStatus => {
-            let mut value = Status::Ok;
-            let place = f.place(r, &raw mut value, true);
-            CallResult::of(run!(fmi2GetStatus(c, a_kind(r), place)), f)
-        }
-        F::fmi2GetRealStatus => {
-            let place = f.place(r, numbers.as_mut_ptr(), true);
-            CallResult::of(run!(fmi2GetRealStatus(c, a_kind(r), place)), f).with(&numbers[..1])
-        }
-        F::fmi2GetIntegerStatus => CallResult::of(run!(fmi2GetIntegerStatus(c, a_kind(r), integers.as_mut_ptr())), f),
-        F::fmi2GetBooleanStatus => {
-            let place = f.place(r, integers.as_mut_ptr(), true);
-            CallResult::of(run!(fmi2GetBooleanStatus(c, a_kind(r), place)), f)
-        }
-        F::fmi2GetStringStatus => {
-            let mut text = ptr::null();
-            let place = f.place(r, &raw mut text, true);
-            let mut outcome = CallResult::of(run!(fmi2GetStringStatus(c, a_kind(r), place)), f);
-            outcome.broken = (outcome.status == Status::Ok && text.is_null()).then(|| "NULL".into());
-            outcome
-        }
+        values
     }
 }
 
-fn a_kind(r: &mut Random) -> i32 {
-    if r.chance(8) { r.bits() as i32 } else { r.below(4) as i32 }
+/// A value of a variable.
+pub trait Value: Copy + PartialEq {
+    /// Value that no call writes.
+    const UNWRITTEN: Self;
+    /// Value for a variable, from an integer.
+    fn of(drawn: i32) -> Self;
 }
 
-/// Time of the instance [s]; 0 where it does not report it.
-fn time_of(instance: &FuzzedInstance) -> f64 {
-    let mut now = 0.0;
-    // SAFETY: a live component and a place
-    unsafe { fmi2GetRealStatus(instance.component, LAST_SUCCESSFUL_TIME, &mut now) };
-    instance.take_log();
-    now
+macro_rules! values {
+    ($($type:ty: $unwritten:expr, $of:expr;)+) => {$(
+        impl Value for $type {
+            const UNWRITTEN: Self = $unwritten;
+
+            fn of(drawn: i32) -> Self {
+                $of(drawn)
+            }
+        }
+    )+};
 }
 
-/// A step of Euler's from where the instance is, now and then with something wild in it.
-fn next_states(instance: &FuzzedInstance, r: &mut Random) -> [f64; ROOM] {
-    let (mut x, mut rates) = ([0.0; ROOM], [0.0; STATES]);
-    // SAFETY: a live component and places for all states
+values! {
+    i32: i32::MIN, |drawn| drawn;
+    i64: i64::MIN, i64::from;
+    u64: u64::MAX, |drawn: i32| u64::from(drawn.unsigned_abs());
+    u8: 9, |drawn: i32| u8::try_from(drawn).unwrap_or(7);
+    Text: ptr::null(), |_| ptr::null();
+}
+
+/// Reads variables: references and their number, places and their number.
+pub type Getter<T> = unsafe fn(ComponentPointer, *const u32, usize, *mut T, usize) -> Status;
+/// Sets variables: references and their number, values and their number.
+pub type Setter<T> = unsafe fn(ComponentPointer, *const u32, usize, *const T, usize) -> Status;
+/// Unknowns, knowns, seeds and results, each with its number.
+pub type Sensitivity =
+    unsafe fn(ComponentPointer, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
+type Filler = unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status;
+type Setup<B> = unsafe extern "C" fn(ComponentPointer, B, f64, f64, B, f64) -> Status;
+type Completed<B> = unsafe extern "C" fn(ComponentPointer, B, *mut B, *mut B) -> Status;
+type Logging<B> = unsafe extern "C" fn(ComponentPointer, B, usize, *const Text) -> Status;
+
+// SAFETY of all calls below: the component is alive or one that the library checks for, and so are the pointers; lengths are those of
+// the arrays, or more than the library may ever accept
+
+/// A function that needs an instance only.
+pub fn plain(s: &mut Site, function: unsafe extern "C" fn(ComponentPointer) -> Status) -> CallResult {
+    let status = unsafe { function(s.c) };
+    s.result(status)
+}
+
+/// A reset, which forgets what was announced.
+pub fn reset(s: &mut Site) -> CallResult {
+    let status = unsafe { (s.version.reset)(s.c) };
+    s.instance.has_announced &= status != Status::Ok;
+    s.result(status)
+}
+
+/// A function that returns a text.
+pub fn text(s: &Site, function: extern "C" fn() -> Text) -> CallResult {
+    s.result(Status::Ok).unless(function().is_null(), "NULL")
+}
+
+/// Frees what is no instance: nothing must happen. The round makes and frees instances.
+pub fn free(s: &Site) -> CallResult {
     unsafe {
-        fmi2GetContinuousStates(instance.component, x.as_mut_ptr(), STATES);
-        fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), STATES);
+        (s.version.free)(ptr::null_mut());
+        (s.version.free)(s.instance.component.wrapping_byte_add(1));
     }
-    instance.take_log();
-    let h = r.pick(&[0.0, 1e-7, 1e-6]);
-    x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
-    if r.chance(8) {
-        x[r.below(STATES)] = r.real();
+    s.result(Status::Ok)
+}
+
+/// Sets what is logged.
+pub fn logging<B: From<bool>>(s: &mut Site, function: Logging<B>) -> CallResult {
+    let names = [c"logStatusError", c"logStatusDiscard", c"logEvents", c"logNonsense", c""].map(|t| t.as_ptr());
+    let count = if s.r.chance(3) { 0 } else { s.r.below(names.len() + 1) };
+    let pointer = s.read(names.as_ptr(), count > 0);
+    let status = unsafe { function(s.c, B::from(s.r.bool()), count, pointer) };
+    s.instance.is_filtered |= s.c == s.instance.component && status != Status::Error;
+    s.result(status)
+}
+
+/// Announces tolerance, start and stop.
+pub fn setup<B: From<bool>>(s: &mut Site, function: Setup<B>) -> CallResult {
+    let defined = [s.r.chance(2), s.r.chance(3)];
+    let start = if s.r.chance(2) { 0.0 } else { real(s.r) };
+    let (tolerance, stop) = (if s.r.chance(2) { 1e-5 } else { real(s.r) }, real(s.r));
+    let status = unsafe { function(s.c, B::from(defined[0]), tolerance, start, B::from(defined[1]), stop) };
+    if status == Status::Ok {
+        s.instance.has_announced = defined != [false; 2];
     }
-    x
+    s.result(status)
+}
+
+/// Reads numbers.
+pub fn get_reals(s: &mut Site, wanted: VariableKind, function: Getter<f64>) -> CallResult {
+    let vr = references(s.r, wanted);
+    let (n, needed) = (vr.len(), !vr.is_empty());
+    let mut numbers = vec![f64::NAN; n + 1];
+    let [count, room] = s.counts(n);
+    let (references, place) = (s.read(vr.as_ptr(), needed), s.place(numbers.as_mut_ptr(), needed));
+    let status = unsafe { function(s.c, references, count, place, room) };
+    s.result(status).with(&numbers[..n])
+}
+
+/// Reads an array, with room that may have another size than the array.
+pub fn get_array(s: &mut Site, function: Getter<f64>) -> CallResult {
+    let (reference, room) = (s.r.pick(&VariableKind::Array.all()), s.r.below(9));
+    let mut numbers = [f64::NAN; 9];
+    let place = s.place(numbers.as_mut_ptr(), room > 0);
+    let status = unsafe { function(s.c, &reference, 1, place, room) };
+    let is_overrun = numbers[room..].iter().any(|number| !number.is_nan());
+    s.result(status).with(&numbers[..room]).unless(is_overrun, "more values were written than there is room for")
+}
+
+/// Reads integers, choices, switches or texts.
+pub fn get<T: Value>(s: &mut Site, wanted: VariableKind, function: Getter<T>) -> CallResult {
+    let vr = references(s.r, wanted);
+    let (n, needed) = (vr.len(), !vr.is_empty());
+    let mut values = vec![T::UNWRITTEN; n + 1];
+    let [count, room] = s.counts(n);
+    let (references, place) = (s.read(vr.as_ptr(), needed), s.place(values.as_mut_ptr(), needed));
+    let status = unsafe { function(s.c, references, count, place, room) };
+    s.result(status).unless(values[..n].contains(&T::UNWRITTEN), "a value was not written")
+}
+
+/// Sets numbers: parameters and inputs, in model exchange also states.
+pub fn set_reals(s: &mut Site, function: Setter<f64>) -> CallResult {
+    let is_state = s.instance.making.kind == Kind::ModelExchange && s.r.chance(2);
+    let wanted = if is_state { VariableKind::State } else { VariableKind::Settable };
+    let vr = references(s.r, wanted);
+    let needed = !vr.is_empty();
+    let mut values = s.reals(&vr, wanted);
+    values.push(0.0);
+    let [count, given] = s.counts(vr.len());
+    let (references, values) = (s.read(vr.as_ptr(), needed), s.read(values.as_ptr(), needed));
+    let status = unsafe { function(s.c, references, count, values, given) };
+    s.result(status)
+}
+
+/// Sets integers, choices or switches.
+pub fn set<T: Value>(s: &mut Site, wanted: VariableKind, function: Setter<T>) -> CallResult {
+    let vr = references(s.r, wanted);
+    let needed = !vr.is_empty();
+    let drawn = |&v: &u32| T::of(row(v).map_or(0, |row| integer_for(s.r, row)));
+    let mut values: Vec<T> = vr.iter().map(drawn).collect();
+    values.push(T::of(0));
+    let [count, given] = s.counts(vr.len());
+    let (references, values) = (s.read(vr.as_ptr(), needed), s.read(values.as_ptr(), needed));
+    let status = unsafe { function(s.c, references, count, values, given) };
+    s.result(status)
+}
+
+/// Reads or sets variables of a type that no variable has: every reference must be refused.
+pub fn none(s: &mut Site, function: unsafe fn(ComponentPointer, *const u32, usize) -> Status) -> CallResult {
+    let vr = references(s.r, VariableKind::Output);
+    s.flaws.any |= !vr.is_empty();
+    let (references, count) = (s.read(vr.as_ptr(), !vr.is_empty()), s.flaws.count(s.r, vr.len()));
+    let status = unsafe { function(s.c, references, count) };
+    s.result(status)
+}
+
+/// Sets derivatives of inputs.
+pub fn set_rates(
+    s: &mut Site,
+    function: unsafe fn(ComponentPointer, *const u32, usize, *const i32, *const f64) -> Status,
+) -> CallResult {
+    let vr = references(s.r, VariableKind::Input);
+    let (needed, orders) = (!vr.is_empty(), orders(s.r, vr.len()));
+    let values = s.reals(&vr, VariableKind::Input);
+    let rates: Vec<f64> = values.iter().map(|x| if s.r.chance(3) { 0.0 } else { x * 0.1 }).collect();
+    let count = s.flaws.count(s.r, vr.len());
+    let (vr, orders, rates) =
+        (s.read(vr.as_ptr(), needed), s.read(orders.as_ptr(), needed), s.read(rates.as_ptr(), needed));
+    let status = unsafe { function(s.c, vr, count, orders, rates) };
+    s.result(status)
+}
+
+/// Reads derivatives of outputs with respect to time.
+pub fn get_rates(
+    s: &mut Site,
+    function: unsafe fn(ComponentPointer, *const u32, usize, *const i32, *mut f64, usize) -> Status,
+) -> CallResult {
+    let vr = references(s.r, VariableKind::Output);
+    let (n, needed, orders) = (vr.len(), !vr.is_empty(), orders(s.r, vr.len()));
+    let mut numbers = vec![f64::NAN; n + 1];
+    let [count, room] = s.counts(n);
+    let (vr, orders) = (s.read(vr.as_ptr(), needed), s.read(orders.as_ptr(), needed));
+    let place = s.place(numbers.as_mut_ptr(), needed);
+    let status = unsafe { function(s.c, vr, count, orders, place, room) };
+    s.result(status).with(&numbers[..n])
+}
+
+fn orders(r: &mut Rng, count: usize) -> Vec<i32> {
+    (0..count).map(|_| if r.chance(10) { r.i32(..) } else { 1 }).collect()
+}
+
+/// Derivatives along a direction of knowns or, if `is_adjoint`, across one of unknowns.
+pub fn sensitivity(s: &mut Site, is_adjoint: bool, function: Sensitivity) -> CallResult {
+    let by = s.r.pick(&[VariableKind::Input, VariableKind::State]);
+    let (unknown, known) = (references(s.r, VariableKind::Output), references(s.r, by));
+    let (n, m) = (unknown.len(), known.len());
+    let (given, wanted) = if is_adjoint { (n, m) } else { (m, n) };
+    let seed: Vec<f64> = (0..given).map(|_| if s.r.chance(6) { real(s.r) } else { 1.0 }).collect();
+    let mut numbers = vec![f64::NAN; wanted + 1];
+    let (of, place) = (s.read(unknown.as_ptr(), n > 0), s.place(numbers.as_mut_ptr(), wanted > 0));
+    let (by, along) = (s.read(known.as_ptr(), m > 0), s.read(seed.as_ptr(), given > 0));
+    let status = unsafe { function(s.c, of, n, by, m, along, given, place, wanted) };
+    s.result(status).with(&numbers[..wanted])
+}
+
+/// Fills an array of numbers.
+pub fn fill(s: &mut Site, right: usize, function: Filler) -> CallResult {
+    let mut room = [f64::NAN; ROOM];
+    let count = counted(s, right);
+    let place = s.place(room.as_mut_ptr(), true);
+    let status = unsafe { function(s.c, place, count) };
+    s.result(status).with(&room[..right])
 }
 
 /// The right count, or seldom one that must be refused and for which there is room nonetheless.
-fn counted(r: &mut Random, f: &mut Flaws, right: usize) -> usize {
-    let count = if r.chance(20) { r.below(ROOM) } else { right };
-    f.any |= count != right;
+fn counted(s: &mut Site, right: usize) -> usize {
+    let count = if s.r.chance(20) { s.r.below(ROOM) } else { right };
+    s.flaws.any |= count != right;
     count
 }
 
-type Filler = unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status;
-
-fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, function: Filler) -> CallResult {
-    let mut room = [f64::NAN; ROOM];
-    let count = counted(r, f, right);
-    let place = f.place(r, room.as_mut_ptr(), true);
-    // SAFETY: a live component and room for `count` values, or a pointer that the library checks for
-    let status = unsafe { function(c, place, count) };
-    CallResult::of(status, f).with(&room[..right])
+/// Completes a step of the host's solver.
+pub fn completed<B: From<bool>>(s: &mut Site, function: Completed<B>) -> CallResult {
+    let (mut event, mut end) = (B::from(false), B::from(false));
+    let (event, end) = (s.place(&raw mut event, true), s.place(&raw mut end, true));
+    let status = unsafe { function(s.c, B::from(s.r.bool()), event, end) };
+    s.result(status)
 }
 
-/// fmi2Instantiate with anything; what is made is freed.
-fn instantiate(r: &mut Random) -> CallResult {
-    let recorder = super::instance::Recorder::default();
-    let callbacks = recorder.callbacks();
-    let right = CString::new(guid()).unwrap_or_default();
-    let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));
-    let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
-    let ids = [right.as_ptr(), right.as_ptr(), c"%n".as_ptr(), ptr::null()];
-    let places = [ptr::null(), c"file:///a%20b".as_ptr(), c"\xff".as_ptr()];
-    let callbacks = if r.chance(4) { ptr::null() } else { &raw const callbacks };
-    // SAFETY: all pointers are NULL or valid through the call
-    let c = unsafe { fmi2Instantiate(names[name], kind, ids[id], r.pick(&places), callbacks, 0, r.below(2) as i32) };
-    let expected = (kind == MODEL_EXCHANGE || kind == CO_SIMULATION) && name < 2 && id < 2;
-    let mut outcome = CallResult::of(Status::Ok, &Flaws::default());
-    if c.is_null() == expected {
-        outcome.broken = Some(format!("kind {kind}, name {name}, GUID {id}: made {}", !c.is_null()));
+/// Sets the time.
+pub fn set_time(s: &mut Site, function: unsafe extern "C" fn(ComponentPointer, f64) -> Status) -> CallResult {
+    let now = s.instance.time().unwrap_or(0.0);
+    let time = if s.r.chance(12) { real(s.r) } else { now + s.r.pick(&[0.0, 1e-6, 1e-5, 1e-4]) };
+    let status = unsafe { function(s.c, time) };
+    s.result(status)
+}
+
+/// Sets all continuous states.
+pub fn set_states(
+    s: &mut Site,
+    function: unsafe extern "C" fn(ComponentPointer, *const f64, usize) -> Status,
+) -> CallResult {
+    let x = s.next_states();
+    let count = counted(s, STATES);
+    let states = s.read(x.as_ptr(), true);
+    let status = unsafe { function(s.c, states, count) };
+    s.result(status)
+}
+
+/// End of a step: its status, the time that was reached if the function gives it, and true if the step ended early.
+pub type Ended = (Status, Option<f64>, bool);
+
+/// Makes a step, mostly from the present time, by `step(site, point, size)`.
+pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> Ended) -> CallResult {
+    let now = s.instance.time().unwrap_or(0.0);
+    let point = if s.r.chance(20) { real(s.r) } else { now };
+    // no step that is meant to take hours: the host gets what it wants
+    let h = if s.r.chance(8) { s.r.pick(&NO_STEPS) } else { s.r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
+    s.flaws.any |= NO_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
+    let (status, last, is_early) = step(s, point, h);
+    let (after, until) = (s.instance.time(), last.unwrap_or(point + h));
+    let is_reached = after.is_some_and(|after| same_time(after, until)) && (is_early || same_time(until, point + h));
+    // an event at the start of a step begins it with the smallest time that can be distinguished, which may be more than the step
+    let is_within = until >= point && (until <= point + h || same_time(until, point + h));
+    let mut outcome = s.result(status);
+    if status == Status::Ok && !(is_reached && is_within) {
+        outcome.broken =
+            Some(format!("a step from {point:?} by {h:?} has ended at {until:?}, and the time is {after:?}"));
     }
-    let silent = recorder.lines().is_empty();
-    if c.is_null() && silent && !callbacks.is_null() {
-        outcome.broken = Some("refused without a line in the log".into());
-    }
-    // SAFETY: NULL, or a component that nothing else holds; it is freed before its log
-    unsafe { fmi2FreeInstance(c) };
     outcome
+}
+
+fn same_time(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDING * b.abs().max(1.0)
 }

@@ -2,26 +2,31 @@
 
 use std::ptr;
 
-use bevel_differential::fmi2::*;
+use bevel_differential::instance::{Kind, Phase, Status};
 use cpu_time::ThreadTime;
+use fastrand::Rng;
 
-use super::arguments::CallResult;
-use super::calls::call;
-use super::functions::Function;
-use super::instance::FuzzedInstance;
-use super::random::Random;
+use super::arguments::{CallResult, Flaws};
+use super::calls::Site;
+use super::instance::{FuzzedInstance, Line, Making};
 use super::scenes;
 use super::states::HeldStates;
 use super::tally::Tally;
+use super::version::{Function, VERSIONS, Version};
+use crate::tools::random::Draws;
 
 /// Calls of a round.
 pub const CALLS: usize = 500;
-/// Instances of a round.
-const INSTANCES: usize = 4;
+/// Kinds of the instances of a round.
+const KINDS: [Kind; 4] = [Kind::ModelExchange, Kind::CoSimulation, Kind::ModelExchange, Kind::CoSimulation];
 /// For one call in this many the states before and after it are compared.
 const COMPARED: usize = 6;
+/// One call in so many is a function of the other version of FMI.
+const OTHER: usize = 100;
 /// Refusals in a row after which an instance is started again.
 const PATIENCE: usize = 10;
+/// Where a serialised state has the phase: after the header, the version of FMI and the kind.
+const PHASE: usize = 30;
 
 /// A promise that was not kept.
 #[derive(Clone, Debug)]
@@ -34,18 +39,24 @@ pub struct BrokenPromise {
     pub what: String,
 }
 
-/// Calls `calls` functions at random by `seed`, and counts them in `tally`.
-pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromise> {
-    let mut r = Random::new(seed);
+/// Version of FMI of a round: `given`, or both by turns of seeds.
+pub fn version(seed: u64, given: Option<u32>) -> &'static Version {
+    let number = given.unwrap_or(2 + (seed % 2) as u32);
+    VERSIONS.into_iter().find(|version| version.number == number).unwrap_or(VERSIONS[0])
+}
+
+/// Calls `calls` functions of a `version` at random by `seed`, and counts them in `tally`.
+pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromise> {
+    let mut r = Rng::with_seed(seed);
     let outside = |what: &str| BrokenPromise { at: 0, function: "start of the round", what: what.to_owned() };
-    let mut expected = Vec::new();
-    for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
-        let plain = FuzzedInstance::new(kind).ok_or_else(|| outside("no instance was made"))?;
-        expected.push(scenes::study(&plain).ok_or_else(|| outside("the study's scene does not run"))?);
-    }
-    let mut instances = Vec::new();
-    for i in 0..INSTANCES {
-        let instance = FuzzedInstance::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
+    let (mut instances, mut expected) = (Vec::new(), Vec::new());
+    // a host that handles events restores no state of one that does not
+    let events = r.bool();
+    for (i, kind) in KINDS.into_iter().enumerate() {
+        let making = Making { events, ..Making::drawn(&mut r, kind) };
+        let make = || FuzzedInstance::new(version, making).ok_or_else(|| outside("no instance was made"));
+        expected.push(scenes::study(&make()?).ok_or_else(|| outside("the study's scene does not run"))?);
+        let instance = make()?;
         if i > 0 {
             tally.started_instances += u64::from(scenes::start(&instance, &mut r));
         }
@@ -54,31 +65,29 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
     }
     let mut held = HeldStates::default();
     let outcome = (0..calls).try_for_each(|at| {
-        let chosen = r.below(INSTANCES);
+        let chosen = r.below(instances.len());
         make_call((seed, at), &mut r, &mut instances[chosen], &mut held, tally)
     });
     for (mut state, _) in held.states.drain(..) {
         // SAFETY: a live component and a live state
-        unsafe { fmi2FreeFMUstate(instances[0].component, &mut state) };
+        unsafe { (version.free_state)(instances[0].component, &mut state) };
     }
     outcome?;
     // after a reset every instance behaves as new, whatever was called before
-    for instance in &instances {
-        if scenes::study(instance).as_ref() != Some(&expected[instance.kind as usize]) {
-            return Err(BrokenPromise {
-                at: calls,
-                function: "fmi2Reset",
-                what: "the study's scene gives other numbers than in a fresh instance".into(),
-            });
+    for (instance, expected) in instances.iter().zip(&expected) {
+        tally.updates += instance.host.updates.get();
+        if scenes::study(instance).as_ref() != Some(expected) {
+            let what = "after a reset the study's scene gives other numbers than in a fresh instance".into();
+            return Err(BrokenPromise { at: calls, function: "end of the round", what });
         }
     }
     Ok(())
 }
 
-/// Makes one call and checks all that is promised about it.
+/// Makes one call and checks all promises about it.
 fn make_call(
     (seed, at): (u64, usize),
-    r: &mut Random,
+    r: &mut Rng,
     instance: &mut FuzzedInstance,
     held: &mut HeldStates,
     tally: &mut Tally,
@@ -88,8 +97,11 @@ fn make_call(
         tally.started_instances += u64::from(scenes::start(instance, r));
         instance.take_log();
     }
-    let function = draw(r, instance.kind);
-    let component = match r.below(150) {
+    let is_other = r.chance(OTHER);
+    let version = VERSIONS.into_iter().find(|&v| (v.number != instance.version.number) == is_other);
+    let version = version.unwrap_or(instance.version);
+    let function = draw(r, version, instance.making.kind);
+    let c = match r.below(150) {
         0 => ptr::null_mut(),
         1 => instance.component.wrapping_byte_add(1),
         _ => instance.component,
@@ -97,23 +109,20 @@ fn make_call(
     let before = if r.chance(COMPARED) { instance.bytes() } else { None };
     // processor time, so that other load of the machine does not count
     let start = ThreadTime::now();
-    let outcome = call(function, component, r, instance, held);
-    tally.count(function, outcome.status, start.elapsed(), (seed, at));
+    let outcome = (function.call)(&mut Site { version, c, r, flaws: Flaws::default(), instance, held });
+    tally.count(function.name, outcome.status, start.elapsed(), (seed, at));
     let refused = !matches!(outcome.status, Status::Ok | Status::Warning);
     instance.refused = if refused { instance.refused + 1 } else { 0 };
-    let broken = |what: String| BrokenPromise { at, function: function.name(), what };
+    let broken = |what: String| BrokenPromise { at, function: function.name, what };
     let lines = instance.take_log();
-    if let Some(line) = lines.iter().find(|line| line.message.contains("internal error")) {
-        return Err(broken(line.message.clone()));
+    let internal = lines.iter().find(|line| line.message.contains("internal error"));
+    if let Some(what) = internal.map(|line| line.message.clone()).or_else(|| instance.host.broken.take()) {
+        return Err(broken(what));
     }
-    check(function, component != instance.component, instance.is_filtered, &outcome, &lines).map_err(broken)?;
+    check(function, c != instance.component, is_other, instance.is_filtered, &outcome, &lines).map_err(broken)?;
     if let Some(before) = before {
         tally.compared += 1;
-        compare(function, refused, &before, instance).map_err(|what| BrokenPromise {
-            at,
-            function: function.name(),
-            what: format!("{what}; it said: {lines:?}"),
-        })?;
+        compare(function, refused, &before, instance).map_err(|what| broken(format!("{what}; it said: {lines:?}")))?;
     }
     if let Some(restored) = outcome.restored
         && !instance.has_announced
@@ -121,9 +130,15 @@ fn make_call(
     {
         return Err(broken("the instance is not in the state that was set".into()));
     }
+    // FMI 2.0 tells the time only between steps
+    match instance.time() {
+        None if instance.version.number > 2 => return Err(broken("the time cannot be read afterwards".into())),
+        Some(now) if !now.is_finite() => return Err(broken(format!("the time is {now} afterwards"))),
+        _ => {}
+    }
     if instance.is_filtered && r.chance(10) {
         // SAFETY: a live component; no categories means all
-        unsafe { fmi2SetDebugLogging(instance.component, 0, 0, ptr::null()) };
+        unsafe { (instance.version.log_all)(instance.component) };
         instance.is_filtered = false;
     }
     Ok(())
@@ -131,11 +146,12 @@ fn make_call(
 
 /// Checks what every call must return.
 fn check(
-    function: Function,
+    function: &Function,
     is_foreign: bool,
+    is_other: bool,
     is_filtered: bool,
     outcome: &CallResult,
-    lines: &[super::instance::Line],
+    lines: &[Line],
 ) -> Result<(), String> {
     let status = outcome.status;
     if let Some(what) = &outcome.broken {
@@ -144,44 +160,27 @@ fn check(
     if matches!(status, Status::Fatal | Status::Pending) {
         return Err(format!("answered {status:?}"));
     }
-    let has_component = !matches!(
-        function,
-        Function::fmi2GetTypesPlatform
-            | Function::fmi2GetVersion
-            | Function::fmi2Instantiate
-            | Function::fmi2FreeInstance
-    );
-    if has_component && is_foreign {
-        return if status == Status::Error { Ok(()) } else { Err(format!("{status:?} without a component")) };
+    if function.has_component() && (is_foreign || is_other) && status != Status::Error {
+        let instance = if is_foreign { "no instance" } else { "an instance of another version of FMI" };
+        return Err(format!("{status:?} for {instance}"));
+    }
+    if function.has_component() && is_foreign {
+        return Ok(());
     }
     if outcome.must_fail && status != Status::Error {
         return Err(format!("{status:?} for arguments that must be refused"));
     }
     if status == Status::Ok {
         let bad = outcome.numbers.iter().position(|x| !x.is_finite());
-        return bad.map_or(Ok(()), |i| Err(format!("fmi2OK, but number {i} is {}", outcome.numbers[i])));
+        return bad.map_or(Ok(()), |i| Err(format!("OK, but number {i} is {}", outcome.numbers[i])));
     }
-    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(function.name()));
+    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(function.said));
     if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 
-/// Calls that may change the instance although they fail: a start or a step may fail halfway.
-fn may_change_on_failure(function: Function) -> bool {
-    use Function as F;
-    matches!(
-        function,
-        F::fmi2DoStep | F::fmi2ExitInitializationMode | F::fmi2CompletedIntegratorStep | F::fmi2NewDiscreteStates
-    )
-}
-
-/// Calls that only read.
-fn only_reads(function: Function) -> bool {
-    let name = function.name();
-    name.starts_with("fmi2Get") || name.contains("erialize") || name == "fmi2FreeFMUstate"
-}
-
-fn compare(function: Function, refused: bool, before: &[u8], instance: &mut FuzzedInstance) -> Result<(), String> {
-    let must_not_change = only_reads(function) || refused && !may_change_on_failure(function);
+/// Checks that a call that was refused, or that only reads, has left the state as it was `before`.
+fn compare(function: &Function, refused: bool, before: &[u8], instance: &mut FuzzedInstance) -> Result<(), String> {
+    let must_not_change = function.only_reads() || refused && !function.may_change_on_failure();
     if !must_not_change {
         return Ok(());
     }
@@ -196,40 +195,19 @@ fn compare(function: Function, refused: bool, before: &[u8], instance: &mut Fuzz
     }
 }
 
-/// Where a serialised state holds the phase: after the header, the version of FMI and the kind.
-const PHASE: usize = 30;
-
 /// Draws a function by its weight; functions of the other kind of instance seldom.
-fn draw(r: &mut Random, kind: i32) -> Function {
-    use Function as F;
+fn draw(r: &mut Rng, version: &'static Version, kind: Kind) -> &'static Function {
+    let total: usize = version.functions.iter().map(|function| function.weight).sum();
     loop {
-        let total: usize = F::ALL.iter().map(|f| f.weight()).sum();
         let mut left = r.below(total);
-        let chosen = F::ALL.iter().copied().find(|f| {
-            let found = left < f.weight();
-            left = left.saturating_sub(f.weight());
+        let chosen = version.functions.iter().find(|function| {
+            let found = left < function.weight;
+            left = left.saturating_sub(function.weight);
             found
         });
-        let Some(chosen) = chosen else { continue };
-        let of_steps = matches!(
-            chosen,
-            F::fmi2DoStep | F::fmi2SetRealInputDerivatives | F::fmi2GetRealOutputDerivatives | F::fmi2CancelStep
-        );
-        let of_exchange = matches!(
-            chosen,
-            F::fmi2EnterEventMode
-                | F::fmi2NewDiscreteStates
-                | F::fmi2EnterContinuousTimeMode
-                | F::fmi2CompletedIntegratorStep
-                | F::fmi2SetTime
-                | F::fmi2SetContinuousStates
-                | F::fmi2GetDerivatives
-                | F::fmi2GetEventIndicators
-                | F::fmi2GetContinuousStates
-        );
-        let foreign = if kind == MODEL_EXCHANGE { of_steps } else { of_exchange };
-        if !foreign || r.chance(10) {
-            return chosen;
+        match chosen {
+            Some(function) if function.kind.is_none_or(|own| own == kind) || r.chance(10) => return function,
+            _ => {}
         }
     }
 }

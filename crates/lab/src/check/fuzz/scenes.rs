@@ -1,10 +1,12 @@
 //! Instances brought to where steps happen: scenes and effects at random.
 
-use bevel_differential::fmi2::*;
+use bevel_differential::instance::{EVENT_INDICATORS, Kind, Status};
+use bevel_differential::model::STATES;
 use bevel_differential::variables::{Access, index_of, table};
+use fastrand::Rng;
 
 use super::instance::FuzzedInstance;
-use super::random::Random;
+use crate::tools::random::Draws;
 
 /// Scenes that are tried before the study's own is taken.
 const TRIES: usize = 4;
@@ -23,47 +25,38 @@ const CHOICES: [&str; 9] = [
 /// Level of solid teeth, which cost most.
 const SOLID: i32 = 4;
 
-/// Brings a fresh or reset instance to a running simulation; whether that succeeded.
-pub fn start(instance: &FuzzedInstance, r: &mut Random) -> bool {
+/// Brings a fresh or reset instance to a running simulation. Returns true if that succeeded.
+pub fn start(instance: &FuzzedInstance, r: &mut Rng) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
-        unsafe { fmi2Reset(instance.component) };
+        unsafe { (instance.version.reset)(instance.component) };
         if attempt < TRIES {
             draw(instance, r);
         }
         if initialised(instance) {
-            if instance.kind == MODEL_EXCHANGE {
-                // SAFETY: a live component and a place for the answer
-                unsafe {
-                    fmi2NewDiscreteStates(instance.component, &mut EventInfo::default());
-                    fmi2EnterContinuousTimeMode(instance.component);
-                }
-            }
             return true;
         }
     }
     false
 }
 
-/// Sets an instance up and initialises it; whether all calls succeed.
+/// Initialises an instance and brings it to where steps happen. Returns true if that succeeded.
 fn initialised(instance: &FuzzedInstance) -> bool {
     // SAFETY: a live component
-    let statuses = unsafe {
-        [
-            fmi2SetupExperiment(instance.component, 0, 0.0, 0.0, 0, 0.0),
-            fmi2EnterInitializationMode(instance.component),
-            fmi2ExitInitializationMode(instance.component),
-        ]
-    };
-    statuses == [Status::Ok; 3]
+    let is_initialised = unsafe { (instance.version.initialise)(instance.component) } == [Status::Ok; 2];
+    if is_initialised {
+        // SAFETY: as above
+        unsafe { (instance.version.run)(instance.component, instance.making.kind) };
+    }
+    is_initialised
 }
 
-fn draw(instance: &FuzzedInstance, r: &mut Random) {
+fn draw(instance: &FuzzedInstance, r: &mut Rng) {
     let mut integers: Vec<(&str, i32)> = vec![("geometry.planet_count", 2 + r.below(3) as i32), ("solid.facets", 4)];
     for name in CHOICES {
         let Some(Access::Enumeration(kind, ..)) = index_of(name).map(|i| table().rows[i].access) else { continue };
         if r.chance(2) {
-            let value = r.pick(kind.choices).value;
+            let value = kind.choices[r.below(kind.choices.len())].value;
             let dear = name == "scene.gear_contact" && value == SOLID && !r.chance(8);
             integers.push((name, if dear { 1 } else { value }));
         }
@@ -72,44 +65,49 @@ fn draw(instance: &FuzzedInstance, r: &mut Random) {
     if integers.contains(&("scene.gear_contact", SOLID)) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
+    let version = instance.version;
     for (name, value) in integers {
         if let Some(i) = index_of(name) {
-            // SAFETY: a live component and one value
-            unsafe { fmi2SetInteger(instance.component, &(i as u32), 1, &value) };
+            // SAFETY: a live component
+            unsafe { (version.set_integer)(instance.component, i as u32, value) };
         }
     }
     for (i, row) in table().rows.iter().enumerate().filter(|(_, row)| row.name.starts_with("effects.")) {
         if matches!(row.access, Access::Boolean(_)) && r.chance(4) {
-            // SAFETY: a live component and one value
-            unsafe { fmi2SetBoolean(instance.component, &(i as u32), 1, &(r.below(2) as i32)) };
+            // SAFETY: a live component
+            unsafe { (version.set_boolean)(instance.component, i as u32, r.bool()) };
         }
     }
     let values =
         [("inertia.left_end", 0.5), ("inertia.right_end", 0.5), ("lock.command", 1.0), ("left.brake_torque", 500.0)];
     for (name, value) in values {
         if let (true, Some(i)) = (r.chance(2), index_of(name)) {
-            // SAFETY: a live component and one value
-            unsafe { fmi2SetReal(instance.component, &(i as u32), 1, &value) };
+            // SAFETY: a live component
+            unsafe { (version.set_real)(instance.component, i as u32, value) };
         }
     }
 }
 
-/// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
+/// Results of the study's own scene after a reset, bit by bit: three steps, or rates and indicators at the start.
 pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
+    let (version, c) = (instance.version, instance.component);
+    let mut numbers = vec![f64::NAN; STATES + EVENT_INDICATORS];
+    // the host ends steps early by the number of its updates
+    instance.host.updates.set(0);
     // SAFETY, for all: a live component and room for the counts passed
     unsafe {
-        let mut statuses = vec![fmi2Reset(instance.component)];
+        let mut statuses = vec![(version.reset)(c)];
         let fine = initialised(instance);
-        let mut numbers = vec![f64::NAN; bevel_differential::model::STATES + EVENT_INDICATORS];
-        if instance.kind == MODEL_EXCHANGE {
-            let (rates, indicators) = numbers.split_at_mut(bevel_differential::model::STATES);
-            statuses.push(fmi2GetDerivatives(instance.component, rates.as_mut_ptr(), rates.len()));
-            statuses.push(fmi2GetEventIndicators(instance.component, indicators.as_mut_ptr(), indicators.len()));
+        if instance.making.kind == Kind::ModelExchange {
+            let (rates, indicators) = numbers.split_at_mut(STATES);
+            statuses.push((version.get_rates)(c, rates.as_mut_ptr(), rates.len()));
+            statuses.push((version.get_indicators)(c, indicators.as_mut_ptr(), indicators.len()));
         } else {
-            statuses.extend([0.0, 1e-3, 2e-3].map(|t| fmi2DoStep(instance.component, t, 1e-3, 1)));
+            // a step may end early where the host has said that it may
+            statuses.extend([(); 3].map(|()| (version.step)(c, instance.time().unwrap_or(f64::NAN), 1e-3)));
             let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
             numbers.resize(outputs.len(), f64::NAN);
-            statuses.push(fmi2GetReal(instance.component, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
+            statuses.push((version.get_reals)(c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
         }
         instance.take_log();
         let fine = fine && statuses.iter().all(|&status| status == Status::Ok);
