@@ -69,7 +69,7 @@ fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usi
 /// Scene number `index` with parts that warm up, and with friction that depends on speed and temperature.
 fn warm(index: u64) -> Option<Scene> {
     let Scene { mut parameters, inputs, steps, .. } = random::scene(index)?;
-    random::warm(&mut random::Draw::new(index ^ random::WARM), &mut parameters);
+    random::warm(&mut fastrand::Rng::with_seed(index ^ random::WARM), &mut parameters);
     Scene::new(parameters, inputs, steps).ok()
 }
 
