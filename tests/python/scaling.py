@@ -23,6 +23,8 @@ INERTIAS = ("inertia.side_gear", "inertia.planet")
 RESIDUAL = "solver.energy_residual"
 # torque below which a ratio of torques is one of roundings, of the largest torque of the scene
 ROUNDING = 1e-9
+# sum of both torques below which the FMU gives no ratio of them, N·m
+LEAST = 1e-3
 RATIOS, TORQUES = ("torque_bias_ratio", "locking_value"), ("left.shaft_torque", "right.shaft_torque")
 
 
@@ -95,7 +97,9 @@ def differences(fmu, scene, factors):
     back = other / np.array([scale.factor(name) for name in names])
     one, back = ordered(names, one), ordered(names, back)
     size = np.max(np.abs(one), axis=0)
-    torque = np.sum(np.abs(one[:, [names.index(name) for name in TORQUES]]), axis=1)
+    torques = [np.array([all_of[:, names.index(name)] for name in TORQUES]) for all_of in (one, other)]
+    torque = np.sum(np.abs(torques[0]), axis=0)
+    has_ratio = np.all([np.abs(np.sum(each, axis=0)) > LEAST for each in torques], axis=0)
     largest = {}
     for name, value in zip(names, size):
         unit = fmu.variables[name].unit
@@ -118,7 +122,7 @@ def differences(fmu, scene, factors):
         if name in RATIOS:
             # of torques that are alike the difference is one of roundings
             whole = max(whole, 1.0)
-            off = np.where(torque > ROUNDING * largest["N.m"], off, 0.0)
+            off = np.where(has_ratio & (torque > ROUNDING * largest["N.m"]), off, 0.0)
         found[name] = float(np.max(off)) / whole if whole > 0.0 else float(np.max(off))
     return found, len(one)
 

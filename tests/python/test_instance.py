@@ -168,3 +168,8 @@ def test_another_machine_takes_its_own_copy_of_the_same_fmu_and_no_other(fmu, fm
 def test_truth_values_of_numpy_are_true_or_false(fmu):
     variable = fmu.variable("inertia.from_geometry")
     assert [variable.number(value) for value in np.array([True, False])] == [True, False]
+
+
+def test_a_unit_of_fmi_3_is_refused_with_the_name_of_the_other(fmu3):
+    with pytest.raises(DifferentialError, match=r"BevelDifferential3\.fmu: it is a unit of FMI 3\.0, and this package runs FMI 2\.0"):
+        Fmu.of(fmu3).open()

@@ -38,7 +38,8 @@ def test_calls_of_fmi_refuse_it(fmu, fmu3, number):
 
 
 @pytest.mark.parametrize("name", NUMBERS)
-def test_python_scenes_and_commands_refuse_it(fmu_file, scene, capsys, name):
+def test_python_scenes_and_commands_refuse_it(fmu_file, scene, monkeypatch, capsys, name):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     for value in (name, NUMBERS[name]):
         with pytest.raises(DifferentialError) as refused:
             Differential({"solver.method": value}, fmu=fmu_file)

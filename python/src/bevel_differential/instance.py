@@ -59,6 +59,9 @@ class Instance(Closing):
         self.events: list[str] = []
         self._failure: str | None = None
         description = fmu.description
+        if description.fmiVersion != "2.0":
+            raise DifferentialError(f"{fmu.file}: it is a unit of FMI {description.fmiVersion}, and this package runs FMI 2.0: name "
+                                    "BevelDifferential.fmu")
         make, element = KINDS[kind]
         identifier = getattr(description, element).modelIdentifier
         self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name, modelIdentifier=identifier,

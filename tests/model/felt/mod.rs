@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use crate::common::random::Draws;
 use crate::mirror::random;
-use crate::mirror::scene::Step;
+use crate::mirror::scene::{Scene, Step};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
@@ -29,7 +29,11 @@ struct Run {
 
 impl Run {
     fn random(index: u64) -> Option<Self> {
-        let mut scene = random::scene(index)?;
+        Self::drawn(random::scene, index)
+    }
+
+    fn drawn(draw: fn(u64) -> Option<Scene>, index: u64) -> Option<Self> {
+        let mut scene = draw(index)?;
         random::warm(&mut Rng::with_seed(index ^ random::WARM), &mut scene.parameters);
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
@@ -259,7 +263,9 @@ const LEVELS: [(GearContact, ContactLaw); 6] = [
     (GearContact::Solid, ContactLaw::Impact),
 ];
 /// Scenes that are tried until one feels a value.
-const TRIES: u64 = 24;
+const TRIES: u64 = 60;
+/// One in so many of them has planets that roll over some teeth.
+const ROLLING: u64 = 3;
 
 /// Puts a scene on a level of teeth, and switches off what does not work there.
 fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
@@ -305,7 +311,8 @@ impl Cases {
     }
 
     fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<Case> {
-        let mut run = Run::random(1000 + attempt)?;
+        let draw = if attempt % ROLLING == 0 { random::rolling } else { random::scene };
+        let mut run = Run::drawn(draw, 1000 + attempt)?;
         let mut draw = Rng::with_seed(attempt ^ 0xfee1);
         if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
