@@ -311,7 +311,7 @@ impl Cases {
     }
 
     fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<Case> {
-        let draw = if attempt % ROLLING == 0 { random::rolling } else { random::scene };
+        let draw = if attempt.is_multiple_of(ROLLING) { random::rolling } else { random::scene };
         let mut run = Run::drawn(draw, 1000 + attempt)?;
         let mut draw = Rng::with_seed(attempt ^ 0xfee1);
         if let Some(breaks) = fault {
