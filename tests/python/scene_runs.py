@@ -21,6 +21,7 @@ from bevel_differential import DifferentialError, Fmu
 from bevel_differential.instance import Instance
 from fmpy.fmi1 import FMICallException
 from momentum import Momentum
+from two_places import Scene, compared, unbalanced
 
 OK, DISCARD, ERROR = 0, 2, 3
 # attempts at steps that the FMU grants a communication step of up to a second before it discards it
@@ -79,12 +80,13 @@ class StatusInstance(Instance):
 
 
 class Attempt:
-    """One scene: `verdict` is refused, ran, discarded or failed; `problems` says what did not hold."""
+    """One scene: `verdict` is refused, ran, discarded or failed; `problems` says what did not hold. `is_plausible`: outputs that show
+    the same thing at two places are compared."""
 
-    def __init__(self, fmu, scene):
+    def __init__(self, fmu, scene, is_plausible=False):
         self.scene, self.problems, self.verdict = scene, [], "ran"
         self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
-        self.balanced = False
+        self.balanced, self.is_plausible, self.compared = False, is_plausible, 0
         self.instance, self.messages = StatusInstance(fmu), []
         try:
             if self.start():
@@ -100,7 +102,7 @@ class Attempt:
 
     def record(self):
         found = {name: getattr(self, name) for name in ("verdict", "problems", "imbalance", "turned_over", "attempts",
-                                                        "slowest", "balanced")}
+                                                        "slowest", "balanced", "compared")}
         return {**found, "log": self.messages}
 
     def demand(self, holds, what):
@@ -126,6 +128,8 @@ class Attempt:
         one = self.instance
         self.finite(one.outputs(), "at the start")
         momentum = self.momentum()
+        places = Scene(one.fmu, one) if self.is_plausible else None
+        self.demand_agreement(places, momentum, "at the start")
         exchanged = inertial = 0.0
         for size, inputs in self.scene["steps"]:
             for name, value in inputs.items():
@@ -150,6 +154,7 @@ class Attempt:
             else:
                 if momentum:
                     self.demand_momentum(momentum, size)
+                self.demand_agreement(places, momentum, f"after the step from {now}")
                 exchanged += size * (turned(before) + turned(after)) / 2.0
                 inertial = max(inertial, kinetic(self.scene, before), kinetic(self.scene, after))
             one.raw.freeFMUstate(kept)
@@ -183,6 +188,13 @@ class Attempt:
         except AssertionError as wrong:
             self.demand(False, str(wrong))
 
+    def demand_agreement(self, places, momentum, when):
+        if places:
+            values = places.read(self.instance)
+            wrong = compared(places, values) + (unbalanced(momentum, places, values) if momentum else [])
+            self.demand(not wrong, f"two outputs disagree {when}: {wrong}")
+            self.compared += 1
+
     def finite(self, outputs, when):
         wrong = [name for name, value in outputs.items() if not math.isfinite(value)]
         self.demand(not wrong, f"not finite {when}: {wrong}")
@@ -213,7 +225,7 @@ def work(file, kind, count, seed, first):
     fmu = Fmu.of(file)
     for index, scene in random_scenes.scenes(fmu, kind, count, seed, first):
         print(json.dumps({"index": index}), flush=True)
-        print(json.dumps(Attempt(fmu, scene).record()), flush=True)
+        print(json.dumps(Attempt(fmu, scene, kind == "plausible").record()), flush=True)
 
 
 def listen(stream, lines):

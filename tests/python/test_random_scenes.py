@@ -26,10 +26,11 @@ def described(fmu, kind, count, index, record):
 @pytest.mark.parametrize("kind", random_scenes.KINDS)
 def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(fmu, request, kind):
     count = max(request.config.getoption("--scenes") // len(random_scenes.KINDS), 1)
-    verdicts, failures, balanced = collections.Counter(), [], 0
+    verdicts, failures, balanced, compared = collections.Counter(), [], 0, 0
     for index, record in scene_runs.attempts(fmu.file, kind, count, SEED):
         verdicts[record["verdict"]] += 1
         balanced += record.get("balanced", False)
+        compared += record.get("compared", 0)
         if record["verdict"] == "failed":
             failures.append((index, record))
     print(kind, dict(verdicts))
@@ -40,6 +41,8 @@ def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(fmu, 
         assert verdicts["ran"] >= 0.5 * count, verdicts
         # nearly all of them with gears that momentum.py can weigh
         assert balanced >= 0.8 * verdicts["ran"], balanced
+        # at the start and after each of some ten steps
+        assert compared > 6 * count
     if kind == "wild" and count >= 10:
         assert verdicts["refused"] >= 0.5 * count, verdicts
 

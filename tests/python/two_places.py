@@ -6,6 +6,7 @@ scenes is yielded for those alone. `AtMost` in place of a value says that the ot
 from math import atan2, cos, hypot, inf, pi, remainder, sin, sqrt, tan
 
 import numpy as np
+from momentum import INSTANT, SOLIDS
 
 IDEAL, LUMPED, TOOTH, SOLID = 1, 2, 3, 4
 IMPACT = 1
@@ -13,8 +14,6 @@ SPEED = 2
 SIDES = ["left", "right"]
 SIGMA = {"left": 1.0, "right": -1.0}
 PAIRS, ENDS = 3, ("toe", "middle", "heel")
-# the pressure at an end of a tilted face is extrapolated from places within, where the largest is taken
-EXTRAPOLATED = 1e-4
 CLOSE = 1e-9
 # base pitches between the ends of the path and pairs whose place is compared
 MARGIN = 0.01
@@ -247,7 +246,7 @@ def stresses(scene, o):
         ends = ENDS if grows else ["middle"]
         for end in ends:
             own = sqrt(factor) * pair[f"{end}_pressure"]
-            yield f"pressure at the {end} below the largest", AtMost((1.0 - EXTRAPOLATED) * own), o["stress.contact_max"], own
+            yield f"pressure at the {end} below the largest", AtMost(own), o["stress.contact_max"], own
     rated = o["stress.contact_rated"]
     if scene.is_even and pitch > 0.0:
         yield scene.constant("rated pressure over that at the pitch point", rated / pitch, 1.0)
@@ -270,4 +269,19 @@ def compared(scene, o):
             off = max(one - other, 0.0) if isinstance(one, AtMost) else abs(one - other)
             if not off <= CLOSE * scale:
                 found.append((what, float(one), float(other), float(off / scale) if scale else np.inf))
+    return found
+
+
+def unbalanced(momentum, scene, o):
+    """Side gears whose acceleration is not that of the torques on them: of meshes, half-shaft and drag, unless others rub."""
+    if scene.contact == IDEAL or scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or scene.p["lock.command"] > 0.0:
+        return []
+    drag = momentum.dragged(np.array([o["carrier.speed"], *(o[f"{side}.speed"] for side in SIDES)]))[1:]
+    found = []
+    for side, drags in zip(SIDES, drag):
+        terms = [momentum.radius * o[f"{side}.tangential_force"], -o[f"{side}.shaft_torque"], -drags,
+                 -momentum.side * o[f"{side}.acceleration"]]
+        allowed = INSTANT * sum(map(abs, terms)) + SOLIDS * momentum.facets[1] * abs(terms[-1])
+        if abs(sum(terms)) > allowed:
+            found.append((f"{side} torques and reaction", terms, sum(terms), allowed))
     return found

@@ -132,6 +132,12 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
                 });
+                // damping is spread over the face in another way than the elastic load
+                equations.loads_over_the_face(point, g, s, |load, line_load| {
+                    if let Some(line_load) = line_load {
+                        strength.add_pressure_at_ends(&mut stress[g][s], load, line_load);
+                    }
+                });
                 if let Some(law) = equations.flank_friction() {
                     // one slice stands for its pair, whose whole face is searched
                     let mut last = None;

@@ -1,6 +1,7 @@
 //! Rating constants of the gears, and the readings of stress, damage and safety factors.
 
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
+use crate::contact::ToothLoad;
 use crate::contact::detailed::{Detailed, SliceLoad};
 use crate::contact::pair_load::PairLoad;
 use crate::contact::tooth_friction::{Sliding, ToothFriction};
@@ -67,6 +68,16 @@ impl GearStrength {
         let line_load = self.application * load.steepest * self.mean_cone;
         let pressure = self.rating.contact.pressure_at(line_load, self.mean_cone, load.s);
         flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
+    }
+
+    /// Raises the pressure of a mesh to those at both ends of the face of the pair of `load`, whose load per width [N/m] at a cone
+    /// distance [m] is `line_load`.
+    pub fn add_pressure_at_ends(&self, mesh: &mut MeshLoad, load: &ToothLoad, line_load: &dyn Fn(f64) -> f64) {
+        let flank = mesh.flank(load.flank);
+        for cone in self.rating.contact.cone_range {
+            let pressure = self.rating.contact.pressure_at(self.application * line_load(cone), cone, load.s);
+            flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
+        }
     }
 
     /// Raises the readings of stress to the largest stresses of all meshes at an instant.
