@@ -9,9 +9,9 @@ use crate::fmu::BuildCommand;
 use crate::study::StudyCommand;
 use crate::tools::program::{Program, Stop};
 
-/// How users call this program.
+/// Command line of this program.
 pub const PROGRAM: &str = "cargo run --release --";
-/// How users call the laboratory, which is a program of its own.
+/// Command line of the laboratory, a program of its own.
 pub const LABORATORY: &str = "cargo run -p lab --release --";
 
 #[derive(Parser)]

@@ -16,7 +16,8 @@ pub use table::Table;
 
 /// Times that differ by less than this part of a step are the same.
 const SAME: f64 = 1e-9;
-/// The same as a part of a run without regular steps, whose inputs may change within a small part of it.
+/// In a run without regular steps, times that differ by less than this part of the run are the same. Its inputs may change within a
+/// small part of it.
 const FINEST: f64 = 1e-12;
 /// Maximum number of steps, and of stops of a table. More of them are a mistake.
 pub const MOST: f64 = 1e8;

@@ -67,7 +67,7 @@ impl Table {
     }
 }
 
-/// Times at which steps end beside the regular ones.
+/// Times at which steps end in addition to regular ones.
 #[derive(Clone)]
 pub(crate) struct Stops {
     /// Times [s], in the first period if they repeat, which do not fall.

@@ -121,7 +121,7 @@ export class Library {
     this.check(this.exports.fmi2ExitInitializationMode(this.component), "fmi2ExitInitializationMode");
   }
 
-  // Rows of a run's schedule, of `width` numbers each; bd_answers.h says what question and rows hold.
+  // Rows of a run's schedule, of `width` numbers each; bd_answers.h describes question and rows.
   schedule(question, width) {
     const from = this.exports.page_allocate(8 * question.length);
     new Float64Array(this.exports.memory.buffer, from, question.length).set(question);

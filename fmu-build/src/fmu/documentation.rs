@@ -80,7 +80,7 @@ pub const FIGURES: [Figure; 3] = [
 pub struct Beside {
     /// The differential in motion.
     pub live: Option<&'static str>,
-    /// How to test with the evidence.
+    /// Instructions for a test with the evidence.
     pub tests: Option<&'static str>,
 }
 

@@ -198,7 +198,7 @@ def record(fmu: Fmu, start: dict[str, Any], inputs: np.ndarray | None, stop: flo
             return simulate_fmu(fmu.folder, model_description=fmu.description, start_values=start, stop_time=stop, output_interval=step,
                                 input=inputs, output=outputs, logger=log, debug_logging=True)
     except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
-        # the log says why a call failed; fmpy only says which
+        # the log has the reason for a failure, fmpy only the name of the call
         why = said if said and isinstance(error, FMICallException) else [*said, str(error)]
         raise DifferentialError(f"the unit fails: {' '.join('; '.join(map(without_calls, why)).split())}") from None
 

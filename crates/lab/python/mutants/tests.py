@@ -47,7 +47,7 @@ class Tests:
         return {"fate": "survived", "by": f"{len(quick)} tests"}
 
     def report(self, changes, fates, seed, said):
-        """Counts by module, and the survivors with what docs/mutants.toml says about them."""
+        """Counts by module, and the survivors with their explanations in docs/mutants.toml."""
         rows = []
         for module in [*dict.fromkeys(change.module for change in changes), "all"]:
             own = [fate["fate"] for change, fate in zip(changes, fates) if module in (change.module, "all")]
@@ -107,7 +107,7 @@ def programs_of(messages):
 
 
 def trial(program, test, number, patience, folder, more={}):
-    """What a test makes of a change: its fate, and the seconds that it took."""
+    """Fate of a change in a test, and the seconds that the test took."""
     begin = time.monotonic()
     surroundings = {**os.environ, "MUTANT": str(number), "RUST_BACKTRACE": "0", **more}
     try:

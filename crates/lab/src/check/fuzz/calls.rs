@@ -1,6 +1,7 @@
 //! Calls with arguments at random, by the shapes of functions. Both versions of FMI share them; their tables say which function has
 //! which shape.
 
+use std::ffi::CStr;
 use std::ptr;
 
 use bevel_differential::instance::{ComponentPointer, Kind, Status, Text};
@@ -152,6 +153,24 @@ pub fn text(s: &Site, function: extern "C" fn() -> Text) -> CallResult {
     s.result(Status::Ok).unless(function().is_null(), "NULL")
 }
 
+/// Name and token of an instance, right ones or others; true if an instance can be made with them. `right` is the right token.
+pub fn name_and_token(r: &mut Rng, right: &CStr) -> ([Text; 2], bool) {
+    let (name, token) = (r.below(4), r.below(4));
+    let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
+    let tokens = [right.as_ptr(), right.as_ptr(), c"%n".as_ptr(), ptr::null()];
+    ([names[name], tokens[token]], name < 2 && token < 2)
+}
+
+/// Result of an instantiation, which had to succeed if it `is_right`. `is_silent`: a line in the log was to be expected, and there is none.
+pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> CallResult {
+    let outcome = CallResult::of(Status::Ok, &Flaws::default());
+    let outcome = outcome.unless(c.is_null() && is_silent, "refused without a line in the log");
+    outcome.unless(
+        c.is_null() == is_right,
+        if is_right { "refused though all is right" } else { "made though something is wrong" },
+    )
+}
+
 /// Frees what is no instance: nothing must happen. The round makes and frees instances.
 pub fn free(s: &Site) -> CallResult {
     unsafe {
@@ -183,15 +202,33 @@ pub fn setup<B: From<bool>>(s: &mut Site, function: Setup<B>) -> CallResult {
     s.result(status)
 }
 
-/// Reads numbers.
-pub fn get_reals(s: &mut Site, wanted: VariableKind, function: Getter<f64>) -> CallResult {
+/// Calls a getter with places that hold `unwritten`; returns its status and the places.
+fn read_values<T: Copy>(s: &mut Site, wanted: VariableKind, unwritten: T, function: Getter<T>) -> (Status, Vec<T>) {
     let vr = references(s.r, wanted);
     let (n, needed) = (vr.len(), !vr.is_empty());
-    let mut numbers = vec![f64::NAN; n + 1];
+    let mut values = vec![unwritten; n + 1];
     let [count, room] = s.counts(n);
-    let (references, place) = (s.read(vr.as_ptr(), needed), s.place(numbers.as_mut_ptr(), needed));
+    let (references, place) = (s.read(vr.as_ptr(), needed), s.place(values.as_mut_ptr(), needed));
     let status = unsafe { function(s.c, references, count, place, room) };
-    s.result(status).with(&numbers[..n])
+    values.truncate(n);
+    (status, values)
+}
+
+/// Calls a setter with `values` for `references`.
+fn write_values<T: Copy>(s: &mut Site, vr: &[u32], mut values: Vec<T>, unused: T, function: Setter<T>) -> CallResult {
+    let needed = !vr.is_empty();
+    // room for a count that is too large by one
+    values.push(unused);
+    let [count, given] = s.counts(vr.len());
+    let (references, values) = (s.read(vr.as_ptr(), needed), s.read(values.as_ptr(), needed));
+    let status = unsafe { function(s.c, references, count, values, given) };
+    s.result(status)
+}
+
+/// Reads numbers.
+pub fn get_reals(s: &mut Site, wanted: VariableKind, function: Getter<f64>) -> CallResult {
+    let (status, numbers) = read_values(s, wanted, f64::NAN, function);
+    s.result(status).with(&numbers)
 }
 
 /// Reads an array, with room that may have another size than the array.
@@ -206,13 +243,8 @@ pub fn get_array(s: &mut Site, function: Getter<f64>) -> CallResult {
 
 /// Reads integers, choices, switches or texts.
 pub fn get<T: Value>(s: &mut Site, wanted: VariableKind, function: Getter<T>) -> CallResult {
-    let vr = references(s.r, wanted);
-    let (n, needed) = (vr.len(), !vr.is_empty());
-    let mut values = vec![T::UNWRITTEN; n + 1];
-    let [count, room] = s.counts(n);
-    let (references, place) = (s.read(vr.as_ptr(), needed), s.place(values.as_mut_ptr(), needed));
-    let status = unsafe { function(s.c, references, count, place, room) };
-    s.result(status).unless(values[..n].contains(&T::UNWRITTEN), "a value was not written")
+    let (status, values) = read_values(s, wanted, T::UNWRITTEN, function);
+    s.result(status).unless(values.contains(&T::UNWRITTEN), "a value was not written")
 }
 
 /// Sets numbers: parameters and inputs, in model exchange also states.
@@ -220,26 +252,16 @@ pub fn set_reals(s: &mut Site, function: Setter<f64>) -> CallResult {
     let is_state = s.instance.making.kind == Kind::ModelExchange && s.r.chance(2);
     let wanted = if is_state { VariableKind::State } else { VariableKind::Settable };
     let vr = references(s.r, wanted);
-    let needed = !vr.is_empty();
-    let mut values = s.reals(&vr, wanted);
-    values.push(0.0);
-    let [count, given] = s.counts(vr.len());
-    let (references, values) = (s.read(vr.as_ptr(), needed), s.read(values.as_ptr(), needed));
-    let status = unsafe { function(s.c, references, count, values, given) };
-    s.result(status)
+    let values = s.reals(&vr, wanted);
+    write_values(s, &vr, values, 0.0, function)
 }
 
 /// Sets integers, choices or switches.
 pub fn set<T: Value>(s: &mut Site, wanted: VariableKind, function: Setter<T>) -> CallResult {
     let vr = references(s.r, wanted);
-    let needed = !vr.is_empty();
     let drawn = |&v: &u32| T::of(row(v).map_or(0, |row| integer_for(s.r, row)));
-    let mut values: Vec<T> = vr.iter().map(drawn).collect();
-    values.push(T::of(0));
-    let [count, given] = s.counts(vr.len());
-    let (references, values) = (s.read(vr.as_ptr(), needed), s.read(values.as_ptr(), needed));
-    let status = unsafe { function(s.c, references, count, values, given) };
-    s.result(status)
+    let values = vr.iter().map(drawn).collect();
+    write_values(s, &vr, values, T::of(0), function)
 }
 
 /// Reads or sets variables of a type that no variable has: every reference must be refused.

@@ -8,7 +8,7 @@ use bevel_differential::instance::Kind;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::guid;
 
-use super::arguments::{CallResult, Flaws, VariableKind as V};
+use super::arguments::{CallResult, VariableKind as V};
 use super::calls::*;
 use super::instance::{Host, Making, Recorder};
 use super::states;
@@ -154,20 +154,14 @@ fn instantiate(s: &mut Site) -> CallResult {
     let (recorder, r) = (Recorder::default(), &mut *s.r);
     let callbacks = recorder.callbacks();
     let right = CString::new(guid()).unwrap_or_default();
-    let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));
-    let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
-    let ids = [right.as_ptr(), right.as_ptr(), c"%n".as_ptr(), ptr::null()];
+    let kind = r.below(4) as i32 - 1;
+    let ([name, token], is_right) = name_and_token(r, &right);
     let places = [ptr::null(), c"file:///a%20b".as_ptr(), c"\xff".as_ptr()];
     let callbacks = if r.chance(4) { ptr::null() } else { &raw const callbacks };
     // SAFETY: all pointers are NULL or valid through the call
-    let c = unsafe { fmi2Instantiate(names[name], kind, ids[id], r.pick(&places), callbacks, 0, r.below(2) as i32) };
-    let expected = (kind == MODEL_EXCHANGE || kind == CO_SIMULATION) && name < 2 && id < 2;
-    let silent = recorder.lines().is_empty() && !callbacks.is_null();
-    let mut outcome = CallResult::of(Status::Ok, &Flaws::default())
-        .unless(c.is_null() && silent, "refused without a line in the log");
-    if c.is_null() == expected {
-        outcome.broken = Some(format!("kind {kind}, name {name}, GUID {id}: made {}", !c.is_null()));
-    }
+    let c = unsafe { fmi2Instantiate(name, kind, token, r.pick(&places), callbacks, 0, r.below(2) as i32) };
+    let is_right = is_right && (kind == MODEL_EXCHANGE || kind == CO_SIMULATION);
+    let outcome = instantiated(c, is_right, recorder.lines().is_empty() && !callbacks.is_null());
     // SAFETY: NULL, or a component that nothing else holds; it is freed before its log
     unsafe { fmi2FreeInstance(c) };
     outcome

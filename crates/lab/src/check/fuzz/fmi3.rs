@@ -9,7 +9,7 @@ use bevel_differential::instance::EVENT_INDICATORS;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::{Access, guid, table};
 
-use super::arguments::{CallResult, Flaws, VariableKind as V, row};
+use super::arguments::{CallResult, VariableKind as V, row};
 use super::calls::*;
 use super::instance::{Host, Line, Making};
 use super::states;
@@ -317,18 +317,11 @@ fn instantiate(
     function: fn(&mut fastrand::Rng, Text, Text, *mut c_void, Option<LogMessage>) -> ComponentPointer,
 ) -> CallResult {
     let right = CString::new(guid()).unwrap_or_default();
-    let (name, id, is_logged) = (s.r.below(4), s.r.below(4), !s.r.chance(4));
-    let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
-    let ids = [right.as_ptr(), right.as_ptr(), c"%n".as_ptr(), ptr::null()];
+    let (([name, token], is_right), is_logged) = (name_and_token(s.r, &right), !s.r.chance(4));
     let host = &*s.instance.host;
     let message = is_logged.then_some(log as LogMessage);
-    let c = function(s.r, names[name], ids[id], environment(host), message);
-    let silent = is_logged && host.recorder.lines().is_empty();
-    let mut outcome = CallResult::of(Status::Ok, &Flaws::default())
-        .unless(c.is_null() && silent, "refused without a line in the log");
-    if c.is_null() == (name < 2 && id < 2) {
-        outcome.broken = Some(format!("name {name}, token {id}: made {}", !c.is_null()));
-    }
+    let c = function(s.r, name, token, environment(host), message);
+    let outcome = instantiated(c, is_right, is_logged && host.recorder.lines().is_empty());
     // SAFETY: NULL, or an instance that nothing else holds
     unsafe { fmi3FreeInstance(c) };
     outcome

@@ -14,7 +14,7 @@ mod recorder;
 
 pub use recorder::{Line, Recorder};
 
-/// How an instance is made.
+/// Options of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct Making {
     /// Model exchange or co-simulation.
@@ -44,7 +44,7 @@ pub struct Host {
     pub updates: Cell<u64>,
     /// The instance, for calls within a step; NULL before it is made.
     pub component: Cell<ComponentPointer>,
-    /// What was wrong in an update within a step.
+    /// First promise that an update within a step broke, in words.
     pub broken: RefCell<Option<String>>,
 }
 
@@ -54,7 +54,7 @@ pub struct FuzzedInstance {
     pub version: &'static Version,
     /// The instance.
     pub component: ComponentPointer,
-    /// How it was made.
+    /// Options with which it was made.
     pub making: Making,
     /// The host's side.
     pub host: Box<Host>,
