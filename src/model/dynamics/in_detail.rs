@@ -162,14 +162,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         mut look: impl FnMut(&SliceLoad),
     ) -> DetailedLoad<f64> {
         if let Some(bodies) = self.bodies_of_gears() {
-            return self.with_shared_teeth(bodies, g, |teeth| {
-                let mut look = |slice: &SliceLoad| {
-                    if slice.name.side == s {
-                        look(slice);
-                    }
-                };
-                self.teeth.effect_terms.detailed.look_shared(teeth, &self.detailed_states(at, g), &mut look)[s]
-            });
+            let mut look = |slice: &SliceLoad| {
+                if slice.name.side == s {
+                    look(slice);
+                }
+            };
+            let (teeth, states) = (&self.shared_teeth(bodies, g), &self.detailed_states(at, g));
+            return self.teeth.effect_terms.detailed.look_shared(teeth, states, &mut look)[s];
         }
         self.teeth.effect_terms.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), &mut look)
     }

@@ -86,8 +86,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn energy_on_bodies(&self, bodies: &PairCouplings, at: [&Point<N>; 2], g: usize) -> f64 {
         if WITH_EFFECTS && self.in_detail() {
             let states = [0, 1].map(|s| self.detailed_state(at[s], g, s));
-            return self
-                .with_shared_teeth(bodies, g, |teeth| self.teeth.effect_terms.detailed.energy_shared(teeth, &states));
+            return self.teeth.effect_terms.detailed.energy_shared(&self.shared_teeth(bodies, g), &states);
         }
         let states = [0, 1].map(|s| self.mesh_state(at[s], g, s));
         with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).energy(law, &states), 0.0)
@@ -117,23 +116,17 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// By how much pairs of group `g` are moved by others.
     pub(super) fn opening_by_others(&self, bodies: &PairCouplings, at: &Point<N>, g: usize) -> OpeningByOthers {
         if self.in_detail() {
-            return self.with_shared_teeth(bodies, g, |teeth| {
-                self.teeth.effect_terms.detailed.opening_by_others(teeth, &self.detailed_states(at, g))
-            });
+            let states = &self.detailed_states(at, g);
+            return self.teeth.effect_terms.detailed.opening_by_others(&self.shared_teeth(bodies, g), states);
         }
         let states = self.mesh_states(at, g);
         with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).opening_by_others(law, &states), OpeningByOthers::default())
     }
 
-    /// Calls `act` with the teeth of both meshes of group `g` on `bodies`.
-    pub(super) fn with_shared_teeth<R>(
-        &self,
-        bodies: &PairCouplings,
-        g: usize,
-        act: impl FnOnce(&SharedTeeth) -> R,
-    ) -> R {
-        let numbers = |name: PairName| self.teeth.effect_terms.perfect.unrolled(&name)[0];
-        act(&SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, numbers: &numbers })
+    /// Teeth of both meshes of group `g` on `bodies`.
+    pub(super) fn shared_teeth<'b>(&'b self, bodies: &'b PairCouplings, g: usize) -> SharedTeeth<'b> {
+        let opposite = self.teeth.effect_terms.perfect.opposite(self.teeth.plan.group(g).planet);
+        SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, opposite }
     }
 
     /// Writes the loads of both meshes of group `g` in detail to where they stay.
@@ -141,11 +134,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn write_planet_loads<T: Local>(&self, at: &Point<N>, g: usize, loads: &mut [DetailedLoad<T>; 2]) {
         let mesh = &self.teeth.effect_terms.detailed;
         match self.bodies_of_gears() {
-            Some(bodies) => {
-                self.with_shared_teeth(bodies, g, |teeth| {
-                    *loads = T::load_shared(mesh, teeth, &self.detailed_states(at, g));
-                });
-            }
+            Some(bodies) => *loads = T::load_shared(mesh, &self.shared_teeth(bodies, g), &self.detailed_states(at, g)),
             None => {
                 for s in 0..2 {
                     loads[s] = T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s));

@@ -135,7 +135,7 @@ impl Gears {
     pub fn shared<R>(&self, gaps: Option<&dyn Gaps>, act: impl FnOnce(&SharedTeeth) -> R) -> R {
         let teeth =
             [0, 1].map(|side| MeshTeeth { engagement: &self.mesh.engagement, gaps, viscosity: None, planet: 0, side });
-        act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(&name)[0] })
+        act(&SharedTeeth { teeth, bodies: &self.bodies, opposite: self.teeth.opposite(0) })
     }
 
     /// Loaded slices: teeth, kind of contact, place on the face, whether damping is full, and which ends of the face carry;
