@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::events::{apply_changes, break_tooth};
 use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
-use super::{StepFailure, imposed, start, start_report, timeline};
+use super::{StepFailure, imposed, timeline};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::event::{Events, Pause, Way};
 use crate::model::dynamics::{Accepted, Largest, State, Watched};
@@ -13,6 +13,7 @@ use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method, Start};
 use crate::model::setup::{HEATS, Parameters};
+use crate::model::start::{preload, report};
 use crate::model::thermal::Thermal;
 use crate::problem::Problem;
 
@@ -22,14 +23,14 @@ const FIRST_STEP: f64 = 1e-6;
 /// A simulation; cloning it takes a snapshot (constants are shared, the state is copied).
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    pub(super) model: Arc<Model>,
-    pub(super) state: State,
+    pub(in crate::model) model: Arc<Model>,
+    pub(in crate::model) state: State,
     /// What steps are watched for.
-    pub(super) watched: Watched,
-    pub(super) inputs: Inputs,
-    pub(super) forces: Option<Forces>,
+    pub(in crate::model) watched: Watched,
+    pub(in crate::model) inputs: Inputs,
+    pub(in crate::model) forces: Option<Forces>,
     /// Where the last step ended that a solver of the host's completed.
-    pub(super) accepted: Option<Accepted>,
+    pub(in crate::model) accepted: Option<Accepted>,
 }
 
 impl Simulation {
@@ -56,17 +57,17 @@ impl Simulation {
             }
             None => Thermal::uniform(oil),
         };
-        start::set_speeds(model, inputs, state);
+        preload::set_speeds(model, inputs, state);
         // a tooth that is broken from the start on
         break_tooth(model, inputs, state);
-        let mut preload = None;
+        let mut preloaded = None;
         if parameters.scene.start.is_in_equilibrium() {
             match &model.gears {
-                Gears::Ideal(ideal) => start::wind(model, &ideal.body_effects.half_shafts, inputs, state),
+                Gears::Ideal(ideal) => preload::wind(model, &ideal.body_effects.half_shafts, inputs, state),
                 Gears::Teeth(teeth) => {
                     let equations = Largest::new(teeth, inputs, state);
-                    let pressed = start::preload(&equations, model, inputs, state);
-                    preload = Some(pressed.map_err(|problem| vec![problem])?);
+                    let pressed = preload::preload(&equations, model, inputs, state);
+                    preloaded = Some(pressed.map_err(|problem| vec![problem])?);
                 }
             }
         }
@@ -76,8 +77,8 @@ impl Simulation {
         // friction that holds from the start on causes no event
         simulation.state.events = events;
         let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
-        if let Some(preload) = &preload {
-            let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
+        if let Some(preload) = &preloaded {
+            let outcome = report::judge(&simulation.model, inputs, &simulation.state, preload);
             in_equilibrium = outcome.in_equilibrium;
             Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
         }

@@ -6,14 +6,14 @@
 
 use crate::FULL;
 
-use super::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
-use super::progress::complete;
-use super::timeline::{breaks_tooth, next_change};
-use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Gears;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::{Accepted, Acted, Largest, State};
+use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
+use crate::model::run::progress::complete;
+use crate::model::run::timeline::{breaks_tooth, next_change};
+use crate::model::run::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, MAX_DOF, MAX_PLANETS, Plan,
 };

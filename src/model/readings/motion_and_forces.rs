@@ -1,8 +1,5 @@
 //! What can be read from a simulation: motion, forces, the ledger, and what is simulated.
 
-use super::events::{energy, has_brakes, with_brakes};
-use super::progress::complete;
-use super::{Simulation, imposed};
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
@@ -11,6 +8,9 @@ use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::{LedgerReadings, Motion, resultants};
+use crate::model::run::events::{energy, has_brakes, with_brakes};
+use crate::model::run::progress::complete;
+use crate::model::run::{Simulation, imposed};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
@@ -79,7 +79,7 @@ impl Simulation {
         if let Some(present) = self.with_inputs_applied() { present.motion_of_state() } else { self.motion_of_state() }
     }
 
-    pub(super) fn motion_of_state(&self) -> Motion {
+    pub(in crate::model) fn motion_of_state(&self) -> Motion {
         let (model, state) = (&self.model, &self.state);
         let plan = &model.ideal.plan;
         let layout = plan.layout();
@@ -125,7 +125,7 @@ impl Simulation {
         self.forces.get_or_insert_default()
     }
 
-    pub(super) fn forces_of_state(&self, extent: Extent) -> Forces {
+    pub(in crate::model) fn forces_of_state(&self, extent: Extent) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) => resultants::ideal_forces(model, inputs, state),
@@ -143,7 +143,7 @@ impl Simulation {
         self.with_inputs_applied().as_ref().unwrap_or(self).pair_lines_of_state()
     }
 
-    pub(super) fn pair_lines_of_state(&self) -> PairLines {
+    pub(in crate::model) fn pair_lines_of_state(&self) -> PairLines {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return PairLines::default() };
         let material = &model.parameters.material;
@@ -176,14 +176,14 @@ impl Simulation {
     }
 
     /// State and what is watched with the step ahead completed up to the present.
-    pub(super) fn completed(&self) -> (State, Watched) {
+    pub(in crate::model) fn completed(&self) -> (State, Watched) {
         let (mut state, mut watched) = (self.state, self.watched);
         complete(&self.model, (&mut state, &mut watched));
         (state, watched)
     }
 
     /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
-    pub(super) fn energy(&self, state: &State) -> f64 {
+    pub(in crate::model) fn energy(&self, state: &State) -> f64 {
         let known = self.accepted.as_ref().map(|accepted| accepted.applied_to(state));
         energy(&self.model, &self.inputs, known.as_ref().unwrap_or(state))
     }

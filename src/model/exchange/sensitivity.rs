@@ -4,8 +4,7 @@
 //! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
 //! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
 
-use super::imposed::{add_impulse, imposed_speeds};
-use super::{STATES, Simulation};
+use super::STATES;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::Gears;
 use crate::model::dynamics::Acted;
@@ -14,6 +13,8 @@ use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::PairLines;
 use crate::model::outputs::{LedgerReadings, Motion};
+use crate::model::run::Simulation;
+use crate::model::run::imposed::{add_impulse, imposed_speeds};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{HEATS, STEP_READINGS};

@@ -6,8 +6,8 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use super::Simulation;
 use crate::declaration::units::TEMPERATURES;
+use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
 use crate::model::thermal::steady::{Cycle, Steady};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
@@ -26,7 +26,7 @@ impl Simulation {
     /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
     /// Apart, as other starts have no room for its simulations on a small stack.
     #[inline(never)]
-    pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
+    pub(in crate::model) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
         network.around = network.around.changed(self.inputs.changes_outside());
         let mut still = Box::new(self.clone());
