@@ -7,7 +7,7 @@
 //! - `setup`: all parameters, and contradictions between them,
 //! - `assembly`: from parameters to constants,
 //! - `dynamics`: the equations of motion and their state,
-//! - `outputs`: what can be read,
+//! - `outputs`: the values that can be read,
 //! - `run`: a running simulation and its steps,
 //! - `readings`: what is read from a simulation, and what it reports,
 //! - `start`: the start of a simulation,

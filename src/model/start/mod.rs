@@ -2,7 +2,8 @@
 
 mod carried;
 mod equilibrium;
+mod first_state;
 mod periodic;
-pub mod preload;
-pub mod report;
+mod preload;
+mod report;
 mod steady_heat;
