@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::process::Command;
 
-use fmu_build::fmu::own;
+use fmu_build::fmu::libraries::own;
 use lab::check::fuzz::{self, Tally, VERSIONS};
 use lab::check::memcheck;
 

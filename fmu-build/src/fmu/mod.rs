@@ -2,7 +2,6 @@
 //! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
 //! `evidence`, `toolchains`.
 
-pub mod darwin;
 pub mod dependencies;
 pub mod describe;
 pub mod describe3;
@@ -11,12 +10,9 @@ pub mod effect_list;
 pub mod evidence;
 pub mod libraries;
 pub mod licences;
-pub mod linux;
-pub mod own;
 pub mod package;
 pub mod page;
 pub mod plain_types;
-pub mod platforms;
 pub mod sources;
 pub mod terminals;
 pub mod toolchains;

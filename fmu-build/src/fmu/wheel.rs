@@ -7,11 +7,11 @@ use anyhow::{Context, Result};
 use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
 
+use crate::fmu::libraries::platforms::{self, Platform};
 use crate::fmu::libraries::{CRATES, Library};
 use crate::fmu::licences;
 use crate::fmu::package::{self, Packing};
 use crate::fmu::page;
-use crate::fmu::platforms::{self, Platform};
 use crate::tools::files::{copy_file, copy_folder, remove_folder, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;

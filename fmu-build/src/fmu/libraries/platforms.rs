@@ -3,9 +3,8 @@
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
 
-use crate::fmu::libraries::{self, CROSS, HOST, Library};
+use crate::fmu::libraries::{self, CROSS, HOST, Library, darwin, linux};
 use crate::fmu::toolchains::{self, WINDOWS};
-use crate::fmu::{darwin, linux};
 
 /// A platform to build the library for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

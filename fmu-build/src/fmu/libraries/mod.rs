@@ -1,5 +1,10 @@
 //! The FMU's library, built for this machine or for other machines by the tool chains that are installed.
 
+pub mod darwin;
+pub mod linux;
+pub mod own;
+pub mod platforms;
+
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,7 +12,6 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 
 use crate::fmu::toolchains::{self, GLIBC, UnpackedToolchain, WINDOWS, WINDOWS_TARGET};
-use crate::fmu::{darwin, linux, own};
 use crate::tools::{paths, progress};
 
 /// The crate that is the FMU, and the one that answers questions for the Python package.
