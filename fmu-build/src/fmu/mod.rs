@@ -2,12 +2,14 @@
 //! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
 //! `evidence`, `toolchains`.
 
+pub mod archive;
 pub mod dependencies;
 pub mod describe;
 pub mod describe3;
 pub mod documentation;
 pub mod effect_list;
 pub mod evidence;
+pub mod evidence_command;
 pub mod libraries;
 pub mod licences;
 pub mod package;
@@ -30,7 +32,7 @@ pub enum BuildCommand {
     Wheel(wheel::WheelCommand),
     Page(page::PageCommand),
     Describe(describe::DescribeCommand),
-    Evidence(evidence::EvidenceCommand),
+    Evidence(evidence_command::EvidenceCommand),
     Toolchains(toolchains::ToolchainsCommand),
 }
 
