@@ -26,7 +26,7 @@ impl Simulation {
     /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
     /// Apart, as other starts have no room for its simulations on a small stack.
     #[inline(never)]
-    pub(in crate::model) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
+    pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
         network.around = network.around.changed(self.inputs.changes_outside());
         let mut still = Box::new(self.clone());
