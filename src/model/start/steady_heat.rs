@@ -6,8 +6,8 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use super::Simulation;
 use crate::declaration::units::TEMPERATURES;
+use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
 use crate::model::thermal::steady::{Cycle, Steady};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};

@@ -1,6 +1,6 @@
 //! What the log says of a start: that it is no equilibrium, or that few planets carry.
 
-use super::start::Preload;
+use super::preload::Preload;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::{Largest, State};

@@ -1,4 +1,4 @@
-//! The library that cargo built along with this program. It is packed for this machine, so that nothing is compiled twice.
+//! The library for this machine. The one that cargo built along with this program is packed, so that nothing is compiled twice.
 
 use std::env;
 use std::fs;
@@ -8,12 +8,49 @@ use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::fmu::libraries::{CRATES, folders};
+use super::compile::{cargo, distributable, folders};
+use super::library::{CRATES, HOST, Library};
 use crate::tools::files::make_whole;
-use crate::tools::paths;
+use crate::tools::{paths, progress};
+
+/// FMI 3.0's name of this machine's platform, as far as the FMU has been built there.
+const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes()) {
+    (false, b"win64") => "x86_64-windows",
+    (false, b"darwin64") => "x86_64-darwin",
+    (false, _) => "x86_64-linux",
+    (true, b"win64") => "aarch64-windows",
+    (true, b"darwin64") => "aarch64-darwin",
+    (true, _) => "aarch64-linux",
+};
 
 /// Separators in a folder that is looked for: `/src` may be the middle of any path, and tells nothing of a machine.
 const FEWEST_SEPARATORS: usize = 2;
+
+/// The library as this machine's tools build it: as they built it along with this program, if it can be found.
+pub fn for_this_machine() -> Result<Library> {
+    let needs = match HOST.0 {
+        "linux64" => "Linux on x86-64 as new as the machine that the library was built on",
+        "win64" => "Windows on x86-64",
+        _ => "macOS",
+    };
+    let [file, answers] = packable().or_else(|why| {
+        progress::note(&format!("{why:#}: the library is compiled once more, which takes minutes"));
+        let mut command = Command::new(cargo());
+        command.arg("build");
+        distributable(command, "this-machine", HOST.1, &[])
+    })?;
+    let in_fmi3 = vec![(HOST_IN_FMI3, file.clone())];
+    Ok(Library {
+        platform: HOST.0,
+        in_fmi3,
+        in_wheels: "this-machine",
+        ending: HOST.1,
+        file,
+        answers,
+        needs: needs.into(),
+        added: Vec::new(),
+    })
+}
 
 /// The FMU's library as cargo left it beside this program, as it is. An error says why it cannot be used.
 pub fn beside_program() -> Result<PathBuf> {
@@ -39,7 +76,7 @@ fn beside(package: &str) -> Result<PathBuf> {
 }
 
 /// Copies of the libraries of [`CRATES`] without the folders of this machine.
-pub fn packable() -> Result<[PathBuf; 2]> {
+fn packable() -> Result<[PathBuf; 2]> {
     let [fmu, answers] = CRATES.map(|package| beside(package).and_then(|library| cleaned(&library)));
     Ok([fmu?, answers?])
 }

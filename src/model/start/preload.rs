@@ -1,60 +1,13 @@
-//! The state at the start time.
+//! The load at the start: teeth are pressed together and half-shafts wound up until both carry it.
 
 use super::carried::Carried;
 use super::equilibrium::{ROUNDS, check_settled, press_sides, pressed_as_they_are, settle, settle_as_they_are};
 use crate::integrate::Point;
-use crate::model::assembly::{Ideal, Model, SIGMA};
+use crate::model::assembly::{Ideal, Model};
 use crate::model::dynamics::{LARGEST, Largest, State};
 use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
+use crate::model::scene::{CARRIER, Inputs};
 use crate::problem::Problem;
-
-/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from rest.
-pub fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
-    let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
-    let layout = plan.layout();
-    let rest = model.parameters.scene.start == Start::Rest;
-    let command = model.body_effects().carrier_speed(&state.q, inputs.carrier_speed);
-    let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { command };
-    let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
-    let [left, right] = inputs.side_speed;
-    match plan.side_imposed {
-        [true, true] => (carrier, spin) = (0.5 * (left + right), 0.5 * (left - right) / ratio),
-        [false, false] => {}
-        [imposed_left, _] => {
-            let s = usize::from(!imposed_left);
-            let (speed, sigma) = (inputs.side_speed[s], SIGMA[s]);
-            if plan.spin_imposed {
-                carrier = speed - sigma * ratio * spin;
-            } else {
-                spin = sigma * (speed - carrier) / ratio;
-            }
-        }
-    }
-    let v = &mut state.v;
-    // gears without teeth cannot be at rest against an imposed speed
-    let follow = !rest || plan.contact == GearContact::Ideal;
-    if follow || plan.carrier_imposed {
-        v[CARRIER] = carrier;
-    }
-    for g in (0..layout.groups).filter(|_| follow || plan.spin_imposed) {
-        v[layout.planet(g)] = spin;
-        if layout.has_pins {
-            v[layout.pin(g)] = v[CARRIER];
-        }
-    }
-    for s in 0..2 {
-        if follow {
-            v[s] = carrier + SIGMA[s] * ratio * spin;
-        }
-    }
-    for (i, to) in layout.attached() {
-        v[i] = v[to];
-    }
-    for s in (0..2).filter(|&s| plan.shafts[s] && plan.side_imposed[s]) {
-        v[layout.end(s)] = inputs.side_speed[s];
-    }
-}
 
 /// Winds the half-shafts of an ideal differential up.
 pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut State) {

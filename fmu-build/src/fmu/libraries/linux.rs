@@ -4,7 +4,8 @@ use std::process::Command;
 
 use anyhow::Result;
 
-use crate::fmu::libraries::{AddedPart, CROSS, Library, cargo, distributable};
+use super::compile::{cargo, distributable};
+use super::library::{AddedPart, CROSS, Library};
 use crate::fmu::toolchains::{self, ARM_TARGET, Compiler, GLIBC};
 use crate::tools::paths;
 use crate::tools::python::Environment;

@@ -3,9 +3,9 @@
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
 
-use crate::fmu::libraries::{self, CROSS, HOST, Library};
-use crate::fmu::toolchains::{self, WINDOWS};
-use crate::fmu::{darwin, linux};
+use super::library::{CROSS, HOST, Library};
+use super::{darwin, linux, own, windows};
+use crate::fmu::toolchains;
 
 /// A platform to build the library for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,10 +42,10 @@ pub fn build(platforms: &[Platform]) -> Result<Vec<Library>> {
     }
     let built = platforms.iter().map(|platform| match platform {
         Platform::Linux64 => linux::x86_64(),
-        Platform::Win64 => libraries::windows(),
+        Platform::Win64 => windows::x86_64(),
         Platform::ArmLinux => linux::arm(),
         Platform::Darwin64 => darwin::universal(),
-        Platform::ThisMachine => libraries::for_this_machine().map(Some),
+        Platform::ThisMachine => own::for_this_machine().map(Some),
     });
     built.filter_map(Result::transpose).collect()
 }
@@ -65,7 +65,7 @@ impl Platform {
     fn can_be_built(self) -> bool {
         match self {
             Self::Linux64 => linux::has_x86_64(),
-            Self::Win64 => CROSS && (WINDOWS.found().is_some() || libraries::rustup_has_windows()),
+            Self::Win64 => windows::has_x86_64(),
             Self::ArmLinux => linux::has_arm(),
             Self::Darwin64 => darwin::has_universal(),
             Self::ThisMachine => true,

@@ -1,7 +1,6 @@
 //! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
 //! above its limit.
 
-use super::{Simulation, effort, six_digits};
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
@@ -9,6 +8,7 @@ use crate::model::dynamics::{IdealEquations, Largest, each_pv};
 use crate::model::effect_kinds::{FrictionSource, Surface};
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
+use crate::model::run::{Simulation, effort, six_digits};
 use crate::model::scene::MAX_PLANETS;
 use crate::problem::{Problem, told_apart};
 

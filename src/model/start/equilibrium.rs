@@ -3,13 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carried::Carried;
-use super::failure::limit_name;
-use super::hints;
-use super::ledger::LedgerEquations;
 use crate::contact::FlankGaps;
 use crate::integrate::{Matrix, Point};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::run::failure::limit_name;
+use crate::model::run::{LedgerEquations, hints};
 use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;

@@ -6,7 +6,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::fmu::libraries::{CROSS, Library, cargo, distributable};
+use super::compile::{cargo, distributable};
+use super::library::{CROSS, Library};
 use crate::fmu::toolchains::{self, Compiler, DARWIN_TARGETS, UnpackedToolchain};
 use crate::tools::files::write_whole;
 use crate::tools::paths;

@@ -4,7 +4,7 @@
 //! the ripple of teeth and shafts hardly counts: it moves an angle by less than [`RIPPLE`] at both ends of a cycle, while a constant
 //! acceleration moves it by α L² from one cycle of length L to the next.
 
-use super::Simulation;
+use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
 use crate::model::thermal::{NODES, Network, Thermal};
 
