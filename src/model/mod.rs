@@ -45,7 +45,7 @@ pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use readings::{CostClass, Reported};
 pub use run::{Simulation, StepFailure, six_digits};
-pub use scene::attached::ATTACHED;
+pub use scene::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,

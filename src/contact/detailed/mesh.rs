@@ -1,6 +1,6 @@
 //! The mesh itself: constants, and the sum of loads over tooth pairs.
 
-use super::super::laws::with_spring;
+use super::super::spring::with_spring;
 use super::directions::{Arcs, Directions};
 use super::face::{Cut, Face, Part};
 use super::touching::Touching;

@@ -6,8 +6,8 @@ use super::couplings::{MOST_PAIRS, place_for};
 use super::{COORDINATES, Change, OpeningByOthers, Share, Sharing};
 use crate::contact::bodies::{PairCouplings, PairPlace};
 use crate::contact::impact::Force;
-use crate::contact::law::{FaceLaw, Response};
 use crate::contact::mesh::{MeshForce, MeshState};
+use crate::contact::spring::Response;
 use crate::contact::{Flank, Mesh, Spring, ToothPair};
 
 /// Both meshes of a planet.
@@ -69,7 +69,7 @@ impl SharedMeshes<'_> {
     #[inline(always)]
     fn gather<S: Spring>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         states: &[MeshState; 2],
         lookout: f64,
         Pairs { near, arc, count }: &mut Pairs<S::Place>,
@@ -92,7 +92,7 @@ impl SharedMeshes<'_> {
                     if let Some(place) = place_for(pair.depth, count, |k| arc[k]) {
                         let tooth = self.tooth(side, flank, pair.number);
                         let pair_place = PairPlace { side, flank, number: pair.number, tooth, s: pair.s };
-                        near[place] = Some(Near { pair: *pair, pair_place, place: law.specific.place(pair.s) });
+                        near[place] = Some(Near { pair: *pair, pair_place, place: spring.place(pair.s) });
                         arc[place] = pair.depth;
                     }
                 });
@@ -100,27 +100,28 @@ impl SharedMeshes<'_> {
         }
     }
 
-    /// Rate ḋ of a pair [m/s].
+    /// Response of a pair at its own arc `own` [rad] and the rate `rate` [m/s] of the whole approach.
     #[inline(always)]
-    fn rate(&self, pair: &ToothPair, state: &MeshState) -> f64 {
-        self.mesh.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1])
+    fn respond<S: Spring>(&self, spring: &S, near: &Near<S::Place>, own: f64, rate: f64) -> Response {
+        let Mesh { whole, damping, .. } = self.mesh;
+        spring.respond_whole::<true>(&near.place, (whole, damping), whole.cone * own, rate)
     }
 
     /// Calls `see` with each pair that may carry and its share of the load; with `SLOPES` of the share.
     fn share<S: Spring, const SLOPES: bool>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         states: &[MeshState; 2],
         lookout: f64,
         see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
     ) {
         let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
-        self.gather(law, states, lookout, &mut pairs);
+        self.gather(spring, states, lookout, &mut pairs);
         let Pairs { near, arc, count } = &pairs;
         let near_of = |k: usize| near.get(k).and_then(Option::as_ref);
         let load = |k: usize, arc: f64| {
             let (Some(near), false) = (near_of(k), arc <= 0.0) else { return [0.0; 2] };
-            let elastic = law.specific.respond(&near.place, arc);
+            let elastic = spring.respond(&near.place, arc);
             [elastic.torque, elastic.stiffness]
         };
         let changes = |k: usize, own: f64| {
@@ -128,7 +129,7 @@ impl SharedMeshes<'_> {
             if let Some(near) = near_of(k) {
                 let (pair, at) = (&near.pair, 3 * near.pair_place.side);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
-                let by_place = if own > 0.0 { law.specific.respond(&near.place, own).torque_by_place } else { 0.0 };
+                let by_place = if own > 0.0 { spring.respond(&near.place, own).torque_by_place } else { 0.0 };
                 change.place = (at + 1, pair.s_slope, by_place * pair.s_slope);
             }
             (by, change)
@@ -146,11 +147,11 @@ impl SharedMeshes<'_> {
     /// The same with pairs that carry alone.
     fn carrying<S: Spring, const SLOPES: bool>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         states: &[MeshState; 2],
         mut see: impl FnMut(&Near<S::Place>, f64, &Share),
     ) {
-        self.share::<S, SLOPES>(law, states, 0.0, &mut |near, arc, share| {
+        self.share::<S, SLOPES>(spring, states, 0.0, &mut |near, arc, share| {
             if share.own > 0.0 {
                 see(near, arc, share);
             }
@@ -158,11 +159,11 @@ impl SharedMeshes<'_> {
     }
 
     /// Forces and heat of both meshes.
-    pub fn force<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
+    pub fn force<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> [MeshForce; 2] {
         let mut sum = [MeshForce::default(); 2];
-        self.carrying::<S, false>(law, states, |near, _, share| {
+        self.carrying::<S, false>(spring, states, |near, _, share| {
             let side = near.pair_place.side;
-            self.add(law, &mut sum[side], near, &states[side], share);
+            self.add(spring, &mut sum[side], near, &states[side], share);
         });
         sum
     }
@@ -171,27 +172,27 @@ impl SharedMeshes<'_> {
     #[inline(always)]
     fn add<S: Spring>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         to: &mut MeshForce,
         near: &Near<S::Place>,
         state: &MeshState,
         share: &Share,
     ) -> Response {
-        let (pair, rate) = (&near.pair, self.rate(&near.pair, state));
-        let response = law.respond_at(&near.place, self.mesh.cone * share.own, rate);
-        let torque = self.mesh.cone * response.force.total;
+        let (pair, rate) = (&near.pair, self.mesh.rate(&near.pair, state));
+        let response = self.respond(spring, near, share.own, rate);
+        let torque = self.mesh.whole.cone * response.force.total;
         to.force[0] -= torque * pair.slope[0];
-        to.force[1] -=
-            torque * pair.slope[1] + (response.by_place - law.moment * share.load * share.along) * pair.s_slope;
+        to.force[1] -= torque * pair.slope[1]
+            + (response.by_place - self.mesh.whole.moment * share.load * share.along) * pair.s_slope;
         to.heat += (response.force.total - response.force.elastic) * rate;
         response
     }
 
     /// The same with their derivatives and the elastic energy.
-    pub fn linearise<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> SharedForce {
+    pub fn linearise<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> SharedForce {
         let mut sum = SharedForce::default();
-        self.carrying::<S, true>(law, states, |near, arc, share| {
-            self.add_linearised(law, &mut sum, near, (states, arc), share);
+        self.carrying::<S, true>(spring, states, |near, arc, share| {
+            self.add_linearised(spring, &mut sum, near, (states, arc), share);
         });
         sum
     }
@@ -200,17 +201,17 @@ impl SharedMeshes<'_> {
     #[inline(always)]
     fn add_linearised<S: Spring>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         sum: &mut SharedForce,
         near: &Near<S::Place>,
         (states, arc): (&[MeshState; 2], f64),
         share: &Share,
     ) {
         let Some([own_by, along_by]) = share.slopes else { return };
-        let (moment, r) = (law.moment, self.mesh.cone);
+        let (moment, r) = (self.mesh.whole.moment, self.mesh.whole.cone);
         let (pair, side) = (&near.pair, near.pair_place.side);
         let state = &states[side];
-        let response = self.add(law, &mut sum.force[side], near, state, share);
+        let response = self.add(spring, &mut sum.force[side], near, state, share);
         let f = &response.force;
         sum.energy += response.energy + 0.5 * moment * share.load * (arc - share.own);
         let [qq, xx] = pair.curvature;
@@ -248,19 +249,19 @@ impl SharedMeshes<'_> {
     }
 
     /// Elastic energy of both meshes [J].
-    pub fn energy<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> f64 {
+    pub fn energy<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> f64 {
         let mut sum = 0.0;
-        self.carrying::<S, false>(law, states, |near, arc, share| {
-            let alone = law.specific.respond(&near.place, share.own).energy;
-            sum += law.moment * (alone + 0.5 * share.load * (arc - share.own));
+        self.carrying::<S, false>(spring, states, |near, arc, share| {
+            let alone = spring.respond(&near.place, share.own).energy;
+            sum += self.mesh.whole.moment * (alone + 0.5 * share.load * (arc - share.own));
         });
         sum
     }
 
     /// By how much pairs that touch or are about to are moved by others.
-    pub fn opening_by_others<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> OpeningByOthers {
+    pub fn opening_by_others<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> OpeningByOthers {
         let mut opening_by_others = OpeningByOthers::default();
-        self.share::<S, false>(law, states, OpeningByOthers::LOOKOUT, &mut |near, arc, share| {
+        self.share::<S, false>(spring, states, OpeningByOthers::LOOKOUT, &mut |near, arc, share| {
             let Near { pair, pair_place, .. } = near;
             opening_by_others.add(pair_place.side, pair.flank, pair.number, arc - share.own);
         });
@@ -270,16 +271,16 @@ impl SharedMeshes<'_> {
     /// Calls `visit` with each loaded pair of the mesh with side gear `side`, its depth that of its own arc, and its force.
     pub fn loaded<S: Spring>(
         &self,
-        law: &FaceLaw<S>,
+        spring: &S,
         states: &[MeshState; 2],
         side: usize,
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
-        self.carrying::<S, false>(law, states, |near, _, share| {
+        self.carrying::<S, false>(spring, states, |near, _, share| {
             if near.pair_place.side == side {
                 let pair = ToothPair { depth: share.own, ..near.pair };
-                let rate = self.rate(&pair, &states[side]);
-                visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);
+                let rate = self.mesh.rate(&pair, &states[side]);
+                visit(&pair, &self.respond(spring, near, share.own, rate).force);
             }
         });
     }

@@ -1,7 +1,7 @@
 //! The equations of motion as functions of positions and velocities, for other solvers.
 
 use crate::integrate::{Point, SecondOrder};
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::run::Simulation;
 
 /// The point of the first `n` of positions `q` and velocities `v`.

@@ -8,7 +8,7 @@ use super::states::STATES;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::Acted;
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::PairLines;

@@ -2,7 +2,7 @@
 //! event indicators. The host sees positions unwrapped.
 
 use crate::model::assembly::Gears;
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Acted, Largest};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
@@ -118,8 +118,8 @@ impl Simulation {
             for i in 0..plan.planets {
                 for s in 0..2 {
                     let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
-                    let drive = teeth.mesh.drive_approach(position);
-                    let coast = -2.0 * teeth.mesh.half_backlash() - drive;
+                    let drive = teeth.contact.mesh.drive_approach(position);
+                    let coast = -2.0 * teeth.contact.mesh.half_backlash() - drive;
                     indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
                     indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
                 }

@@ -5,7 +5,7 @@
 
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Accepted, Acted, State};
 use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
 use crate::model::run::progress::complete;

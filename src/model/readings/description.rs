@@ -38,9 +38,7 @@ impl Simulation {
         match &self.model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
             Gears::Ideal(_) => CostClass::Ideal,
-            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.is_tooth_broken => {
-                CostClass::TeethInDetail
-            }
+            Gears::Teeth(teeth) if teeth.are_in_detail(&self.state) => CostClass::TeethInDetail,
             Gears::Teeth(teeth) if teeth.effect_terms.body_effects.act_in(&self.state) => CostClass::TeethAndBodies,
             Gears::Teeth(_) => CostClass::Teeth,
         }

@@ -4,10 +4,11 @@
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::{IdealEquations, Largest, each_pv};
+use crate::model::dynamics::{IdealEquations, Largest};
 use crate::model::effect_kinds::{FrictionSource, Surface};
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
+use crate::model::outputs::pv::each_pv;
 use crate::model::run::{Simulation, effort, six_digits};
 use crate::model::scene::MAX_PLANETS;
 use crate::problem::{Problem, told_apart};
@@ -206,7 +207,7 @@ impl Simulation {
         let friction = equations.flank_friction()?;
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {
-                equations.detail(&point, g, s, |slice| {
+                equations.slices(&point, g, s, |slice| {
                     if found.is_none() {
                         found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
                     }

@@ -4,12 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::carried::Carried;
 use crate::contact::FlankGaps;
-use crate::integrate::{Matrix, Point};
+use crate::integrate::Point;
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::{LARGEST, Largest};
 use crate::model::run::failure::limit_name;
 use crate::model::run::{LedgerEquations, hints};
-use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
@@ -23,35 +22,6 @@ pub const ROUNDS: usize = 12;
 /// Loads below this are none [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-impl Largest<'_> {
-    /// Forces of meshes and structure at rest, with their derivatives by position.
-    pub(super) fn statics(&self, at: &Point<LARGEST>) -> ([f64; LARGEST], Matrix<LARGEST>) {
-        if self.in_detail() || self.has_pins() {
-            return self.static_forces(at);
-        }
-        let still = Point { q: at.q, v: [0.0; LARGEST] };
-        let mut sum = [0.0; LARGEST];
-        self.add_tooth_torques(&still, &mut sum);
-        (sum, self.tooth_torque_slopes(at))
-    }
-
-    /// Torque that plain teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
-    fn plain(&self, s: usize, at: &Point<LARGEST>) -> [f64; 2] {
-        let mut mesh = [[0.0; 2]; MAX_GROUPS];
-        for g in 0..self.groups() {
-            let (force, by) = self.teeth.mesh.linearise_apart(&self.mesh_state(at, g, s));
-            mesh[g] = [force.force[0], by.by_position[0][0]];
-        }
-        let arm = self.teeth.sin_base[1];
-        [self.sum(|g| self.members(g) * arm * mesh[g][0]), self.sum(|g| self.members(g) * arm * arm * mesh[g][1])]
-    }
-
-    /// Energy that belongs to [`Self::statics`].
-    fn static_energy(&self, at: &Point<LARGEST>) -> f64 {
-        if self.in_detail() || self.has_pins() { self.stored_energy(at, false) } else { self.elastic_energy(at) }
-    }
-}
-
 /// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
 pub fn press_sides(
     model: &Model,
@@ -59,7 +29,7 @@ pub fn press_sides(
     torque: [f64; 2],
     point: &mut Point<LARGEST>,
 ) -> Result<(), Problem> {
-    press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
+    press(equations, torque, point, |s, at| equations.torque_of_plain_teeth(s, at)).map_err(|s| {
         let bent = format!(
             "tooth deflection exceeds {}; reduce the load or {}",
             limit_name(model),
@@ -95,7 +65,7 @@ fn press(
     carry: impl Fn(usize, &Point<LARGEST>) -> [f64; 2],
 ) -> Result<(), usize> {
     let teeth = equations.teeth;
-    let largest = (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
+    let largest = (teeth.deflection_limit + teeth.contact.mesh.half_backlash()) / teeth.sin_base[1];
     for s in 0..2 {
         point.q[s] = 0.0;
         if torque[s] == 0.0 {
@@ -118,7 +88,7 @@ fn press(
 /// Pressed like this, teeth with errors may still be apart: no force leads the search on. Bodies of gears may give way
 /// far beyond this point: the search may find none. In both cases it begins from teeth that are pressed as they are.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
-    let is_other = equations.gaps().is_some() || equations.bodies_of_gears().is_some();
+    let is_other = equations.is_open_or_elastic();
     let touches = || {
         let sum = equations.statics(pressed).0;
         (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
@@ -230,7 +200,7 @@ impl Well<'_> {
 
 impl Landscape for Well<'_> {
     fn value(&self, x: &DVector<f64>) -> f64 {
-        let energy = self.equations.static_energy(&self.at(x));
+        let energy = self.equations.stored_energy(&self.at(x), false);
         self.unknowns.iter().zip(x.iter()).fold(energy, |sum, (&(i, members), q)| sum + members * self.against[i] * q)
     }
 

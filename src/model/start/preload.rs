@@ -41,7 +41,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
     // where pairs move each other, or slices of the face carry, the balance cannot be found mesh by mesh
-    let not_mesh_by_mesh = equations.in_detail() || equations.has_pins() || equations.bodies_of_gears().is_some();
+    let not_mesh_by_mesh = !teeth.carry_mesh_by_mesh(state);
     let mut settled = true;
     if !plan.spin_imposed || not_mesh_by_mesh {
         let found = settle(equations, &carried, &point);

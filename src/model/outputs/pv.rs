@@ -1,7 +1,7 @@
 //! Pressure times speed of all surfaces that rub, as readings and warnings have it.
 
-use super::Acted;
 use crate::integrate::Point;
+use crate::model::dynamics::Acted;
 use crate::model::effect_kinds::{FrictionSource, Pressed, Surface};
 use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS};
 

@@ -1,36 +1,39 @@
 //! Dry friction of gears with teeth: under the loads of their meshes, with derivatives by these.
 
-use super::in_detail::Local;
 use super::ledger_rates::LedgerRates;
+use super::shape::{ByGroup, Shape};
 use super::{Acted, Equations, Jacobian};
-use crate::contact::detailed::{DetailedLoad, LOCAL, WITH_OTHER};
-use crate::integrate::{Matrix, Point};
+use crate::contact::detailed::{LOCAL, WITH_OTHER};
+use crate::contact::planet::{COORDINATES, LinearisedLoad, Q};
+use crate::integrate::Point;
 use crate::model::assembly::SIGMA;
 use crate::model::effect_kinds::SurfaceLoad;
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 
-/// Loads on the surfaces of side gears and planets.
-pub(super) type MeshLoads<const G: usize> = ([SurfaceLoad; 2], [SurfaceLoad; G]);
+/// Loads on the surfaces of side gears, and of planets by group.
+pub(super) type MeshLoads<S, const N: usize> = ([SurfaceLoad; 2], <S as Shape<N>>::ByGroup<SurfaceLoad>);
 
-/// The same by body; none where meshes press nothing.
-#[inline(always)]
-pub(super) fn by_body<const G: usize>(loads: Option<&MeshLoads<G>>) -> [SurfaceLoad; FRICTION_BODIES] {
-    let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-    if let Some((sides, planets)) = loads {
-        all[..FRICTION_PLANETS].copy_from_slice(sides);
-        all[FRICTION_PLANETS..FRICTION_PLANETS + G].copy_from_slice(planets);
+impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
+    /// Loads by body; none where meshes press nothing.
+    #[inline(always)]
+    pub(super) fn by_body(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
+        if let Some((sides, planets)) = loads {
+            all[..FRICTION_PLANETS].copy_from_slice(sides);
+            for g in 0..self.groups() {
+                all[FRICTION_PLANETS + g] = planets[g];
+            }
+        }
+        all
     }
-    all
-}
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Adds the torques and the heat of dry friction, where there is any, under given loads on the surfaces of side gears and
     /// planets.
     #[inline(always)]
-    pub(in crate::model) fn add_friction(
+    pub(super) fn add_friction(
         &self,
         at: &Point<N>,
-        loads: Option<&MeshLoads<G>>,
+        loads: Option<&MeshLoads<S, N>>,
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
@@ -42,7 +45,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     fn rub_under(
         &self,
         at: &Point<N>,
-        loads: Option<&MeshLoads<G>>,
+        loads: Option<&MeshLoads<S, N>>,
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
@@ -50,18 +53,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Loads on all surfaces, those of side gears and planets as given.
-    fn all_surface_loads(&self, loads: Option<&MeshLoads<G>>) -> [SurfaceLoad; FRICTION_BODIES] {
-        let mut all = by_body(loads);
+    fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = self.by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
         all
     }
 
     /// Derivatives of dry friction by the motion of the bodies on which it acts, under given loads on the surfaces of side gears
     /// and planets.
-    pub(in crate::model) fn friction_slopes_under(
+    pub(super) fn friction_slopes_under(
         &self,
         at: &Point<N>,
-        loads: Option<&MeshLoads<G>>,
+        loads: Option<&MeshLoads<S, N>>,
         j: &mut Jacobian<'_, N>,
     ) {
         if self.rubs() {
@@ -70,7 +73,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Adds the torques of brakes that slide, which follow from inputs and speeds alone.
-    pub(in crate::model) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
+    pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
         let surface_loads = self.acting.friction().wheel_loads(&self.acting.inputs);
         for s in 0..2 {
             let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
@@ -83,42 +86,44 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Derivatives of dry friction by the loads of the meshes.
-    pub(in crate::model) fn friction_slopes_by_loads<T: Local>(
+    pub(super) fn friction_slopes_by_loads<L: LinearisedLoad>(
         &self,
         at: &Point<N>,
-        loads: &[[DetailedLoad<T>; 2]; G],
-        (sides, planets): &MeshLoads<G>,
+        loads: &S::ByGroup<[L; 2]>,
+        (sides, planets): &MeshLoads<S, N>,
         j: &mut Jacobian<'_, N>,
     ) {
         let side = self.teeth.sin_base[1];
         for s in 0..2 {
             let Some((direction, of_side)) = self.slopes_of_sliding(at, s, &sides[s]) else { continue };
-            let torque = self.sum(|g| self.members(g) * side * loads[g][s].force[0].value());
-            let slopes: [[f64; WITH_OTHER]; G] = self.by_group(|g| {
-                let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
+            let torque = self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]);
+            let slopes = self.by_group([0.0; WITH_OTHER], |g| {
+                let by = loads[g][s].pressing_slopes();
                 std::array::from_fn(|k| {
-                    self.members(g) * (of_side[0] * axial[k] + of_side[1] * torque.signum() * side * force[k])
+                    self.members(g)
+                        * (of_side[0] * by.side_axial[k] + of_side[1] * torque.signum() * side * by.force[k])
                 })
             });
-            for (row, sign) in [(s, -direction), (CARRIER, direction)] {
-                self.spread::<T>(row, sign, s, &slopes, j);
+            for row in [(s, -direction), (CARRIER, direction)] {
+                self.spread_all::<L>(row, s, &slopes, j);
             }
         }
         for g in 0..self.groups() {
             let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]) else {
                 continue;
             };
-            let [l, r] = &loads[g];
-            let across = l.tangential.value() + r.tangential.value();
-            let along = l.side_axial.value() - r.side_axial.value();
+            let [l, r] = [loads[g][0].pressing(), loads[g][1].pressing()];
+            let across = l.tangential + r.tangential;
+            let along = l.side_axial - r.side_axial;
             let per = if planets[g].load > 0.0 { of_planet[1] / planets[g].load } else { 0.0 };
             for s in 0..2 {
-                let load = &loads[g][s];
-                let (t, a, p) = (load.tangential.slopes(), load.side_axial.slopes(), load.planet_axial.slopes());
-                let mut slopes = [[0.0; WITH_OTHER]; G];
-                slopes[g] =
-                    std::array::from_fn(|k| of_planet[0] * p[k] + per * (across * t[k] + SIGMA[s] * along * a[k]));
-                self.spread::<T>(self.planet(g), -direction, s, &slopes, j);
+                let by = loads[g][s].pressing_slopes();
+                let mut slopes = S::ByGroup::filled([0.0; WITH_OTHER]);
+                slopes[g] = std::array::from_fn(|k| {
+                    of_planet[0] * by.planet_axial[k]
+                        + per * (across * by.tangential[k] + SIGMA[s] * along * by.side_axial[k])
+                });
+                self.spread_all::<L>((self.planet(g), -direction), s, &slopes, j);
             }
         }
     }
@@ -133,10 +138,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Derivatives of the planets' dry friction by the speeds that throw them outward.
-    pub(in crate::model) fn friction_slopes_by_orbit(
+    pub(super) fn friction_slopes_by_orbit(
         &self,
         at: &Point<N>,
-        planets: &[SurfaceLoad; G],
+        planets: &S::ByGroup<SurfaceLoad>,
         j: &mut Jacobian<'_, N>,
     ) {
         for g in 0..self.groups() {
@@ -146,44 +151,19 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes
-    /// where those matter.
-    fn spread<T: Local>(
+    /// Adds to a row the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes where those
+    /// matter.
+    fn spread_all<L: LinearisedLoad>(
         &self,
-        row: usize,
-        sign: f64,
+        row: (usize, f64),
         s: usize,
-        slopes: &[[f64; WITH_OTHER]; G],
+        slopes: &S::ByGroup<[f64; WITH_OTHER]>,
         j: &mut Jacobian<'_, N>,
     ) {
-        self.spread_positions(row, sign, s, |g, k| slopes[g][k], j.by_position);
-        self.spread_positions(row, sign, s, |g, k| slopes[g][3 + k], &mut j.by_rate);
-        if T::BY_OTHER {
-            self.spread_positions(row, sign, 1 - s, |g, k| slopes[g][LOCAL + k], j.by_position);
-        }
-    }
-
-    /// Adds to row `row` the slopes of something by q, x, w, or their rates, of all meshes of side `s`.
-    #[inline]
-    fn spread_positions(
-        &self,
-        row: usize,
-        sign: f64,
-        s: usize,
-        slopes: impl Fn(usize, usize) -> f64,
-        m: &mut Matrix<N>,
-    ) {
-        let [planet, side] = self.teeth.sin_base;
-        let turn = SIGMA[s] * planet;
-        m[row][s] += sign * self.sum(|g| side * slopes(g, 0));
-        for g in 0..self.groups() {
-            m[row][self.planet(g)] += sign * turn * (slopes(g, 1) - slopes(g, 0));
-            if self.has_pins() {
-                m[row][self.pin(g)] -= sign * side * slopes(g, 0);
-            }
-        }
-        if self.has_pins() {
-            m[row][self.seat(s)] += sign * self.sum(|g| slopes(g, 2));
+        self.spread(row, s, (slopes, 0), j.by_position);
+        self.spread(row, s, (slopes, COORDINATES), j.by_rate);
+        if L::COUPLED {
+            self.spread(row, 1 - s, (slopes, LOCAL), j.by_position);
         }
     }
 }
