@@ -4,7 +4,7 @@
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
 use super::impact::Force;
-use super::spring::{Response, Resultant, is_placed, with_spring};
+use super::spring::{Response, Resultant, is_placed};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use super::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothPair};
 use crate::geometry::Pair;
@@ -22,6 +22,23 @@ pub struct Mesh {
     pub is_single: bool,
     /// Tooth pairs.
     pub engagement: Engagement,
+}
+
+/// Evaluates an expression with `spring` bound to the law in use, and `pairs` to the loaded pairs at a position (q, x). A mesh of one
+/// spring has one pair, at s = 0.
+macro_rules! with_pairs {
+    ($of:expr, $position:expr, ($spring:ident, $pairs:ident) => $body:expr) => {
+        match &$of.spring {
+            AnySpring::Impact($spring) if $of.is_single => with_pairs!(@ $of.single($position), $pairs, $body),
+            AnySpring::Impact($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
+            AnySpring::Line($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
+            AnySpring::LineWeber($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
+        }
+    };
+    (@ $found:expr, $pairs:ident, $body:expr) => {{
+        let $pairs = $found.into_iter();
+        $body
+    }};
 }
 
 impl Mesh {
@@ -71,16 +88,11 @@ impl Mesh {
         self.engagement.kink::<true>(state.position, state.rate.map(|rate| h * rate), opening)
     }
 
-    /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh of one spring has one, at s = 0.
+    /// The one pair of a mesh of one spring at position (q, x), if it is loaded.
     #[inline(always)]
-    fn visit<S: Spring>(&self, _: &S, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
-        if S::PLACED || !self.is_single {
-            return self.engagement.pairs(position, visit);
-        }
+    fn single(&self, position: [f64; 2]) -> Option<ToothPair> {
         let depth = self.approach(position[0]);
-        if depth > 0.0 {
-            visit(&ToothPair::single(if position[0] < 0.0 { Flank::Drive } else { Flank::Coast }, depth));
-        }
+        (depth > 0.0).then(|| ToothPair::single(if position[0] < 0.0 { Flank::Drive } else { Flank::Coast }, depth))
     }
 
     /// Rate ḋ of a pair [m/s].
@@ -103,9 +115,9 @@ impl Mesh {
 
     /// Calls `visit` with each loaded pair on the path of contact and its force.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
-        with_spring!(&self.spring, spring => self.visit(spring, state.position, |pair| {
-            visit(pair, &self.respond::<false>(spring, pair, state).1.force);
-        }));
+        with_pairs!(self, state.position, (spring, pairs) => for pair in pairs {
+            visit(&pair, &self.respond::<false>(spring, &pair, state).1.force);
+        });
     }
 
     /// Adds the force of a pair.
@@ -132,12 +144,12 @@ impl Mesh {
     /// several waits for all.
     #[inline(always)]
     pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
-        with_spring!(&self.spring, spring => {
+        with_pairs!(self, state.position, (spring, pairs) => {
             let mut sum = MeshForce::default();
-            self.visit(spring, state.position, |pair| {
-                let (rate, response) = self.respond::<false>(spring, pair, state);
-                self.add(spring, &mut sum, pair, rate, &response);
-            });
+            for pair in pairs {
+                let (rate, response) = self.respond::<false>(spring, &pair, state);
+                self.add(spring, &mut sum, &pair, rate, &response);
+            }
             (to.force[0], to.force[1], to.heat) = (sum.force[0], sum.force[1], sum.heat);
         })
     }
@@ -145,12 +157,12 @@ impl Mesh {
     /// Forces, heat and the forces' exact derivatives.
     #[inline(always)]
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
-        with_spring!(&self.spring, spring => {
+        with_pairs!(self, state.position, (spring, pairs) => {
             let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
             let r = self.whole.cone;
-            self.visit(spring, state.position, |pair| {
-                let (rate, response) = self.respond::<true>(spring, pair, state);
-                self.add(spring, &mut sum, pair, rate, &response);
+            for pair in pairs {
+                let (rate, response) = self.respond::<true>(spring, &pair, state);
+                self.add(spring, &mut sum, &pair, rate, &response);
                 jacobian.energy += response.energy;
                 let f = &response.force;
                 let (stiffness, damping, torque) = (r * r * f.by_depth, r * r * f.by_rate, r * f.total);
@@ -181,7 +193,7 @@ impl Mesh {
                         * (r * (response.total_by_place + response.elastic_by_place) * pair.slope[1]
                             + response.by_place_twice * pair.s_slope);
                 }
-            });
+            }
             (sum, jacobian)
         })
     }
@@ -200,9 +212,11 @@ impl Mesh {
 
     /// Elastic energy V [J] at the position of `state`.
     pub fn energy(&self, state: &MeshState) -> f64 {
-        with_spring!(&self.spring, spring => {
+        with_pairs!(self, state.position, (spring, pairs) => {
             let mut energy = 0.0;
-            self.visit(spring, state.position, |pair| energy += self.respond::<true>(spring, pair, state).1.energy);
+            for pair in pairs {
+                energy += self.respond::<true>(spring, &pair, state).1.energy;
+            }
             energy
         })
     }

@@ -9,6 +9,8 @@
 
 pub use crate::geometry::action::Spot;
 
+use std::ops::Range;
+
 use crate::geometry::{CornerGap, Pair};
 
 /// Flank of the planet tooth that carries.
@@ -167,20 +169,14 @@ impl Engagement {
         q.abs() - self.half_backlash
     }
 
-    /// Calls `visit` with each loaded tooth pair at position (q, x).
+    /// The loaded tooth pairs at position (q, x).
     #[inline(always)]
-    pub fn pairs(&self, [q, x]: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
+    pub fn pairs(&self, [q, x]: [f64; 2]) -> LoadedPairs<'_> {
         // only one flank of a gap can carry
         let approach = self.approach(q);
-        if approach <= 0.0 {
-            return;
-        }
         let flank = if q < 0.0 { Flank::Drive } else { Flank::Coast };
-        self.near(flank, x, approach, 0.0, |pair| {
-            if pair.depth > 0.0 {
-                visit(pair);
-            }
-        });
+        let near = self.near_pairs(flank, x, approach, 0.0);
+        LoadedPairs { near: if approach > 0.0 { near } else { NearPairs { left: 0..0, ..near } } }
     }
 
     /// First number, and the one after the last, of the pairs of `flank` that may touch.
@@ -204,34 +200,75 @@ impl Engagement {
     /// including the penetrating ones; `slack` is the part of that approach that only excess material can close.
     #[inline(always)]
     pub fn near(&self, flank: Flank, x: f64, approach: f64, slack: f64, mut visit: impl FnMut(&ToothPair)) {
+        for pair in self.near_pairs(flank, x, approach, slack) {
+            visit(&pair);
+        }
+    }
+
+    /// The same pairs, one after the other.
+    #[inline(always)]
+    fn near_pairs(&self, flank: Flank, x: f64, approach: f64, slack: f64) -> NearPairs<'_> {
         // sign = ∂a/∂q = −∂s/∂x
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
         let start = self.centred - sign * x;
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
-        let mut s = start + first * self.base_pitch;
-        // the number of an extreme trial state may be beyond an integer's range
-        let first = first as i64;
-        // where only excess material closes the gap, the side gear is ahead of its path's end
-        let low = self.low + (approach - slack).min(0.0);
-        for i in 0..window.candidates as i64 {
-            let place = s;
-            s += self.base_pitch;
-            let past_planet_tip = place - self.high;
-            let past_side_tip = self.low - place + (approach - slack);
+        NearPairs {
+            engagement: self,
+            flank,
+            sign,
+            approach,
+            slack,
+            // where only excess material closes the gap, the side gear is ahead of its path's end
+            low: self.low + (approach - slack).min(0.0),
+            s: start + first * self.base_pitch,
+            // the number of an extreme trial state may be beyond an integer's range
+            first: first as i64,
+            left: 0..window.candidates as i64,
+        }
+    }
+}
+
+/// Tooth pairs that may touch. An iterator, so that whoever sums over them is compiled into the loop.
+struct NearPairs<'a> {
+    engagement: &'a Engagement,
+    flank: Flank,
+    sign: f64,
+    approach: f64,
+    slack: f64,
+    low: f64,
+    s: f64,
+    first: i64,
+    left: Range<i64>,
+}
+
+impl Iterator for NearPairs<'_> {
+    type Item = ToothPair;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<ToothPair> {
+        let Self { engagement, flank, sign, approach, slack, low, first, .. } = *self;
+        loop {
+            let i = self.left.next()?;
+            let place = self.s;
+            self.s += engagement.base_pitch;
+            let past_planet_tip = place - engagement.high;
+            let past_side_tip = engagement.low - place + (approach - slack);
             // penetration, its derivatives, and what kind of contact it is
             let (spot, delta, depth, slope, curvature) = if past_planet_tip > 0.0 {
-                if past_planet_tip * past_planet_tip >= approach * self.corner[0].spread || !self.corner_contact {
+                let corner = &engagement.corner[0];
+                if past_planet_tip * past_planet_tip >= approach * corner.spread || !engagement.corner_contact {
                     continue;
                 }
-                let g = self.corner[0].at(past_planet_tip);
+                let g = corner.at(past_planet_tip);
                 (Spot::PlanetTip, past_planet_tip, approach - g.v, [sign, sign * g.d], [0.0, -g.dd])
-            } else if past_side_tip > 0.0 && self.corner_contact {
-                if past_side_tip * past_side_tip >= approach * self.corner[1].spread {
+            } else if past_side_tip > 0.0 && engagement.corner_contact {
+                let corner = &engagement.corner[1];
+                if past_side_tip * past_side_tip >= approach * corner.spread {
                     continue;
                 }
                 // Δ moves with q by `sign` and with x by `sign` too
-                let g = self.corner[1].at(past_side_tip);
+                let g = corner.at(past_side_tip);
                 let slope = [sign * (1.0 - g.d), -sign * g.d];
                 (Spot::SideTip, past_side_tip, approach - g.v, slope, [-g.dd, -g.dd])
             } else if place >= low {
@@ -239,8 +276,7 @@ impl Engagement {
             } else {
                 continue;
             };
-            // a single call, so that the visitor is inlined into the loop
-            visit(&ToothPair {
+            return Some(ToothPair {
                 flank,
                 spot,
                 number: first.wrapping_add(i),
@@ -251,6 +287,25 @@ impl Engagement {
                 slope,
                 curvature,
             });
+        }
+    }
+}
+
+/// The tooth pairs that are loaded.
+pub struct LoadedPairs<'a> {
+    near: NearPairs<'a>,
+}
+
+impl Iterator for LoadedPairs<'_> {
+    type Item = ToothPair;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<ToothPair> {
+        loop {
+            let pair = self.near.next()?;
+            if pair.depth > 0.0 {
+                return Some(pair);
+            }
         }
     }
 }

@@ -39,7 +39,7 @@ impl<'a> InDetail<'a> {
     }
 
     /// Where the force of the mesh of side `s` has its first kink, with pairs that others move apart by `moved`.
-    #[inline]
+    #[inline(never)]
     fn kink_of(
         &self,
         (at, s): (&PlanetState, usize),
@@ -130,7 +130,7 @@ impl PlanetContact for InDetail<'_> {
         gained(0) + gained(1)
     }
 
-    #[inline]
+    #[inline(never)]
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
         first(self.kink_of((at, 0), h, None), self.kink_of((at, 1), h, None))
     }
@@ -179,7 +179,7 @@ impl PlanetContact for InDetailOnBodies<'_> {
         self.teeth.contact.detailed.energy_shared(&self.shared_teeth(at.planet), &states(at))
     }
 
-    #[inline]
+    #[inline(never)]
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
         let openings = self.teeth.contact.detailed.opening_by_others(&self.shared_teeth(at.planet), &states(at));
         let kink = |s: usize| self.teeth.kink_of((at, s), h, Some(&|flank, number| openings.of(s, flank, number)));

@@ -84,13 +84,13 @@ impl PlanetContact for OnBodies<'_> {
     type Load = MeshForce;
     type Linearised = CoupledForce;
 
-    #[inline]
+    #[inline(never)]
     fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
         let states = &[at.mesh(0), at.mesh(1)];
         *to = with_teeth!(self, spring => self.meshes(at).force(spring, states), Default::default());
     }
 
-    #[inline]
+    #[inline(never)]
     fn linearise(&self, at: &PlanetState, to: &mut [CoupledForce; 2]) {
         let states = &[at.mesh(0), at.mesh(1)];
         let both = with_teeth!(self, spring => self.meshes(at).linearise(spring, states), SharedForce::default());
@@ -110,7 +110,7 @@ impl PlanetContact for OnBodies<'_> {
         with_teeth!(self, spring => self.meshes(at).energy(spring, &[at.mesh(0), at.mesh(1)]), 0.0)
     }
 
-    #[inline]
+    #[inline(never)]
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
         let states = [at.mesh(0), at.mesh(1)];
         let openings =

@@ -27,12 +27,12 @@ impl PlanetContact for Plain<'_> {
 
     #[inline(always)]
     fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
-        let mesh = &self.contact.mesh;
-        for s in 0..2 {
+        let (mesh, states) = (&self.contact.mesh, [at.mesh(0), at.mesh(1)]);
+        for (state, to) in states.iter().zip(to) {
             if self.is_part_of_steps {
-                mesh.write_force(&at.mesh(s), &mut to[s]);
+                mesh.write_force(state, to);
             } else {
-                mesh.write_force_apart(&at.mesh(s), &mut to[s]);
+                mesh.write_force_apart(state, to);
             }
         }
     }

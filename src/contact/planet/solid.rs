@@ -20,14 +20,14 @@ impl PlanetContact for Solid<'_> {
     type Load = MeshForce;
     type Linearised = LinearisedForce;
 
-    #[inline]
+    #[inline(never)]
     fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
         for s in 0..2 {
             to[s] = self.solid.force(&at.mesh(s));
         }
     }
 
-    #[inline]
+    #[inline(never)]
     fn linearise(&self, at: &PlanetState, to: &mut [LinearisedForce; 2]) {
         for s in 0..2 {
             let (force, by) = self.solid.linearise(&at.mesh(s));

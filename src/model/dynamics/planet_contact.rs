@@ -79,7 +79,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
 
     /// Adds the forces of all meshes to `sum`, which is zero, and sets their heat; adds the dry friction that depends on them. Returns the
     /// torques of the meshes on the side gears.
-    #[inline]
+    #[inline(never)]
     pub(in crate::model) fn act_of_teeth(
         &self,
         at: &Point<N>,
@@ -87,22 +87,19 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         ledger_rates: &mut LedgerRates,
     ) -> [f64; 2] {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let surfaces = self.add_contact(&contact, at, sum, ledger_rates);
-            let on_sides = [sum[0], sum[1]];
-            self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
-            on_sides
+            let loads = self.loads(&contact, at);
+            if S::MAY_ACT {
+                self.add_loads_and_friction(&loads, at, sum, ledger_rates)
+            } else {
+                self.add_loads(&loads, sum, ledger_rates);
+                [sum[0], sum[1]]
+            }
         })
     }
 
-    /// Adds the forces of all meshes and sets their heat. Returns the loads under which gears rub, where they do.
-    #[inline(never)]
-    fn add_contact<C: PlanetContact>(
-        &self,
-        contact: &C,
-        at: &Point<N>,
-        sum: &mut [f64; N],
-        ledger_rates: &mut LedgerRates,
-    ) -> Option<MeshLoads<S, N>> {
+    /// Loads of all meshes.
+    #[inline(always)]
+    fn loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Load; 2]> {
         let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
         for g in 0..self.groups() {
             match self.twin_under::<C::Load>(at, g) {
@@ -110,16 +107,32 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
                 None => contact.write(&self.planet_state(at, g), &mut loads[g]),
             }
         }
-        let mut all = *sum;
-        self.add_loads(&loads, &mut all, ledger_rates);
-        lanes::write(all, sum);
-        (C::Load::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, &loads))
+        loads
+    }
+
+    /// Adds the forces of `loads`, sets their heat, and adds the dry friction under them; returns the torques of the meshes on the side
+    /// gears. Compiled once for each type of load.
+    #[inline(never)]
+    fn add_loads_and_friction<L: MeshLoad>(
+        &self,
+        loads: &S::ByGroup<[L; 2]>,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) -> [f64; 2] {
+        self.add_loads(loads, sum, ledger_rates);
+        let on_sides = [sum[0], sum[1]];
+        let surfaces = (L::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, loads));
+        self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
+        on_sides
     }
 
     /// Adds the forces of `loads` and sets their heat.
     #[inline(always)]
     fn add_loads<L: MeshLoad>(&self, loads: &S::ByGroup<[L; 2]>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
-        self.add_forces(|g, s| loads[g][s].force(), sum);
+        let mut all = *sum;
+        self.add_forces(|g, s| loads[g][s].force(), &mut all);
+        lanes::write(all, sum);
         let heat = |i: usize| self.sum(|g| self.members(g) * (loads[g][0].heat()[i] + loads[g][1].heat()[i]));
         ledger_rates.heat[CONTACT_HEAT] = heat(0);
         let of_friction = self.teeth.effect_terms.friction_heat_index;
@@ -137,29 +150,44 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         ledger_rates: &mut LedgerRates,
         j: &mut Jacobian<'_, N>,
     ) -> f64 {
-        with_contact!(S::MAY_ACT, self.contact(), contact => self.add_linearised(&contact, at, sum, ledger_rates, j))
+        with_contact!(S::MAY_ACT, self.contact(), contact => {
+            let loads = self.linearised_loads(&contact, at);
+            if S::MAY_ACT {
+                self.add_linearised_apart(&loads, at, sum, ledger_rates, j)
+            } else {
+                self.add_linearised(&loads, at, sum, ledger_rates, j)
+            }
+        })
     }
 
-    #[inline(always)]
-    fn add_linearised<C: PlanetContact>(
+    /// [`Self::add_linearised`], compiled once for each type of load.
+    #[inline(never)]
+    fn add_linearised_apart<L: LinearisedLoad>(
         &self,
-        contact: &C,
+        loads: &S::ByGroup<[L; 2]>,
         at: &Point<N>,
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
         j: &mut Jacobian<'_, N>,
     ) -> f64 {
-        let loads = self.linearised_loads(contact, at);
-        self.add_loads(&loads, sum, ledger_rates);
-        self.add_block::<false>(|g, s| loads[g][s].by_position(), j.by_position);
-        self.add_block::<false>(|g, s| loads[g][s].by_rate(), j.by_rate);
-        if C::Linearised::COUPLED {
-            self.add_block::<true>(|g, s| loads[g][s].by_other(), j.by_position);
-        }
-        let surfaces = (C::Linearised::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, &loads));
+        self.add_linearised(loads, at, sum, ledger_rates, j)
+    }
+
+    #[inline(always)]
+    fn add_linearised<L: LinearisedLoad>(
+        &self,
+        loads: &S::ByGroup<[L; 2]>,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+        j: &mut Jacobian<'_, N>,
+    ) -> f64 {
+        self.add_loads(loads, sum, ledger_rates);
+        self.add_slopes(loads, [j.by_position, j.by_rate]);
+        let surfaces = (L::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, loads));
         self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
         if let Some(surfaces) = &surfaces {
-            self.friction_slopes_by_loads(at, &loads, surfaces, j);
+            self.friction_slopes_by_loads(at, loads, surfaces, j);
             self.friction_slopes_by_orbit(at, &surfaces.1, j);
         }
         self.friction_slopes_under(at, surfaces.as_ref(), j);
@@ -183,10 +211,37 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         let still = &Point { q: at.q, v: [0.0; N] };
         with_contact!(S::MAY_ACT, self.contact(), contact => {
             let loads = self.linearised_loads(&contact, still);
-            self.add_forces(|g, s| loads[g][s].force(), sum);
-            self.add_block::<false>(|g, s| loads[g][s].by_position(), by_position);
-            self.add_block::<true>(|g, s| loads[g][s].by_other(), by_position);
+            self.add_loads(&loads, sum, &mut LedgerRates::default());
+            self.add_slopes(&loads, [by_position, &mut [[0.0; N]; N]]);
         });
+    }
+
+    /// Adds the derivatives of the forces of `loads` by positions and rates.
+    #[inline(always)]
+    fn add_slopes<L: LinearisedLoad>(&self, loads: &S::ByGroup<[L; 2]>, [by_position, by_rate]: [&mut Matrix<N>; 2]) {
+        if S::MAY_ACT {
+            return self.add_slopes_apart(loads, [by_position, by_rate]);
+        }
+        self.add_slopes_here(loads, [by_position, by_rate]);
+    }
+
+    /// [`Self::add_slopes_here`], compiled once for each type of load.
+    #[inline(never)]
+    fn add_slopes_apart<L: LinearisedLoad>(&self, loads: &S::ByGroup<[L; 2]>, by: [&mut Matrix<N>; 2]) {
+        self.add_slopes_here(loads, by);
+    }
+
+    #[inline(always)]
+    fn add_slopes_here<L: LinearisedLoad>(
+        &self,
+        loads: &S::ByGroup<[L; 2]>,
+        [by_position, by_rate]: [&mut Matrix<N>; 2],
+    ) {
+        self.add_block::<false>(|g, s| loads[g][s].by_position(), by_position);
+        self.add_block::<false>(|g, s| loads[g][s].by_rate(), by_rate);
+        if L::COUPLED {
+            self.add_block::<true>(|g, s| loads[g][s].by_other(), by_position);
+        }
     }
 
     /// Torque that teeth on which no effect acts put on the gear of side `s` at rest, and its derivative by the gear's angle.
@@ -230,11 +285,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if !C::Load::PRESSES {
             return None;
         }
-        let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
-        for g in 0..self.groups() {
-            contact.write(&self.planet_state(at, g), &mut loads[g]);
-        }
-        Some(self.mesh_surface_loads(at, &loads))
+        Some(self.mesh_surface_loads(at, &self.loads(contact, at)))
     }
 
     /// Elastic energy of all meshes [J].

@@ -10,7 +10,7 @@ use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::torque_means::TorqueMeans;
-use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, Watched};
+use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, LARGEST, Largest, Watched};
 use crate::model::effect_kinds::BUILT;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
@@ -97,7 +97,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     #[inline(never)]
     fn record_more(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
         if !self.teeth.contact.mesh.engagement.corner_contact() {
-            sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
+            let ends = [step.start, step.end].map(|at| Point::of([&at.q, &at.v]));
+            sums.heat[CONTACT_HEAT] -= self.largest().energy_of_jumps(ends.each_ref());
         }
         if BUILT {
             warm_up(model, &self.acting, step, sums);
@@ -107,23 +108,25 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             watch_step(&self.largest(), (model, watch), &passed, sums.watched);
         }
     }
+}
 
+impl Largest<'_> {
     /// Elastic energy that deflected pairs gain or lose in a step where they enter or leave contact abruptly, without corner
     /// contact [J].
     #[inline(never)]
-    fn energy_of_jumps(&self, step: &Step<N, LedgerRates>) -> f64 {
+    fn energy_of_jumps(&self, [start, end]: [&Point<LARGEST>; 2]) -> f64 {
         let between = |t: f64| Point {
-            q: std::array::from_fn(|i| step.start.q[i] + t * (step.end.q[i] - step.start.q[i])),
-            v: std::array::from_fn(|i| step.start.v[i] + t * (step.end.v[i] - step.start.v[i])),
+            q: std::array::from_fn(|i| start.q[i] + t * (end.q[i] - start.q[i])),
+            v: std::array::from_fn(|i| start.v[i] + t * (end.v[i] - start.v[i])),
         };
         let mut energy = 0.0;
         for g in 0..self.groups() {
             for s in 0..2 {
-                let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
-                let change = [end[0] - start[0], end[1] - start[1]];
+                let [from, to] = [start, end].map(|at| self.mesh_state(at, g, s).position);
+                let change = [to[0] - from[0], to[1] - from[1]];
                 // in a very short step JUMP_HALF_WIDTH of the step would be lost in rounding
                 let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
-                self.teeth.contact.mesh.engagement.jumps(start, change, |t| {
+                self.teeth.contact.mesh.engagement.jumps(from, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);
                     energy += self.members(g) * self.energy_brought([&before, &after], g, s);
                 });
