@@ -1,6 +1,6 @@
 //! Shares of the load: what each pair of a planet's two meshes carries, and how this changes with the coordinates of both.
 //!
-//! The solution is compiled for few pairs and for many: arrays for few need not be cleared for many.
+//! The solution is compiled for the usual numbers of pairs: arrays that just fit need not be cleared for more.
 
 use super::couplings::MOST_PAIRS;
 use super::{Change, Couplings, Gradients, OwnArcs};
@@ -8,6 +8,9 @@ use crate::contact::bodies::{PairCouplings, PairPlace};
 
 /// Coordinates of both meshes: q, x and w, left and right.
 pub const COORDINATES: usize = 6;
+
+/// Numbers of pairs up to this one have room for just as many.
+const EXACT: usize = 4;
 
 /// Pairs that share the bodies of their gears.
 pub struct Sharing<'a> {
@@ -43,7 +46,11 @@ impl Sharing<'_> {
     pub fn solve(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(usize, &Share)) {
         match self.arcs.len() {
             0 => {}
-            1..=4 => self.solve_in::<4>(changes, see),
+            1 => self.solve_in::<1>(changes, see),
+            2 => self.solve_in::<2>(changes, see),
+            3 => self.solve_in::<3>(changes, see),
+            4 => self.solve_in::<4>(changes, see),
+            5..=8 => self.solve_in::<8>(changes, see),
             _ => self.solve_in::<MOST_PAIRS>(changes, see),
         }
     }
@@ -54,7 +61,8 @@ impl Sharing<'_> {
         changes: Option<&dyn Fn(usize, f64) -> Changes>,
         see: &mut dyn FnMut(usize, &Share),
     ) {
-        let n = self.arcs.len().min(K);
+        // a constant where there is room for just as many
+        let n = if K <= EXACT { K } else { self.arcs.len().min(K) };
         let mut arcs = [0.0; K];
         arcs[..n].copy_from_slice(&self.arcs[..n]);
         let places: [Option<&PairPlace>; K] = std::array::from_fn(|k| if k < n { (self.place)(k) } else { None });
