@@ -233,13 +233,14 @@ impl Contact {
         Some(viscosity.map_or(friction, |viscosity| friction.with_viscosity(viscosity)))
     }
 
-    /// Work of the meshes of a planet, in that of plain teeth at least; `facets` is the number of facets of a solid flank.
-    pub fn work(&self, facets: usize) -> usize {
+    /// Work of all meshes of `groups` planets in that of a plain mesh, at least 1. A solid flank has so many `facets`.
+    pub fn work(&self, facets: usize, groups: usize) -> usize {
         // few facets have many neighbours, many facets are many
         if let Some(solid) = &self.solid {
             return solid.section_count() * (SOLID_PER_FACET * facets).max(LEAST_SOLID);
         }
         let in_detail = if self.in_detail { self.detailed.face.points() } else { 0 };
-        in_detail + if self.bodies.is_some() { ON_BODIES } else { 0 }
+        let on_bodies = if self.bodies.is_some() { ON_BODIES } else { 0 };
+        ((in_detail + on_bodies) * groups).max(1)
     }
 }

@@ -3,9 +3,9 @@
 use std::iter::Chain;
 use std::ops::Range;
 
+use super::State;
 use super::ledger_rates::LedgerRates;
-use super::{Jacobian, State};
-use crate::integrate::Point;
+use crate::integrate::{Matrix, Point};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
@@ -13,6 +13,16 @@ use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,
 };
 use crate::model::thermal::NODES;
+
+/// Derivatives of forces, written to where they stay.
+pub struct Jacobian<'a, const N: usize> {
+    /// ∂force/∂position.
+    pub by_position: &'a mut Matrix<N>,
+    /// ∂force/∂(rate of position).
+    pub by_rate: &'a mut Matrix<N>,
+    /// ∂force/∂velocity.
+    pub by_velocity: &'a mut Matrix<N>,
+}
 
 /// Inputs and dry friction under which equations hold.
 #[derive(Clone, Copy)]

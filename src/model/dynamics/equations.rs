@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use super::ledger_rates::LedgerRates;
 use super::shape::{Any, ByGroup, LARGEST, Shape};
-use super::{Acted, Acting, State};
+use super::{Acted, Acting, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
@@ -40,16 +40,6 @@ pub struct Equations<'a, S, const N: usize> {
 
 /// Equations with teeth of any scene: for all that is not done in every step.
 pub type Largest<'a> = Equations<'a, Any, LARGEST>;
-
-/// Derivatives of forces and of the carrier's imposed acceleration.
-pub struct Jacobian<'a, const N: usize> {
-    /// ∂force/∂position.
-    pub by_position: &'a mut Matrix<N>,
-    /// ∂force/∂(rate of position).
-    pub by_rate: &'a mut Matrix<N>,
-    /// ∂force/∂velocity.
-    pub by_velocity: &'a mut Matrix<N>,
-}
 
 impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Equations at `state`'s wrapping under `inputs`.

@@ -1,11 +1,13 @@
-//! The equations of motion, and the state they move: with teeth (`equations` and its parts), and of ideal gears (`ideal_equations`,
-//! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
+//! The equations of motion, and the state they move. In the order of an evaluation:
+//!
+//! - `acting`: inputs and dry friction at all levels of gear contact;
+//! - `shape`, `planet_contact`, `bodies`, `dry_friction`, `equations`, `motion`: teeth, from the shape of the equations to what an
+//!   integrator sees; `ideal`: the same without teeth;
+//! - `ledger_rates`, `energy_floor`: powers that come with the forces, and the energy that a step does not resolve;
+//! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: what the steps leave behind.
 
-pub mod accepted;
 pub mod acting;
 mod bodies;
-pub mod clock;
-pub mod cycle;
 mod dry_friction;
 mod energy_floor;
 #[cfg(test)]
@@ -13,26 +15,22 @@ mod energy_floor;
 mod energy_floor_tests;
 pub mod equations;
 pub mod event;
-pub mod ideal_equations;
-mod ideal_step;
+pub mod ideal;
 pub mod ledger_rates;
 mod motion;
 pub mod pending_step;
 pub mod planet_contact;
 pub mod rattle;
+pub mod shaft_means;
 pub mod shape;
 pub mod state;
-pub mod torque_means;
-pub mod watched;
 
-pub use accepted::Accepted;
-pub use acting::{Acted, Acting};
-pub use clock::Clock;
-pub use equations::{Equations, Jacobian, Largest};
-pub use ideal_equations::{IdealEquations, IdealTorques};
+pub use acting::{Acted, Acting, Jacobian};
+pub use equations::{Equations, Largest};
+pub use ideal::{IdealEquations, IdealTorques};
+pub use pending_step::Clock;
 pub use shape::LARGEST;
 pub use state::State;
-pub use watched::{LastLoads, Watched};
 
 /// Evaluates an expression with the equations of any model bound to `$equations`, `N` the most degrees of freedom they have.
 macro_rules! with_equations {
@@ -42,8 +40,7 @@ macro_rules! with_equations {
                 #[allow(unused)]
                 const N: usize = $crate::model::assembly::ideal_with_effects::MOST;
                 #[allow(unused_mut)]
-                let mut $equations =
-                    $crate::model::dynamics::ideal_equations::IdealEquations::new(ideal, $inputs, $state);
+                let mut $equations = $crate::model::dynamics::ideal::IdealEquations::new(ideal, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {

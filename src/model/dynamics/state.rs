@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::event::{Events, Pause};
 use super::pending_step::PendingStep;
 use super::rattle::Rattle;
-use super::torque_means::TorqueMeans;
+use super::shaft_means::TorqueMeans;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;

@@ -6,11 +6,11 @@
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{Accepted, Acted, State};
+use crate::model::dynamics::{Acted, State};
 use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
 use crate::model::run::progress::complete;
 use crate::model::run::timeline::{breaks_tooth, next_change};
-use crate::model::run::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
+use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
 
 /// Result of an event.

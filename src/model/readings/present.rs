@@ -1,9 +1,9 @@
 //! The simulation as its outputs show it: under the present inputs, which the next step will apply.
 
-use crate::model::dynamics::{State, Watched};
+use crate::model::dynamics::State;
 use crate::model::run::events::{has_brakes, with_brakes};
 use crate::model::run::progress::complete;
-use crate::model::run::{Simulation, imposed};
+use crate::model::run::{Simulation, Watched, imposed};
 use crate::model::scene::Inputs;
 
 impl Simulation {

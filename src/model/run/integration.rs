@@ -1,27 +1,26 @@
-//! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
+//! A stretch of time, step by step. In the order of a step:
+//!
+//! 1. Inputs and state make the equations (`dynamics::Equations::new`), in the shape of the scene.
+//! 2. A method tries a step (`integrate::proceed`, `integrate::advance_fixed`). It evaluates forces and derivatives: the contact of each
+//!    planet, the bodies it acts on, friction, effects, inputs (`dynamics::equations`). Its error, the ledger and kinks decide its size.
+//! 3. The accepted step is refused if a tooth has bent too far (`LedgerEquations::check_deflection`).
+//! 4. Work, heat, temperatures, damage and mesh cycles are recorded (`LedgerEquations::record`).
+//! 5. Sliding friction drags its anchors along; friction that is due to switch stops the method.
+//! 6. Bodies take new temperatures over, friction switches, and a switch that is an event pauses the motion.
+//! 7. The step that leads beyond the present stays in the state with its motion (`dynamics::PendingStep`).
 
 use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
+use super::watching::Watched;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{Any, DIFFERENT, LEAST, Plain, Shape, WITH_ENDS, WithEffects, WithEnds};
-use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State, Watched};
+use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
-
-/// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
-const BUDGET: u64 = 2_000_000;
-/// What effects that act on bodies add: drag, shafts, dry friction.
-const EFFECTS: usize = 3;
-/// Entries of the matrices of plain teeth with planets that are alike.
-const PLAIN: usize = 16;
-/// What a step of ideal gears with all effects costs at most.
-const IDEAL: usize = 2;
-/// Cost of a step of `radau`, which iterates, at most in steps of the default method.
-const RADAU_IN_STEPS: usize = 8;
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
 pub const LONGEST_INTERVAL: f64 = 1.0;
@@ -29,19 +28,6 @@ pub const LONGEST_INTERVAL: f64 = 1.0;
 const LONGEST: f64 = LONGEST_INTERVAL;
 /// What a double can resolve of times up to the length of a stretch [s].
 pub const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
-
-/// Attempts at steps granted to one call: the fewer, the more each costs.
-pub fn budget(model: &Model) -> u64 {
-    let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
-    let groups = if teeth.contact.solid.is_some() { 1 } else { teeth.layout.groups };
-    let work = (teeth.contact.work(model.parameters.solid.facets as usize) * groups).max(1);
-    let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
-    let effects = if has_effects { EFFECTS } else { 0 };
-    // matrices of few rows cost by their number of entries
-    let freedoms = teeth.layout.count();
-    let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
-    BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
-}
 
 /// What to integrate.
 pub struct Integration<'a> {
@@ -140,6 +126,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         expected: clock.expected,
         ..Course::new(state.point(), clock.time, clock.end)
     };
+    // the step that leads beyond the present goes on
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut course);
         course.end_at(clock.end);
@@ -157,6 +144,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         switched = false;
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
+        // what an accepted step leaves behind
         let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
             if !is_shown {
                 rattle.add_step(equations.check_deflection(step.end)?);
@@ -186,6 +174,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         };
         equations.acting_mut().anchor(&anchors);
         let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
+        // the equations change: temperatures that bodies feel, and friction
         if is_warmer {
             state.thermal.feel();
             course.longest = LONGEST.min(state.thermal.longest);
@@ -214,6 +203,29 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         _ => state.pending_step = None,
     }
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
+}
+
+/// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
+const BUDGET: u64 = 2_000_000;
+/// What effects that act on bodies add: drag, shafts, dry friction.
+const EFFECTS: usize = 3;
+/// Entries of the matrices of plain teeth with planets that are alike.
+const PLAIN: usize = 16;
+/// What a step of ideal gears with all effects costs at most.
+const IDEAL: usize = 2;
+/// Cost of a step of `radau`, which iterates, at most in steps of the default method.
+const RADAU_IN_STEPS: usize = 8;
+
+/// Attempts at steps granted to one call: the fewer, the more each costs.
+pub fn budget(model: &Model) -> u64 {
+    let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
+    let work = teeth.contact.work(model.parameters.solid.facets as usize, teeth.layout.groups);
+    let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
+    let effects = if has_effects { EFFECTS } else { 0 };
+    // matrices of few rows cost by their number of entries
+    let freedoms = teeth.layout.count();
+    let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
+    BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
 }
 
 #[cold]

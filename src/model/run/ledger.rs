@@ -2,15 +2,15 @@
 
 use super::completed_step::{CompletedStep, Passed};
 use super::failure::ExcessiveDeflection;
-use super::watching::watch_step;
+use super::watching::{Watched, watch_step};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::MOST;
-use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
+use crate::model::dynamics::shaft_means::Cycle;
+use crate::model::dynamics::shaft_means::TorqueMeans;
 use crate::model::dynamics::shape::Shape;
-use crate::model::dynamics::torque_means::TorqueMeans;
-use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, LARGEST, Largest, Watched};
+use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, LARGEST, Largest};
 use crate::model::effect_kinds::BUILT;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;

@@ -1,5 +1,6 @@
 //! A running simulation and its steps: integration between events, the ledger, and failures.
 
+pub mod accepted;
 mod completed_step;
 pub mod effort;
 pub mod events;
@@ -11,8 +12,10 @@ pub mod ledger;
 pub mod progress;
 mod simulation;
 pub mod timeline;
-mod watching;
+pub mod watching;
 
+pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use simulation::Simulation;
+pub use watching::Watched;

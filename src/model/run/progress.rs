@@ -7,10 +7,11 @@
 use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration};
 use super::timeline::{self, Stop};
+use super::watching::Watched;
 use super::{StepFailure, imposed};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::event::{Pause, Way};
-use crate::model::dynamics::{Clock, State, Watched};
+use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.

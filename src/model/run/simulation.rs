@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use crate::FULL;
 
+use super::accepted::Accepted;
 use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
+use super::watching::Watched;
 use super::{StepFailure, timeline};
 use crate::model::assembly::{Gears, Given, Model};
+use crate::model::dynamics::State;
 use crate::model::dynamics::event::{Events, Pause, Way};
-use crate::model::dynamics::{Accepted, State, Watched};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
-use crate::model::dynamics::{Largest, State, Watched};
+use crate::model::dynamics::{Largest, State};
 use crate::model::effects::strength::Fatigue;
 use crate::model::run::events::{apply_changes, break_tooth};
-use crate::model::run::{Simulation, imposed};
+use crate::model::run::{Simulation, Watched, imposed};
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
 use crate::model::setup::{HEATS, Parameters};
 use crate::model::thermal::Thermal;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::State;
+use crate::model::dynamics::State;
 use crate::model::scene::{Inputs, MAX_DOF};
 use crate::numeric::finite;
 
