@@ -4,7 +4,7 @@
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
 use super::impact::Force;
-use super::spring::{Response, Resultant, is_placed};
+use super::spring::{Response, Resultant, is_placed, with_spring};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use super::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothPair};
 use crate::geometry::Pair;
@@ -30,9 +30,7 @@ macro_rules! with_pairs {
     ($of:expr, $position:expr, ($spring:ident, $pairs:ident) => $body:expr) => {
         match &$of.spring {
             AnySpring::Impact($spring) if $of.is_single => with_pairs!(@ $of.single($position), $pairs, $body),
-            AnySpring::Impact($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
-            AnySpring::Line($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
-            AnySpring::LineWeber($spring) => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
+            any => with_spring!(any, $spring => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body)),
         }
     };
     (@ $found:expr, $pairs:ident, $body:expr) => {{

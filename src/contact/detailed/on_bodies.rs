@@ -22,7 +22,7 @@ macro_rules! with_teeth {
         match $of {
             AnySpring::Line($law) => $body,
             AnySpring::LineWeber($law) => $body,
-            AnySpring::Impact(_) => $none,
+            _ => $none,
         }
     };
 }

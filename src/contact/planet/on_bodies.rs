@@ -68,7 +68,7 @@ macro_rules! with_teeth {
         match &$of.contact.mesh.spring {
             AnySpring::Line($spring) => $body,
             AnySpring::LineWeber($spring) => $body,
-            AnySpring::Impact(_) => $none,
+            _ => $none,
         }
     };
 }

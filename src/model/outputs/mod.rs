@@ -6,7 +6,6 @@ mod loads;
 pub mod motion;
 pub mod pairs;
 pub mod pv;
-pub mod resultants;
 
 pub use ledger_readings::LedgerReadings;
 pub use motion::Motion;

@@ -5,7 +5,7 @@ use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest};
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::{PairLines, pair_lines};
-use crate::model::outputs::{Motion, resultants};
+use crate::model::outputs::{Motion, forces};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, MAX_PLANETS};
 use crate::numeric::TAU;
@@ -66,12 +66,12 @@ impl Simulation {
     pub(in crate::model) fn forces_of_state(&self, extent: Extent) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
-            Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) => resultants::ideal_forces(model, inputs, state),
+            Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) => forces::ideal_forces(model, inputs, state),
             Gears::Ideal(ideal) => {
-                resultants::ideal_forces_with_effects(model, &IdealEquations::new(ideal, inputs, state), inputs, state)
+                forces::ideal_forces_with_effects(model, &IdealEquations::new(ideal, inputs, state), inputs, state)
             }
             Gears::Teeth(teeth) => {
-                resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, extent))
+                forces::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, extent))
             }
         }
     }
