@@ -8,7 +8,7 @@ use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::law::{DampedImpact, FaceLaw, Lumped};
 use bevel_differential::contact::laws::AnySpring;
-use bevel_differential::contact::mesh::{Law, Mesh};
+use bevel_differential::contact::mesh::Law;
 use bevel_differential::contact::spring;
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
@@ -20,9 +20,7 @@ pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 
 pub const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: PER_FULL_DEPTH };
 pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
 
-/// Teeth of planet and side gear, exponent of the law, and backlash.
-pub const GEARS: [(i32, i32, f64, f64); 3] = [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 0.0), (11, 15, 2.2, 5e-5)];
-
+/// Gears with these teeth of planet and side gear, exponent of the law, and backlash.
 pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
     Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
 }
@@ -40,10 +38,6 @@ impl Kind {
     /// Whether the law acts on tooth pairs.
     pub fn has_pairs(self) -> bool {
         self != Kind::Lumped
-    }
-    /// Whether the law holds for every slice of the face.
-    pub fn can_be_sliced(self) -> bool {
-        matches!(self, Kind::Line | Kind::LineWeber)
     }
 }
 
@@ -64,6 +58,11 @@ impl Built {
     pub fn new(pair: &Pair, kind: Kind, exponent: f64, damping: Damping) -> Self {
         let line_load = ContactSpec::default().line_load;
         let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, line_load).unwrap();
+        Self::of(pair, &stiffness, kind, exponent, damping)
+    }
+
+    /// The law `kind` on teeth of known stiffness.
+    pub fn of(pair: &Pair, stiffness: &PairStiffness, kind: Kind, exponent: f64, damping: Damping) -> Self {
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
         let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));
@@ -112,16 +111,4 @@ impl Built {
         let width = (pair.outer_cone - pair.inner_cone) * pair.mean_cone / cone;
         Self { law, spring, whole: Slice { cone, weight, width }, cone }
     }
-}
-
-/// Meshes of the three pairs under a law.
-pub fn meshes(kind: Kind, damping: Damping, corner_contact: bool) -> Vec<(Mesh, Pair)> {
-    GEARS
-        .into_iter()
-        .map(|of| {
-            let pair = gears(of);
-            let Built { law, cone, .. } = Built::new(&pair, kind, of.2, damping);
-            (Mesh::new(&pair, law, cone, corner_contact, 0.05), pair)
-        })
-        .collect()
 }

@@ -1,0 +1,145 @@
+//! Forces are the gradient of the energy, do not jump, and have the derivatives that they say, under every kind of contact.
+
+use bevel_differential::contact::damping::Damping;
+
+use super::kinds::{Contact, Face, Teeth};
+use super::points::{for_each_point, those};
+use crate::mesh_laws::{Kind, UNDAMPED};
+
+#[test]
+fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
+    let mut counts = [0; 5];
+    for_each_point(1, 20, those(|_| true), |planet, at| {
+        let (contact, mut tested) = (&planet.contact, false);
+        for side in 0..2 {
+            // the energy of a stiff planet's other mesh would only add rounding
+            let at = if contact.is_elastic { at.at_rest() } else { at.at_rest().only(side) };
+            let coordinates = planet.coordinates(3 * side..3 * side + 3);
+            let scale = planet.scale(&at);
+            let Some((h, pattern)) = planet.smooth_steps(&at, 1e-3, &coordinates).filter(|_| scale > 0.0) else {
+                continue;
+            };
+            (tested, _) = (true, pattern.count(&mut counts));
+            // twelve points over a partly loaded face have force and energy of a logarithmic law to 1e-8 each, and own arcs on
+            // elastic bodies are solved to rounding of the deepest arc
+            let is_summed = contact.law == Kind::LineWeber && pattern.is_partly_loaded();
+            let limit = if is_summed || contact.is_elastic { 3e-8 } else { 1e-8 };
+            for i in coordinates {
+                let force = planet.forces(&at).readings[side][i % 3];
+                let [gradient] = at.difference(i, h[i], |at| [planet.energy(at)]);
+                let off = (force + gradient).abs() * planet.unit(i) / scale;
+                assert!(off < limit, "by {i}: {force} {gradient} off {off:e}");
+            }
+        }
+        tested
+    });
+    assert!(counts[..4].iter().all(|&n| n > 500), "{counts:?}");
+}
+
+/// Largest error of a derivative, over the largest derivative of its mesh with respect to positions or rates.
+fn slope_limit(contact: &Contact, is_partly_loaded: bool) -> f64 {
+    let is_step = matches!(contact.damping, Damping::Step { coefficient, .. } if coefficient > 0.0);
+    if !(is_partly_loaded && contact.law == Kind::Line && is_step) {
+        // rounding ε F/(h F′) ~ 1e-12, which grows where forces nearly cancel
+        return 1e-6;
+    }
+    // Four points over a partly loaded face are exact for a linear law, so its derivatives leave out how the points move. The step
+    // of damping and, with it, friction that depends on the load are no polynomials over the face, the less so the more of the
+    // face a crowned tooth loads by degrees.
+    let is_crowned = matches!(contact.teeth, Teeth::Made(spec, _) if spec.crowning > 1e-5);
+    if is_crowned { 1e-2 } else { 3e-4 }
+}
+
+#[test]
+fn derivatives_are_those_of_the_forces() {
+    let mut counts = [0; 5];
+    for_each_point(2, 40, those(|_| true), |planet, at| {
+        let (forces, slopes) = planet.linearised(at);
+        assert_eq!(forces, planet.forces(at));
+        let energy = planet.energy(at);
+        assert!((slopes.energy - energy).abs() <= 1e-10 * energy, "{} {energy}", slopes.energy);
+        let coordinates = planet.coordinates(0..12);
+        let Some((h, pattern)) = planet.smooth_steps(at, 1e-4, &coordinates) else { return false };
+        pattern.count(&mut counts);
+        let limit = slope_limit(&planet.contact, pattern.is_partly_loaded());
+        let unit = |row: usize| if row < 2 { 1.0 / planet.mesh.cone } else { 1.0 };
+        for i in coordinates {
+            let found: [f64; 14] = at.difference(i, h[i], |at| {
+                let readings = planet.forces(at).readings;
+                std::array::from_fn(|n| readings[n / 7][n % 7])
+            });
+            for (n, found) in found.into_iter().enumerate() {
+                let (by, row, own) = (&slopes.by[n / 7], n % 7, 3 * (n / 7) + i / 6 * 6);
+                let sizes = (0..21).map(|k| (by[k / 3][own + k % 3] * unit(k / 3) * planet.unit(k)).abs());
+                let (scale, exact) = (sizes.fold(1e-30, f64::max), by[row][i]);
+                let off = (found - exact).abs() * unit(row) * planet.unit(i) / scale;
+                // a stiff planet has nothing of its other mesh
+                assert!(found == exact || off < limit, "side {} row {row} by {i}: {exact} {found} off {off:e}", n / 7);
+            }
+        }
+        true
+    });
+    assert!(counts.iter().all(|&n| n > 500), "{counts:?}");
+}
+
+#[test]
+fn stiffness_without_damping_and_friction_is_symmetric() {
+    let mut across = 0;
+    for_each_point(3, 100, those(|of| of.damping == UNDAMPED && of.friction.is_none()), |planet, at| {
+        let Contact { law, face, is_elastic, .. } = planet.contact;
+        let by = planet.linearised(at).1.by;
+        let entry = |i: usize, j: usize| by[i / 3][i % 3][j] * planet.unit(i) * planet.unit(j);
+        let largest = (0..36).map(|k| entry(k / 6, k % 6).abs()).fold(0.0, f64::max);
+        across += usize::from(is_elastic && entry(0, 3) != 0.0);
+        for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
+            let (a, b) = (entry(i, j), entry(j, i));
+            let limit = match (face, law) {
+                // the same product both ways round
+                (Face::Plain, _) if !is_elastic => 1e-14 * a.abs(),
+                // twelve points over a partly loaded face have a logarithmic law to 1e-8
+                (Face::Cut, Kind::LineWeber) => 1e-8 * largest,
+                _ => 1e-12 * largest,
+            };
+            assert!((a - b).abs() <= limit, "{i} {j}: {a} {b}");
+        }
+        true
+    });
+    assert!(across > 1000, "{across}");
+}
+
+#[test]
+fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corners_and_leave() {
+    const STEPS: usize = 200;
+    let mut switches = 0;
+    for_each_point(4, 3, those(|of| of.has_corners), |planet, at| {
+        let start = planet.joined(*at);
+        // the planet turns up the path on the left, down on the right
+        let at = |x: f64| start.moved(1, x).moved(4, -x);
+        let pattern = |x: f64| planet.pattern(&at(x)).points;
+        let place = |k: usize| planet.gears.pair.base_pitch * k as f64 / STEPS as f64;
+        // harsh damping may leave no force of all
+        let scale = (0..STEPS).map(|k| planet.scale(&at(place(k)).at_rest())).fold(0.0, f64::max);
+        let mut next = pattern(0.0);
+        for k in 0..STEPS {
+            let (mut before, mut after) = (place(k), place(k + 1));
+            let here = std::mem::replace(&mut next, pattern(after));
+            if here == next {
+                continue;
+            }
+            for _ in 0..60 {
+                let middle = 0.5 * (before + after);
+                if pattern(middle) == here { before = middle } else { after = middle }
+            }
+            switches += 1;
+            let [a, b] = [before, after].map(|x| (planet.forces(&at(x)).readings, planet.energy(&at(x))));
+            for i in 0..6 {
+                let jump = (a.0[i / 3][i % 3] - b.0[i / 3][i % 3]).abs() * planet.unit(i);
+                assert!(jump <= 1e-9 * scale, "{i} jumps by {jump:e} of {scale:e} at x {before}");
+            }
+            // with it, forces are the gradient of the energy across switches, too
+            assert!((a.1 - b.1).abs() <= 1e-9 * a.1.max(1e-3 * scale), "energy jumps at x {before}: {} {}", a.1, b.1);
+        }
+        true
+    });
+    assert!(switches > 5000, "{switches}");
+}

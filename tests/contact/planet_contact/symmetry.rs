@@ -1,0 +1,167 @@
+//! Symmetries of the forces, and kinds of contact that are the same thing.
+
+use bevel_differential::contact::{Flank, Spot};
+use bevel_differential::geometry::action::LineOfAction;
+use nalgebra::Vector3;
+
+use super::kinds::{At, Contact, Face, Forces, Planet, Teeth};
+use super::points::{for_each_point, those};
+use crate::mesh_laws::{Kind, impact};
+
+fn is_perfect(of: &Contact) -> bool {
+    matches!(of.teeth, Teeth::Perfect)
+}
+
+/// Checks that `a` and `b` are the same within `limit`.
+#[track_caller]
+fn same(a: f64, b: f64, limit: f64) {
+    assert!((a - b).abs() <= limit, "{a} is not {b} within {limit:e}");
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+#[test]
+fn coasting_is_the_mirror_image_of_driving() {
+    for_each_point(5, 40, those(is_perfect), |planet, at| {
+        // teeth of one body, which an elastic planet needs, and side gears that are displaced outward stay so
+        let at = if planet.contact.is_elastic { planet.joined(*at) } else { *at };
+        let turned = |values: [[f64; 3]; 2]| values.map(|[q, x, w]| [-q, -x, w]);
+        let mut mirror = At { position: turned(at.position), rate: turned(at.rate) };
+        // pairs on both flanks, which displaced gears and elastic bodies press, are summed in another order
+        let mut limit = if planet.contact.is_displaced { 1e-12 } else { 0.0 };
+        if planet.contact.is_elastic {
+            // the teeth at both meshes' lines are not opposite
+            mirror = mirror.moved(4, planet.off_opposite());
+            limit = 1e-10;
+        }
+        let ((a, da), (b, db)) = (planet.linearised(&at), planet.linearised(&mirror));
+        same(da.energy, db.energy, limit * da.energy);
+        let resting = planet.scale(&at.at_rest());
+        for side in 0..2 {
+            let scale = limit * (resting + largest(&a.readings[side]) + largest(&a.heat[side]));
+            let steep = limit * largest(da.by[side].as_flattened());
+            (0..2).for_each(|i| same(a.heat[side][i], b.heat[side][i], scale));
+            for row in 0..7 {
+                let sign = if [0, 1, 6].contains(&row) { -1.0 } else { 1.0 };
+                same(a.readings[side][row], sign * b.readings[side][row], scale);
+                for i in 0..12 {
+                    let sign = if i % 3 < 2 { -sign } else { sign };
+                    same(da.by[side][row][i], sign * db.by[side][row][i], steep);
+                }
+            }
+        }
+        true
+    });
+}
+
+#[test]
+fn energy_is_the_same_a_base_pitch_further() {
+    for_each_point(6, 40, those(is_perfect), |planet, at| {
+        // the planet turns up the path on the left, down on the right
+        let pitch = planet.gears.pair.base_pitch;
+        let (here, next) = (planet.energy(at), planet.energy(&at.moved(1, pitch).moved(4, -pitch)));
+        same(here, next, 1e-11 * here);
+        true
+    });
+}
+
+#[test]
+fn flanks_that_do_not_touch_carry_nothing() {
+    for_each_point(7, 40, those(|of| is_perfect(of) && !of.is_displaced), |planet, at| {
+        let (mut at, half) = (*at, planet.gears.pair.normal_backlash / 2.0);
+        at.position.iter_mut().for_each(|[q, ..]| *q = 0.999_999 * half * q.signum());
+        assert_eq!((planet.energy(&at), planet.forces(&at)), (0.0, Forces::default()));
+        true
+    });
+}
+
+#[test]
+fn without_corner_contact_each_pair_on_the_path_carries_the_whole_approach() {
+    for_each_point(8, 4000, those(|of| of.law == Kind::Impact && !of.has_corners), |planet, at| {
+        let (at, pair) = (at.at_rest().only(0), &planet.gears.pair);
+        let [q, x, _] = at.position[0];
+        let approach = (q.abs() - pair.normal_backlash / 2.0).max(0.0);
+        // teeth on the path, counted one by one: s = γ_p sinδ_bp ± x + k p_b
+        let start = pair.centred_position() - q.signum() * x;
+        let [high, low] = [0, 1].map(|i| planet.mesh.engagement.corner[i].end);
+        let on_path = |k: &i32| (-low..=high).contains(&(start + f64::from(*k) * pair.base_pitch));
+        let count = (-20..=20).filter(on_path).count() as f64;
+        let e = planet.gears.exponent;
+        let expected = count * impact(e, 0.0).stiffness * (pair.mean_cone * approach).powf(e + 1.0) / (e + 1.0);
+        same(planet.energy(&at), expected, 1e-12 * expected);
+        // straight along the path: no force by x
+        assert_eq!(planet.forces(&at).readings[0][1], 0.0);
+        true
+    });
+}
+
+#[test]
+fn kinds_without_effects_are_the_plain_mesh() {
+    let (mut spots, mut coast) = ([0; 3], 0);
+    let wanted = |of: &Contact| is_perfect(of) && of.friction.is_none();
+    for_each_point(9, 100, those(|of| wanted(of) && of.face != Face::Plain), |planet, at| {
+        let mut at = *at;
+        (0..2).for_each(|side| (at.position[side][2], at.rate[side][2]) = (0.0, 0.0));
+        let plain = Planet::new(Contact { face: Face::Plain, is_displaced: false, ..planet.contact }, &planet.gears);
+        let whole = Planet::new(Contact { face: Face::Whole, ..planet.contact }, &planet.gears);
+        let [(a, da), (b, db), (c, _)] = [&plain, planet, &whole].map(|planet| planet.linearised(&at));
+        // own arcs on elastic bodies are solved, not summed
+        let limit = if planet.contact.is_elastic { 1e-10 } else { 1e-12 };
+        let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest()));
+        planet.loaded(&at, |point| {
+            spots[point.spot as usize] += 1;
+            coast += usize::from(point.name.flank == Flank::Coast);
+        });
+        same(planet.energy(&at), plain.energy(&at), limit * plain.energy(&at));
+        for side in 0..2 {
+            same(a.heat[side][0], b.heat[side][0], scale);
+            assert_eq!(b.heat[side][1], 0.0);
+            same(plain.plain_normal(&at, side), b.readings[side][3], scale / plain.mesh.cone);
+            let steep = limit * largest(da.by[side].as_flattened());
+            for row in 0..2 {
+                same(a.readings[side][row], b.readings[side][row], scale);
+                let columns = (0..12).filter(|i| i % 3 < 2);
+                columns.for_each(|i| same(da.by[side][row][i], db.by[side][row][i], steep));
+            }
+            // thrusts and the force on side gears have one resultant
+            (2..7).for_each(|row| same(b.readings[side][row], c.readings[side][row], scale / plain.mesh.cone));
+        }
+        true
+    });
+    assert!(spots.iter().all(|&n| n > 500) && coast > 500, "[path, planet tip, side tip]: {spots:?}, coast {coast}");
+}
+
+#[test]
+fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
+    let mut spots = [0; 3];
+    for_each_point(
+        10,
+        200,
+        those(|of| is_perfect(of) && of.face == Face::Whole && of.law == Kind::Line),
+        |planet, at| {
+            let action = LineOfAction::new(&planet.gears.pair);
+            let shaft_angle = planet.gears.pair.shaft_angle;
+            let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
+            planet.loaded(at, |point| {
+                // the first cell of a corner's table of gaps has their slope to 2e-8
+                if point.spot != Spot::Path && point.place < 1e-6 {
+                    return;
+                }
+                spots[point.spot as usize] += 1;
+                // from the planet into the side gear: it pushes the planet back
+                let normal = action.contact(point.spot, point.place, 1.0).normal;
+                let [planet, side] = [-normal.z, normal.dot(&side_axis)];
+                // what is left is along the rotation
+                let left = (1.0 - planet * planet - side * side).sqrt();
+                let [a, b, c] = point.parts;
+                [(a, planet), (b, side), (c.abs(), left)]
+                    .iter()
+                    .for_each(|(found, expected)| same(*found, *expected, 1e-8));
+            });
+            true
+        },
+    );
+    assert!(spots.iter().all(|&n| n > 100), "{spots:?}");
+}
