@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::damping::Damping;
 
-use super::kinds::{Contact, Face, Teeth};
+use super::kinds::{Contact, Face, Planet, Teeth};
 use super::points::{for_each_point, those};
 use crate::mesh_laws::{Kind, UNDAMPED};
 
@@ -36,6 +36,23 @@ fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
     assert!(counts[..4].iter().all(|&n| n > 500), "{counts:?}");
 }
 
+/// Checks that the stiffness of a contact without damping and friction is symmetric.
+fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; 7]; 2]) {
+    let entry = |i: usize, j: usize| by[i / 3][i % 3][j] * planet.unit(i) * planet.unit(j);
+    let largest = (0..36).map(|k| entry(k / 6, k % 6).abs()).fold(0.0, f64::max);
+    for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
+        let (a, b) = (entry(i, j), entry(j, i));
+        let limit = match planet.contact {
+            // the same product both ways round
+            Contact { face: Face::Plain, is_elastic: false, .. } => 1e-14 * a.abs(),
+            // twelve points over a partly loaded face have a logarithmic law to 1e-8
+            Contact { face: Face::Cut, law: Kind::LineWeber, .. } => 1e-8 * largest,
+            _ => 1e-12 * largest,
+        };
+        assert!((a - b).abs() <= limit, "{i} {j}: {a} {b}");
+    }
+}
+
 /// Largest error of a derivative, over the largest derivative of its mesh with respect to positions or rates.
 fn slope_limit(contact: &Contact, is_partly_loaded: bool) -> f64 {
     let is_step = matches!(contact.damping, Damping::Step { coefficient, .. } if coefficient > 0.0);
@@ -51,17 +68,22 @@ fn slope_limit(contact: &Contact, is_partly_loaded: bool) -> f64 {
 }
 
 #[test]
-fn derivatives_are_those_of_the_forces() {
-    let mut counts = [0; 5];
+fn derivatives_are_those_of_the_forces_and_symmetric_without_dissipation() {
+    let (mut counts, mut across) = ([0; 5], 0);
     for_each_point(2, 40, those(|_| true), |planet, at| {
         let (forces, slopes) = planet.linearised(at);
         assert_eq!(forces, planet.forces(at));
         let energy = planet.energy(at);
         assert!((slopes.energy - energy).abs() <= 1e-10 * energy, "{} {energy}", slopes.energy);
+        let contact = &planet.contact;
+        if contact.damping == UNDAMPED && contact.friction.is_none() {
+            check_symmetry(planet, &slopes.by);
+            across += usize::from(slopes.by[0][0][3] != 0.0);
+        }
         let coordinates = planet.coordinates(0..12);
         let Some((h, pattern)) = planet.smooth_steps(at, 1e-4, &coordinates) else { return false };
         pattern.count(&mut counts);
-        let limit = slope_limit(&planet.contact, pattern.is_partly_loaded());
+        let limit = slope_limit(contact, pattern.is_partly_loaded());
         let unit = |row: usize| if row < 2 { 1.0 / planet.mesh.cone } else { 1.0 };
         for i in coordinates {
             let found: [f64; 14] = at.difference(i, h[i], |at| {
@@ -79,39 +101,14 @@ fn derivatives_are_those_of_the_forces() {
         }
         true
     });
-    assert!(counts.iter().all(|&n| n > 500), "{counts:?}");
-}
-
-#[test]
-fn stiffness_without_damping_and_friction_is_symmetric() {
-    let mut across = 0;
-    for_each_point(3, 100, those(|of| of.damping == UNDAMPED && of.friction.is_none()), |planet, at| {
-        let Contact { law, face, is_elastic, .. } = planet.contact;
-        let by = planet.linearised(at).1.by;
-        let entry = |i: usize, j: usize| by[i / 3][i % 3][j] * planet.unit(i) * planet.unit(j);
-        let largest = (0..36).map(|k| entry(k / 6, k % 6).abs()).fold(0.0, f64::max);
-        across += usize::from(is_elastic && entry(0, 3) != 0.0);
-        for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
-            let (a, b) = (entry(i, j), entry(j, i));
-            let limit = match (face, law) {
-                // the same product both ways round
-                (Face::Plain, _) if !is_elastic => 1e-14 * a.abs(),
-                // twelve points over a partly loaded face have a logarithmic law to 1e-8
-                (Face::Cut, Kind::LineWeber) => 1e-8 * largest,
-                _ => 1e-12 * largest,
-            };
-            assert!((a - b).abs() <= limit, "{i} {j}: {a} {b}");
-        }
-        true
-    });
-    assert!(across > 1000, "{across}");
+    assert!(counts.iter().all(|&n| n > 500) && across > 1000, "{counts:?} {across}");
 }
 
 #[test]
 fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corners_and_leave() {
-    const STEPS: usize = 200;
+    const STEPS: usize = 100;
     let mut switches = 0;
-    for_each_point(4, 3, those(|of| of.has_corners), |planet, at| {
+    for_each_point(4, 2, those(|of| of.has_corners), |planet, at| {
         let start = planet.joined(*at);
         // the planet turns up the path on the left, down on the right
         let at = |x: f64| start.moved(1, x).moved(4, -x);
@@ -141,5 +138,5 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         }
         true
     });
-    assert!(switches > 5000, "{switches}");
+    assert!(switches > 4000, "{switches}");
 }

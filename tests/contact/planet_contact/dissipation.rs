@@ -14,7 +14,7 @@ fn power(readings: &[[f64; 7]; 2], at: &At) -> f64 {
 
 #[test]
 fn power_of_the_forces_plus_heat_is_what_the_energy_loses() {
-    let (mut worst, mut hot) = (0.0f64, [0; 2]);
+    let mut hot = [0; 2];
     for_each_point(11, 40, those(|_| true), |planet, at| {
         let (forces, resting) = (planet.forces(at), planet.forces(&at.at_rest()));
         assert!(forces.heat.as_flattened().iter().all(|heat| *heat >= 0.0), "it cools");
@@ -23,18 +23,16 @@ fn power_of_the_forces_plus_heat_is_what_the_energy_loses() {
         // forces at rest are minus the gradient of the energy
         let off = (power(&forces.readings, at) + contact + friction - power(&resting.readings, at)).abs();
         let scale = planet.scale(at) + planet.scale(&at.at_rest());
-        worst = worst.max(off / scale.max(1e-30));
         assert!(off <= 1e-8 * scale, "off {off:e} of {scale:e}");
         true
     });
-    println!("worst {worst:e} of |F| · 1 rad/s, {hot:?} points with heat of contact, of friction");
     assert!(hot.iter().all(|&n| n > 4000), "{hot:?}");
 }
 
 #[test]
 fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arms_and_heats_by_its_power() {
     const MU: f64 = 0.07;
-    let (mut worst, mut seen) = (0.0f64, [0; 3]);
+    let mut seen = [0; 3];
     let wanted = |of: &Contact| of.face == Face::Plain && of.law.has_pairs() && of.damping == UNDAMPED;
     for_each_point(12, 2000, those(|of| wanted(of) && !of.is_elastic && of.has_corners), |planet, at| {
         let whole = Contact { face: Face::Whole, ..planet.contact };
@@ -80,13 +78,11 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
         let (with, without) = (rough.forces(&at), smooth.forces(&at));
         let [q_added, x_added] = [0, 1].map(|i| with.readings[0][i] - without.readings[0][i]);
         for (found, torque) in [(p * (x_added - q_added), torques[0]), (q * q_added, torques[1])] {
-            worst = worst.max((found - torque).abs() / scale);
             assert!((found - torque).abs() < 1e-9 * scale, "{found} N·m for {torque}");
         }
         assert!((with.heat[0][1] - heat).abs() < 1e-9 * scale && heat > 0.0, "{} W for {heat}", with.heat[0][1]);
         assert_eq!((with.readings[0][3], with.heat[0][0]), (without.readings[0][3], without.heat[0][0]));
         true
     });
-    println!("worst {worst:e} of μ F R, [path, planet tip, side tip]: {seen:?}");
     assert!(seen.iter().all(|&n| n > 200), "{seen:?}");
 }

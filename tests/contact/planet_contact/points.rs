@@ -74,10 +74,9 @@ impl At {
 /// Loaded points as far as they must stay the same: where this changes, derivatives jump or bend.
 #[derive(Default)]
 pub struct Pattern {
-    /// Teeth, kind of contact, cone distance of a point that does not move, and whether flanks are about to part, damping is full,
-    /// and ends of the face and of a broken tooth's parts are
-    /// loaded.
-    pub points: Vec<(PairName, Spot, Option<f64>, [bool; 6])>,
+    /// Teeth, kind of contact, cone distance of a point that does not move, and whether ends of the face and of a broken tooth's
+    /// parts are loaded, flanks are about to part, and damping is full.
+    pub points: Vec<(PairName, Spot, Option<f64>, [bool; 4], [bool; 2])>,
     /// Deepest arc of each mesh, and distance from the nearest switch [rad].
     pub deepest: [f64; 2],
     nearest: [f64; 2],
@@ -149,35 +148,27 @@ impl Planet {
     }
 
     pub fn pattern(&self, at: &At) -> Pattern {
-        let far = f64::INFINITY;
-        let mut pattern = Pattern { nearest: [far; 2], ..Pattern::default() };
-        let mut moving: Vec<(PairName, f64)> = Vec::new();
+        let mut pattern = Pattern { nearest: [f64::INFINITY; 2], ..Pattern::default() };
+        let mut pairs: Vec<(PairName, f64)> = Vec::new();
+        // others pull teeth together, too, that do not touch then
         self.loaded(at, |point| {
-            // others pull teeth together, too, that do not touch then
-            if point.arc <= 0.0 {
-                return;
+            if point.arc > 0.0 {
+                let (name, (cone, ends)) = (point.name, self.fixed(point));
+                let is_full = point.arc * self.mesh.cone * PER_FULL_DEPTH >= 1.0;
+                pattern.points.push((name, point.spot, cone, ends, [point.normal <= 0.0, is_full]));
+                // the table of a corner's gap has ever shorter cells toward the end of the path
+                let past_end = if point.spot == Spot::Path { f64::INFINITY } else { point.place };
+                pattern.nearest[name.side] = pattern.nearest[name.side].min(past_end);
+                match pairs.iter_mut().find(|(pair, _)| *pair == name) {
+                    Some((_, arc)) => *arc = arc.max(point.arc),
+                    None => pairs.push((name, point.arc)),
+                }
             }
-            let (name, side, (cone, ends)) = (point.name, point.name.side, self.fixed(point));
-            pattern.deepest[side] = pattern.deepest[side].max(point.arc);
-            // the table of a corner's gap has ever shorter cells toward the end of the path
-            let past_end = if point.spot == Spot::Path { far } else { point.place };
-            let depth = if cone.is_some() { point.arc } else { far };
-            pattern.nearest[side] = pattern.nearest[side].min(past_end).min(depth);
-            match moving.iter_mut().find(|(moving, _)| *moving == name) {
-                _ if cone.is_some() => {}
-                Some((_, deepest)) => *deepest = deepest.max(point.arc),
-                None => moving.push((name, point.arc)),
-            }
-            let is_full = point.arc * self.mesh.cone * PER_FULL_DEPTH >= 1.0;
-            pattern.points.push((
-                name,
-                point.spot,
-                cone,
-                [ends[0], ends[1], ends[2], ends[3], point.normal <= 0.0, is_full],
-            ));
         });
-        // of points that move with the loaded part of a face the deepest counts
-        moving.iter().for_each(|(name, arc)| pattern.nearest[name.side] = pattern.nearest[name.side].min(*arc));
+        for (PairName { side, .. }, arc) in pairs {
+            pattern.nearest[side] = pattern.nearest[side].min(arc);
+            pattern.deepest[side] = pattern.deepest[side].max(arc);
+        }
         pattern
     }
 
@@ -197,13 +188,13 @@ impl Planet {
 impl Pattern {
     /// True if a part of the face of some pair is loaded, whose points move with the load.
     pub fn is_partly_loaded(&self) -> bool {
-        self.points.iter().any(|(_, _, cone, _)| cone.is_none())
+        self.points.iter().any(|(_, _, cone, ..)| cone.is_none())
     }
 
     /// Counts points with a partly loaded face, pairs by kind of contact, and flanks that let go.
     pub fn count(&self, counts: &mut [usize; 5]) {
         counts[0] += usize::from(self.is_partly_loaded());
-        for (_, spot, _, [.., is_clipped, _]) in &self.points {
+        for (_, spot, _, _, [is_clipped, _]) in &self.points {
             counts[1 + *spot as usize] += 1;
             counts[4] += usize::from(*is_clipped);
         }

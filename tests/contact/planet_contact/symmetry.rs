@@ -1,5 +1,7 @@
 //! Symmetries of the forces, and kinds of contact that are the same thing.
 
+use std::ops::Range;
+
 use bevel_differential::contact::{Flank, Spot};
 use bevel_differential::geometry::action::LineOfAction;
 use nalgebra::Vector3;
@@ -12,7 +14,6 @@ fn is_perfect(of: &Contact) -> bool {
     matches!(of.teeth, Teeth::Perfect)
 }
 
-/// Checks that `a` and `b` are the same within `limit`.
 #[track_caller]
 fn same(a: f64, b: f64, limit: f64) {
     assert!((a - b).abs() <= limit, "{a} is not {b} within {limit:e}");
@@ -22,47 +23,50 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
+/// Checks that two contacts have the same energy, heat and `rows` of readings, and the same derivatives of these with respect to the
+/// first `coordinates`, within `limit` of the largest. `sign` is that of a row and of a coordinate.
+fn compare([a, b]: [(&Planet, At); 2], (rows, coordinates): (Range<usize>, usize), sign: [f64; 7], limit: f64) {
+    let resting = a.0.scale(&a.1.at_rest());
+    let [(a, da), (b, db)] = [a, b].map(|(planet, at)| planet.linearised(&at));
+    same(da.energy, db.energy, limit * da.energy);
+    for side in 0..2 {
+        let scale = limit * (resting + largest(&a.readings[side]) + largest(&a.heat[side]));
+        let steep = limit * largest(da.by[side].as_flattened());
+        (0..2).for_each(|i| same(a.heat[side][i], b.heat[side][i], scale));
+        for row in rows.clone() {
+            same(a.readings[side][row], sign[row] * b.readings[side][row], scale);
+            for i in (0..12).filter(|i| i % 3 < coordinates) {
+                same(da.by[side][row][i], sign[row] * sign[i % 3] * db.by[side][row][i], steep);
+            }
+        }
+    }
+}
+
 #[test]
 fn coasting_is_the_mirror_image_of_driving() {
     for_each_point(5, 40, those(is_perfect), |planet, at| {
         // teeth of one body, which an elastic planet needs, and side gears that are displaced outward stay so
         let at = if planet.contact.is_elastic { planet.joined(*at) } else { *at };
         let turned = |values: [[f64; 3]; 2]| values.map(|[q, x, w]| [-q, -x, w]);
-        let mut mirror = At { position: turned(at.position), rate: turned(at.rate) };
+        let mirror = At { position: turned(at.position), rate: turned(at.rate) };
         // pairs on both flanks, which displaced gears and elastic bodies press, are summed in another order
-        let mut limit = if planet.contact.is_displaced { 1e-12 } else { 0.0 };
-        if planet.contact.is_elastic {
+        let (mirror, limit) = match planet.contact {
             // the teeth at both meshes' lines are not opposite
-            mirror = mirror.moved(4, planet.off_opposite());
-            limit = 1e-10;
-        }
-        let ((a, da), (b, db)) = (planet.linearised(&at), planet.linearised(&mirror));
-        same(da.energy, db.energy, limit * da.energy);
-        let resting = planet.scale(&at.at_rest());
-        for side in 0..2 {
-            let scale = limit * (resting + largest(&a.readings[side]) + largest(&a.heat[side]));
-            let steep = limit * largest(da.by[side].as_flattened());
-            (0..2).for_each(|i| same(a.heat[side][i], b.heat[side][i], scale));
-            for row in 0..7 {
-                let sign = if [0, 1, 6].contains(&row) { -1.0 } else { 1.0 };
-                same(a.readings[side][row], sign * b.readings[side][row], scale);
-                for i in 0..12 {
-                    let sign = if i % 3 < 2 { -sign } else { sign };
-                    same(da.by[side][row][i], sign * db.by[side][row][i], steep);
-                }
-            }
-        }
+            Contact { is_elastic: true, .. } => (mirror.moved(4, planet.off_opposite()), 1e-10),
+            Contact { is_displaced, .. } => (mirror, if is_displaced { 1e-12 } else { 0.0 }),
+        };
+        compare([(planet, at), (planet, mirror)], (0..7, 3), [-1.0, -1.0, 1.0, 1.0, 1.0, 1.0, -1.0], limit);
         true
     });
 }
 
 #[test]
-fn energy_is_the_same_a_base_pitch_further() {
+fn contact_is_the_same_a_base_pitch_further() {
     for_each_point(6, 40, those(is_perfect), |planet, at| {
         // the planet turns up the path on the left, down on the right
         let pitch = planet.gears.pair.base_pitch;
-        let (here, next) = (planet.energy(at), planet.energy(&at.moved(1, pitch).moved(4, -pitch)));
-        same(here, next, 1e-11 * here);
+        let next = at.moved(1, pitch).moved(4, -pitch);
+        same(planet.energy(at), planet.energy(&next), 1e-11 * planet.energy(at));
         true
     });
 }
@@ -106,28 +110,19 @@ fn kinds_without_effects_are_the_plain_mesh() {
         (0..2).for_each(|side| (at.position[side][2], at.rate[side][2]) = (0.0, 0.0));
         let plain = Planet::new(Contact { face: Face::Plain, is_displaced: false, ..planet.contact }, &planet.gears);
         let whole = Planet::new(Contact { face: Face::Whole, ..planet.contact }, &planet.gears);
-        let [(a, da), (b, db), (c, _)] = [&plain, planet, &whole].map(|planet| planet.linearised(&at));
-        // own arcs on elastic bodies are solved, not summed
-        let limit = if planet.contact.is_elastic { 1e-10 } else { 1e-12 };
-        let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest()));
         planet.loaded(&at, |point| {
             spots[point.spot as usize] += 1;
             coast += usize::from(point.name.flank == Flank::Coast);
         });
-        same(planet.energy(&at), plain.energy(&at), limit * plain.energy(&at));
-        for side in 0..2 {
-            same(a.heat[side][0], b.heat[side][0], scale);
-            assert_eq!(b.heat[side][1], 0.0);
-            same(plain.plain_normal(&at, side), b.readings[side][3], scale / plain.mesh.cone);
-            let steep = limit * largest(da.by[side].as_flattened());
-            for row in 0..2 {
-                same(a.readings[side][row], b.readings[side][row], scale);
-                let columns = (0..12).filter(|i| i % 3 < 2);
-                columns.for_each(|i| same(da.by[side][row][i], db.by[side][row][i], steep));
-            }
-            // thrusts and the force on side gears have one resultant
-            (2..7).for_each(|row| same(b.readings[side][row], c.readings[side][row], scale / plain.mesh.cone));
-        }
+        // own arcs on elastic bodies are solved, not summed
+        let limit = if planet.contact.is_elastic { 1e-10 } else { 1e-12 };
+        compare([(planet, at), (&plain, at)], (0..2, 2), [1.0; 7], limit);
+        // thrusts and the force on side gears have one resultant
+        compare([(planet, at), (&whole, at)], (2..7, 2), [1.0; 7], limit);
+        let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest())) / plain.mesh.cone;
+        let forces = planet.forces(&at);
+        (0..2).for_each(|side| same(plain.plain_normal(&at, side), forces.readings[side][3], scale));
+        assert_eq!(forces.heat.map(|[_, friction]| friction), [0.0; 2]);
         true
     });
     assert!(spots.iter().all(|&n| n > 500) && coast > 500, "[path, planet tip, side tip]: {spots:?}, coast {coast}");
