@@ -114,7 +114,7 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         let at = |x: f64| start.moved(1, x).moved(4, -x);
         let pattern = |x: f64| planet.pattern(&at(x)).points;
         let place = |k: usize| planet.gears.pair.base_pitch * k as f64 / STEPS as f64;
-        // harsh damping may leave no force of all
+        // harsh damping may leave no force at all
         let scale = (0..STEPS).map(|k| planet.scale(&at(place(k)).at_rest())).fold(0.0, f64::max);
         let mut next = pattern(0.0);
         for k in 0..STEPS {

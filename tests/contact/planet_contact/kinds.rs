@@ -54,26 +54,23 @@ pub struct Slopes {
     pub energy: f64,
 }
 
-/// Evaluator, and its points of the face.
+/// Evaluator: a plain mesh, or one in detail with one resultant or with loads over the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     Plain,
-    /// In detail with one resultant; friction is that of the whole face.
     Whole,
-    /// In detail with loads over the face.
     Cut,
 }
 
+/// Perfect teeth; teeth with errors, and with so much [m] missing of half the face of one; or the same opening at every pair.
 #[derive(Clone, Copy, Debug)]
 pub enum Teeth {
     Perfect,
-    /// Errors, and how much [m] of half the face of a tooth is missing.
     Made(ToothErrorSpec, f64),
-    /// The same opening at every pair.
     Alike(Opening),
 }
 
-/// A kind of contact.
+/// A kind of contact; side gears that are displaced move along their axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
     pub law: Kind,
@@ -81,7 +78,6 @@ pub struct Contact {
     pub face: Face,
     pub teeth: Teeth,
     pub friction: Option<ToothFrictionSpec>,
-    /// Side gears move along their axes.
     pub is_displaced: bool,
     pub is_elastic: bool,
     pub has_corners: bool,
@@ -145,17 +141,14 @@ pub fn kinds() -> Vec<Contact> {
     kinds
 }
 
-/// A pair of gears with stiff and with elastic bodies.
+/// A pair of gears with the exponent of IMPACT: stiff and with elastic bodies, without and with contact of tip corners.
 pub struct Gears {
     pub pair: Pair,
-    /// Exponent of IMPACT.
     pub exponent: f64,
     teeth: FlankGaps,
-    /// Of teeth on stiff and on elastic bodies.
     pub stiffness: [PairStiffness; 2],
     pub on_bodies: MeshOnBodies,
     pub couplings: PairCouplings,
-    /// Without and with contact of tip corners.
     engagements: [Engagement; 2],
 }
 
@@ -360,7 +353,7 @@ impl Planet {
         }
     }
 
-    /// Calls `visit` with each side and loaded point of a face; those of a plain mesh are those of the same mesh in detail.
+    /// Calls `visit` with each loaded point of a face. Those of a plain mesh are taken from the same mesh in detail.
     pub fn loaded(&self, at: &At, mut visit: impl FnMut(&SliceLoad)) {
         let states = self.states(at);
         if self.contact.is_elastic {

@@ -24,16 +24,19 @@ impl Drop for Case<'_> {
     }
 }
 
-/// Those kinds of contact that are `wanted`, by their number.
-pub fn those(wanted: impl Fn(&Contact) -> bool) -> Vec<(usize, Contact)> {
-    kinds().into_iter().enumerate().filter(|(_, contact)| wanted(contact)).collect()
+/// Those kinds of contact that are `wanted`.
+pub fn those(wanted: impl Fn(&Contact) -> bool) -> Vec<Contact> {
+    kinds().into_iter().filter(|contact| wanted(contact)).collect()
 }
 
 /// Calls `test` with `count` points of each of these kinds of contact. It returns false at a point next to a switch.
-pub fn for_each_point(seed: u64, count: usize, of: Vec<(usize, Contact)>, mut test: impl FnMut(&Planet, &At) -> bool) {
-    for (number, contact) in of {
-        let planet = Planet::new(contact, &GEARS[number % GEARS.len()]);
-        let mut random = Rng::with_seed(1000 * seed + number as u64);
+pub fn for_each_point(seed: u64, count: usize, of: Vec<Contact>, mut test: impl FnMut(&Planet, &At) -> bool) {
+    for contact in of {
+        // a kind has the same gears and points whatever other kinds there are
+        let bytes = format!("{contact:?}").into_bytes();
+        let number = bytes.into_iter().fold(seed, |number, byte| number.wrapping_mul(31).wrapping_add(u64::from(byte)));
+        let planet = Planet::new(contact, &GEARS[(number % GEARS.len() as u64) as usize]);
+        let mut random = Rng::with_seed(number);
         let tested = (0..count).filter(|_| {
             let at = planet.point(&mut random);
             let _case = Case(&contact, &at);
