@@ -74,7 +74,8 @@ fn derivatives_are_those_of_the_forces_and_symmetric_without_dissipation() {
         let (forces, slopes) = planet.linearised(at);
         assert_eq!(forces, planet.forces(at));
         let energy = planet.energy(at);
-        assert!((slopes.energy - energy).abs() <= 1e-10 * energy, "{} {energy}", slopes.energy);
+        // arcs of flanks that barely touch are rounded
+        assert!((slopes.energy - energy).abs() <= 1e-10 * energy.max(1e-6), "{} {energy}", slopes.energy);
         let contact = &planet.contact;
         if contact.damping == UNDAMPED && contact.friction.is_none() {
             check_symmetry(planet, &slopes.by);
@@ -116,6 +117,9 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         let place = |k: usize| planet.gears.pair.base_pitch * k as f64 / STEPS as f64;
         // harsh damping may leave no force at all
         let scale = (0..STEPS).map(|k| planet.scale(&at(place(k)).at_rest())).fold(0.0, f64::max);
+        // other points over the face of a broken tooth have a logarithmic law to 1e-8
+        let is_broken = matches!(planet.contact.teeth, Teeth::Made(_, depth) if depth > 0.0);
+        let limit = if is_broken && planet.contact.law == Kind::LineWeber { 1e-8 } else { 1e-9 };
         let mut next = pattern(0.0);
         for k in 0..STEPS {
             let (mut before, mut after) = (place(k), place(k + 1));
@@ -131,7 +135,7 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
             let [a, b] = [before, after].map(|x| (planet.forces(&at(x)).readings, planet.energy(&at(x))));
             for i in 0..6 {
                 let jump = (a.0[i / 3][i % 3] - b.0[i / 3][i % 3]).abs() * planet.unit(i);
-                assert!(jump <= 1e-9 * scale, "{i} jumps by {jump:e} of {scale:e} at x {before}");
+                assert!(jump <= limit * scale, "{i} jumps by {jump:e} of {scale:e} at x {before}");
             }
             // with it, forces are the gradient of the energy across switches, too
             assert!((a.1 - b.1).abs() <= 1e-9 * a.1.max(1e-3 * scale), "energy jumps at x {before}: {} {}", a.1, b.1);

@@ -10,8 +10,9 @@ use super::kinds::{At, Contact, GEARS, Planet, Teeth, kinds};
 use crate::mesh_laws::PER_FULL_DEPTH;
 use crate::random::Draws;
 
-/// Smallest depth of loaded flanks at which differences are taken [rad]: the opening of crowned flanks is rounded to 1e-17.
-const LEAST_DEPTH: f64 = 1e-5;
+/// Depths of loaded flanks from which steps of differences are taken [rad]: the opening of crowned flanks is rounded to 1e-17, and
+/// tables of the teeth have kinks of third order.
+const DEPTHS: [f64; 2] = [2e-5, 3e-3];
 
 /// What is tested; it is shown if the test fails.
 struct Case<'a>(&'a Contact, &'a At);
@@ -178,9 +179,9 @@ impl Planet {
     /// Steps of differences by `coordinates`, the fraction `share` of the depth of each mesh, if nothing switches within them.
     pub fn smooth_steps(&self, at: &At, share: f64, coordinates: &[usize]) -> Option<([f64; 12], Pattern)> {
         let here = self.pattern(at);
-        let depth = here.deepest.map(|depth| depth.max(LEAST_DEPTH));
+        let depth = here.deepest.map(|depth| depth.clamp(DEPTHS[0], DEPTHS[1]));
         let steps = std::array::from_fn(|i| self.unit(i) * if i < 6 { share * depth[i / 3] } else { 1e-3 });
-        let is_deep = |depth: f64| depth == 0.0 || depth >= LEAST_DEPTH;
+        let is_deep = |depth: f64| depth == 0.0 || depth >= DEPTHS[0];
         let is_clear = (0..2).all(|s| is_deep(here.deepest[s]) && here.nearest[s] >= 60.0 * share * depth[s]);
         let is_same = |at: At| self.pattern(&at).points == here.points;
         let is_same = |i: &usize| [-2.0, 2.0].iter().all(|k| is_same(at.moved(*i, k * steps[*i])));
