@@ -31,8 +31,8 @@ fn pairs(planet: &Planet, at: &At) -> (Vec<PairPlace>, bool) {
     (places, are_beams)
 }
 
-/// t of two pairs of drive flanks, as the bodies have it for loads up to `past` [rad] beyond the ends of the path [1/Pa]; the
-/// planet's number of teeth is even.
+/// Displacement t of one pair of drive flanks by a unit load on another, as the bodies have it for loads up to `past` [rad] beyond
+/// the ends of the path [1/Pa]. If the pairs belong to different meshes, the planet has an even number of teeth.
 fn between(gears: &Gears, past: f64, a: &PairPlace, b: &PairPlace) -> f64 {
     let [low, high] = [gears.stiffness[1].path[0] - past, gears.stiffness[1].path[1] + past];
     let teeth = &gears.on_bodies.teeth;
@@ -60,11 +60,12 @@ fn between(gears: &Gears, past: f64, a: &PairPlace, b: &PairPlace) -> f64 {
 #[test]
 fn pairs_carry_what_their_common_compliance_says_within_a_mesh_and_between_meshes() {
     const APPROACH: f64 = 1e-5;
+    let mut counts = [[0; 3]; 3];
     // teeth that have play, so that a mesh that is not pressed is free
-    let planet = Planet::new(ELASTIC, &GEARS[0]);
-    let (gears, mut counts) = (&planet.gears, [[0; 3]; 3]);
-    let moment = (gears.pair.outer_cone.powi(3) - gears.pair.inner_cone.powi(3)) / 3.0;
-    for (sides, j) in [1, 2].into_iter().flat_map(|sides| (0..200).map(move |j| (sides, j))) {
+    for (gear, sides, j) in [(0, 1), (0, 2), (2, 1)].iter().flat_map(|of| (0..200).map(move |j| (of.0, of.1, j))) {
+        let planet = Planet::new(ELASTIC, &GEARS[gear]);
+        let gears = &planet.gears;
+        let moment = (gears.pair.outer_cone.powi(3) - gears.pair.inner_cone.powi(3)) / 3.0;
         let at = pressed(&planet, APPROACH, sides, gears.pair.base_pitch * (f64::from(j) / 200.0 - 0.5));
         let (pairs, true) = pairs(&planet, &at) else { continue };
         let compliance = DMatrix::from_fn(pairs.len(), pairs.len(), |k, l| {
@@ -115,7 +116,7 @@ fn many_pairs_are_coupled_as_the_bodies_are_lose_no_energy_and_carry_alike_in_bo
             let at = pressed(&planet, 0.5 * share * pitch, 2, pitch * f64::from(j) / 6.0);
             let (pairs, _) = pairs(&planet, &at);
             crowded += usize::from(pairs.len() > MOST_PAIRS);
-            // both evaluators have the same pairs of them
+            // both evaluators choose the same pairs if there are more than fit
             let ((a, _), (b, _)) = (planet.linearised(&at), whole.linearised(&at));
             for i in planet.coordinates(0..6) {
                 let off = (a.readings[i / 3][i % 3] - b.readings[i / 3][i % 3]).abs();

@@ -75,14 +75,16 @@ impl At {
     }
 }
 
-/// Loaded points as far as they must stay the same: where this changes, derivatives jump or bend.
+/// Teeth of a loaded point, kind of contact, cone distance if the point does not move, and whether ends of the face and of a broken
+/// tooth's parts are loaded, flanks are about to part, and damping is full. Where this changes, derivatives jump or bend.
+type Point = (PairName, Spot, Option<f64>, [bool; 4], [bool; 2]);
+
+/// Loaded points of both meshes.
 #[derive(Default)]
 pub struct Pattern {
-    /// Teeth, kind of contact, cone distance of a point that does not move, and whether ends of the face and of a broken tooth's
-    /// parts are loaded, flanks are about to part, and damping is full.
-    pub points: Vec<(PairName, Spot, Option<f64>, [bool; 4], [bool; 2])>,
+    pub points: Vec<Point>,
     /// Deepest arc of each mesh, and distance from the nearest switch [rad].
-    pub deepest: [f64; 2],
+    deepest: [f64; 2],
     nearest: [f64; 2],
 }
 

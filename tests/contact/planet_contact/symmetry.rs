@@ -131,32 +131,28 @@ fn kinds_without_effects_are_the_plain_mesh() {
 #[test]
 fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
     let mut spots = [0; 3];
-    for_each_point(
-        10,
-        200,
-        those(|of| is_perfect(of) && of.face == Face::Whole && of.law == Kind::Line),
-        |planet, at| {
-            let action = LineOfAction::new(&planet.gears.pair);
-            let shaft_angle = planet.gears.pair.shaft_angle;
-            let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
-            planet.loaded(at, |point| {
-                // the first cell of a corner's table of gaps has their slope to 2e-8
-                if point.spot != Spot::Path && point.place < 1e-6 {
-                    return;
-                }
-                spots[point.spot as usize] += 1;
-                // from the planet into the side gear: it pushes the planet back
-                let normal = action.contact(point.spot, point.place, 1.0).normal;
-                let [planet, side] = [-normal.z, normal.dot(&side_axis)];
-                // what is left is along the rotation
-                let left = (1.0 - planet * planet - side * side).sqrt();
-                let [a, b, c] = point.parts;
-                [(a, planet), (b, side), (c.abs(), left)]
-                    .iter()
-                    .for_each(|(found, expected)| same(*found, *expected, 1e-8));
-            });
-            true
-        },
-    );
+    let wanted = |of: &Contact| is_perfect(of) && of.face == Face::Whole && of.law == Kind::Line;
+    for_each_point(10, 200, those(wanted), |planet, at| {
+        let action = LineOfAction::new(&planet.gears.pair);
+        let shaft_angle = planet.gears.pair.shaft_angle;
+        let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
+        planet.loaded(at, |point| {
+            // the first cell of a corner's table of gaps has their slope to 2e-8
+            if point.spot != Spot::Path && point.place < 1e-6 {
+                return;
+            }
+            spots[point.spot as usize] += 1;
+            // from the planet into the side gear: it pushes the planet back
+            let normal = action.contact(point.spot, point.place, 1.0).normal;
+            let [planet, side] = [-normal.z, normal.dot(&side_axis)];
+            // what is left is along the rotation
+            let left = (1.0 - planet * planet - side * side).sqrt();
+            let [a, b, c] = point.parts;
+            for (found, expected) in [(a, planet), (b, side), (c.abs(), left)] {
+                same(found, expected, 1e-8);
+            }
+        });
+        true
+    });
     assert!(spots.iter().all(|&n| n > 100), "{spots:?}");
 }
