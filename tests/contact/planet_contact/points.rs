@@ -11,7 +11,7 @@ use crate::mesh_laws::PER_FULL_DEPTH;
 use crate::random::Draws;
 
 /// Depths of loaded flanks from which steps of differences are taken [rad]: the opening of crowned flanks is rounded to 1e-17, and
-/// tables of the teeth have kinks of third order.
+/// tables of teeth have kinks of third order.
 const DEPTHS: [f64; 2] = [2e-5, 3e-3];
 
 /// What is tested; it is shown if the test fails.
@@ -147,10 +147,10 @@ impl Planet {
         if i % 3 == 2 { self.mesh.cone } else { 1.0 }
     }
 
-    /// Largest force of both meshes, as a torque.
+    /// Largest force of both meshes, and largest normal force, as flanks of both sides may cancel, as a torque.
     pub fn scale(&self, at: &At) -> f64 {
-        let readings = self.forces(at).readings;
-        (0..6).map(|i| readings[i / 3][i % 3].abs() * self.unit(i)).fold(0.0, f64::max)
+        let scale = |[q, x, w, normal, ..]: [f64; 7]| q.abs().max(x.abs()).max(w.abs().max(normal) * self.mesh.cone);
+        self.forces(at).readings.into_iter().map(scale).fold(0.0, f64::max)
     }
 
     pub fn pattern(&self, at: &At) -> Pattern {
@@ -182,7 +182,9 @@ impl Planet {
     pub fn smooth_steps(&self, at: &At, share: f64, coordinates: &[usize]) -> Option<([f64; 12], Pattern)> {
         let here = self.pattern(at);
         let depth = here.deepest.map(|depth| depth.clamp(DEPTHS[0], DEPTHS[1]));
-        let steps = std::array::from_fn(|i| self.unit(i) * if i < 6 { share * depth[i / 3] } else { 1e-3 });
+        // travel moves pairs past kinks of third order
+        let share_of = |i: usize| if i % 3 == 1 { 0.3 * share } else { share };
+        let steps = std::array::from_fn(|i| self.unit(i) * if i < 6 { share_of(i) * depth[i / 3] } else { 1e-3 });
         let is_deep = |depth: f64| depth == 0.0 || depth >= DEPTHS[0];
         let is_clear = (0..2).all(|s| is_deep(here.deepest[s]) && here.nearest[s] >= 60.0 * share * depth[s]);
         let is_same = |at: At| self.pattern(&at).points == here.points;
