@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::Read;
 
 use anyhow::Result;
-use fmu_build::fmu::package::{self, Packing};
+use fmu_build::fmu::archive::{self, Packing};
 use fmu_build::fmu::{describe, libraries};
 use fmu_build::tools::paths;
 use zip::ZipArchive;
@@ -23,7 +23,7 @@ fn packing_twice_gives_the_same_bytes_with_and_without_the_page() -> Result<()> 
     let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
     for (page, packing) in [(None, Packing::Quick), (Some(&b"<!DOCTYPE html>"[..]), Packing::Small)] {
         for archive in &archives {
-            package::write_archive(package::Version::Two, &libraries, page, packing, archive)?;
+            archive::write_archive(archive::Version::Two, &libraries, page, packing, archive)?;
         }
         assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
         let mut packed = ZipArchive::new(File::open(&archives[0])?)?;

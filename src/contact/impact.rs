@@ -49,9 +49,15 @@ impl Impact {
     /// Force at penetration `d` > 0 [m] and rate `rate` [m/s].
     #[inline(always)]
     pub fn force(&self, d: f64, rate: f64) -> Force {
+        let damping = Damping::Step { coefficient: self.damping, per_full_depth: self.per_full_depth };
+        self.damped_by(&damping, d, rate)
+    }
+
+    /// The same with another damping.
+    #[inline(always)]
+    pub fn damped_by(&self, damping: &Damping, d: f64, rate: f64) -> Force {
         // F_el/d
         let secant = self.stiffness * self.power(d);
-        let damping = Damping::Step { coefficient: self.damping, per_full_depth: self.per_full_depth };
         damping.apply(secant * d, self.exponent * secant, d, rate)
     }
 

@@ -4,28 +4,36 @@
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
 use super::impact::Force;
-use super::law::{PairLaw, Response};
-pub use super::laws::Law;
-use super::laws::{is_placed, with_law};
+use super::spring::{Response, Resultant, is_placed, with_spring};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
-use super::{Engagement, Flank, Spot, ToothPair};
+use super::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothPair};
 use crate::geometry::Pair;
 
-/// A planet meshing with a side gear.
+/// A planet meshing with a side gear, with flanks that fit.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// Contact law.
-    pub law: Law,
-    /// Cone distance at which the resultant of a pair acts [m].
-    pub cone: f64,
+    /// Elastic law of a pair.
+    pub spring: AnySpring,
+    /// Damping of a pair.
+    pub damping: Damping,
+    /// Where the resultant of a pair acts.
+    pub whole: Resultant,
+    /// One spring per mesh instead of tooth pairs.
+    pub is_single: bool,
     /// Tooth pairs.
     pub engagement: Engagement,
 }
 
 impl Mesh {
-    /// Mesh of `pair` under `law`, whose resultants act at `cone` [m], for approaches up to `reach` [rad].
-    pub fn new(pair: &Pair, law: Law, cone: f64, corner_contact: bool, reach: f64) -> Self {
-        Self { law, cone, engagement: Engagement::new(pair, corner_contact, reach) }
+    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to `reach` [rad].
+    pub fn new(
+        pair: &Pair,
+        (spring, damping): (AnySpring, Damping),
+        whole: Resultant,
+        corner_contact: bool,
+        reach: f64,
+    ) -> Self {
+        Self { spring, damping, whole, is_single: false, engagement: Engagement::new(pair, corner_contact, reach) }
     }
 
     /// Half the normal backlash [rad].
@@ -51,27 +59,22 @@ impl Mesh {
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
         let change = state.rate.map(|rate| h * rate);
-        match self.law {
-            // the force of solid teeth is smooth enough between facets
-            Law::Solid(_) => None,
-            Law::Lumped(_) => self.engagement.kink_of_touch(state.position[0], change[0]),
-            _ => self.engagement.kink::<false>(state.position, change, |_, _, _| 0.0),
+        if self.is_single {
+            return self.engagement.kink_of_touch(state.position[0], change[0]);
         }
+        self.engagement.kink::<false>(state.position, change, |_, _, _| 0.0)
     }
 
     /// The same of flanks with gaps or excess material between them: `opening`, as [`Engagement::kink`] takes it.
     #[inline(always)]
     pub fn kink_of_open(&self, state: &MeshState, h: f64, opening: impl Fn(Flank, i64, f64) -> f64) -> Option<f64> {
-        if matches!(self.law, Law::Solid(_)) {
-            return None;
-        }
         self.engagement.kink::<true>(state.position, state.rate.map(|rate| h * rate), opening)
     }
 
     /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh of one spring has one, at s = 0.
     #[inline(always)]
-    fn visit<L: PairLaw>(&self, _: &L, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
-        if !L::SINGLE {
+    fn visit<S: Spring>(&self, _: &S, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
+        if S::PLACED || !self.is_single {
             return self.engagement.pairs(position, visit);
         }
         let depth = self.approach(position[0]);
@@ -80,27 +83,38 @@ impl Mesh {
         }
     }
 
-    /// Rate ḋ [m/s] and response of a pair.
+    /// Rate ḋ of a pair [m/s].
     #[inline(always)]
-    fn respond<const STORED: bool>(&self, law: &impl PairLaw, pair: &ToothPair, state: &MeshState) -> (f64, Response) {
-        let rate = self.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1]);
-        (rate, law.respond::<STORED>(self.cone * pair.depth, rate, pair.s))
+    pub fn rate(&self, pair: &ToothPair, state: &MeshState) -> f64 {
+        self.whole.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1])
     }
 
-    /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth have no such pairs.
+    /// Rate ḋ [m/s] and response of a pair.
+    #[inline(always)]
+    fn respond<const STORED: bool>(
+        &self,
+        spring: &impl Spring,
+        pair: &ToothPair,
+        state: &MeshState,
+    ) -> (f64, Response) {
+        let (rate, place, law) = (self.rate(pair, state), spring.place(pair.s), (&self.whole, &self.damping));
+        (rate, spring.respond_whole::<STORED>(&place, law, self.whole.cone * pair.depth, rate))
+    }
+
+    /// Calls `visit` with each loaded pair on the path of contact and its force.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
-        with_law!(&self.law, law => {
-            self.visit(law, state.position, |pair| visit(pair, &self.respond::<false>(law, pair, state).1.force));
-        }, _solid => {});
+        with_spring!(&self.spring, spring => self.visit(spring, state.position, |pair| {
+            visit(pair, &self.respond::<false>(spring, pair, state).1.force);
+        }));
     }
 
     /// Adds the force of a pair.
     #[inline(always)]
-    fn add<L: PairLaw>(&self, _: &L, sum: &mut MeshForce, pair: &ToothPair, rate: f64, response: &Response) {
-        let torque = self.cone * response.force.total;
+    fn add<S: Spring>(&self, _: &S, sum: &mut MeshForce, pair: &ToothPair, rate: f64, response: &Response) {
+        let torque = self.whole.cone * response.force.total;
         sum.force[0] -= torque * pair.slope[0];
         sum.force[1] -= torque * pair.slope[1];
-        if L::PLACED {
+        if S::PLACED {
             sum.force[1] -= response.by_place * pair.s_slope;
         }
         sum.heat += (response.force.total - response.force.elastic) * rate;
@@ -118,25 +132,25 @@ impl Mesh {
     /// several waits for all.
     #[inline(always)]
     pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
-        with_law!(&self.law, law => {
+        with_spring!(&self.spring, spring => {
             let mut sum = MeshForce::default();
-            self.visit(law, state.position, |pair| {
-                let (rate, response) = self.respond::<false>(law, pair, state);
-                self.add(law, &mut sum, pair, rate, &response);
+            self.visit(spring, state.position, |pair| {
+                let (rate, response) = self.respond::<false>(spring, pair, state);
+                self.add(spring, &mut sum, pair, rate, &response);
             });
             (to.force[0], to.force[1], to.heat) = (sum.force[0], sum.force[1], sum.heat);
-        }, solid => *to = solid.force(state))
+        })
     }
 
     /// Forces, heat and the forces' exact derivatives.
     #[inline(always)]
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
-        with_law!(&self.law, law => {
+        with_spring!(&self.spring, spring => {
             let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
-            let r = self.cone;
-            self.visit(law, state.position, |pair| {
-                let (rate, response) = self.respond::<true>(law, pair, state);
-                self.add(law, &mut sum, pair, rate, &response);
+            let r = self.whole.cone;
+            self.visit(spring, state.position, |pair| {
+                let (rate, response) = self.respond::<true>(spring, pair, state);
+                self.add(spring, &mut sum, pair, rate, &response);
                 jacobian.energy += response.energy;
                 let f = &response.force;
                 let (stiffness, damping, torque) = (r * r * f.by_depth, r * r * f.by_rate, r * f.total);
@@ -158,7 +172,7 @@ impl Mesh {
                         }
                     }
                 }
-                if is_placed(law) {
+                if is_placed(spring) {
                     // the place moves with x alone
                     let m = &mut jacobian.by_position;
                     m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];
@@ -169,7 +183,7 @@ impl Mesh {
                 }
             });
             (sum, jacobian)
-        }, solid => solid.linearise(state))
+        })
     }
 
     /// [`Self::write_force`], compiled once, for whoever is not the steps of plain teeth.
@@ -186,10 +200,10 @@ impl Mesh {
 
     /// Elastic energy V [J] at the position of `state`.
     pub fn energy(&self, state: &MeshState) -> f64 {
-        with_law!(&self.law, law => {
+        with_spring!(&self.spring, spring => {
             let mut energy = 0.0;
-            self.visit(law, state.position, |pair| energy += self.respond::<true>(law, pair, state).1.energy);
+            self.visit(spring, state.position, |pair| energy += self.respond::<true>(spring, pair, state).1.energy);
             energy
-        }, solid => solid.energy(state.which, state.position))
+        })
     }
 }

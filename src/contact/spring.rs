@@ -1,6 +1,12 @@
-//! Elasticity of one tooth pair: the interface that all laws share, and the laws that are the same everywhere on the path.
+//! Elastic laws of a tooth pair. A new law is an implementation of [`Spring`], and a line in the enumeration and in the dispatch of
+//! [`AnySpring`].
+//!
+//! A pair whose flanks fit has one resultant, at a known cone distance. Its penetration there, d = R p, and its damping give its
+//! whole force. A pair whose flanks do not fit is summed over the face from the law per unit of arc (`detailed`).
 
-use super::Impact;
+use super::impact::Force;
+use super::stiffness::{Line, LineWeber};
+use super::{Damping, Impact};
 
 /// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
 /// place on the path of contact [rad]. s continues beyond the path's ends for corners in contact.
@@ -20,10 +26,47 @@ pub struct Elastic {
     pub by_place_twice: f64,
 }
 
+/// Force of a pair with one resultant, and what depends on its place on the path.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Response {
+    /// Force along d with its derivatives.
+    pub force: Force,
+    /// ∂U/∂s [J/rad].
+    pub by_place: f64,
+    /// ∂²U/∂d∂s = ∂F_el/∂s [N/rad].
+    pub elastic_by_place: f64,
+    /// ∂F/∂s of the damped force [N/rad].
+    pub total_by_place: f64,
+    /// ∂²U/∂s² [J/rad²].
+    pub by_place_twice: f64,
+    /// U [J], where it is asked for.
+    pub energy: f64,
+}
+
+/// Resultant of a face whose flanks fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resultant {
+    /// Cone distance at which it acts [m].
+    pub cone: f64,
+    /// Its reciprocal [1/m].
+    pub per_cone: f64,
+    /// J = ∫R² dR [m³] by which a law per unit of J is multiplied, or 1.
+    pub moment: f64,
+}
+
+impl Resultant {
+    /// Of a face with the moment `moment` [m³], at the cone distance `cone` [m].
+    pub fn new(cone: f64, moment: f64) -> Self {
+        Self { cone, per_cone: 1.0 / cone, moment }
+    }
+}
+
 /// Elasticity of a tooth pair.
 pub trait Spring {
     /// Whether the torque is proportional to the penetration, or zero.
     const LINEAR: bool = false;
+    /// Whether the law depends on the place on the path.
+    const PLACED: bool = true;
 
     /// What of it follows from the place alone: the same at every cone distance.
     type Place: Copy;
@@ -37,6 +80,36 @@ pub trait Spring {
     /// Response at penetration arc `p` > 0 and place `s`.
     fn at(&self, p: f64, s: f64) -> Elastic {
         self.respond(&self.place(s), p)
+    }
+
+    /// Response of a pair with one resultant at penetration `d` > 0 [m] and rate `rate` [m/s]; with its energy if `STORED`.
+    #[inline(always)]
+    fn respond_whole<const STORED: bool>(
+        &self,
+        place: &Self::Place,
+        (whole, damping): (&Resultant, &Damping),
+        d: f64,
+        rate: f64,
+    ) -> Response {
+        let e = self.respond(place, d * whole.per_cone);
+        let (per_arc, per_depth) = (whole.moment, whole.moment * whole.per_cone);
+        let (elastic, stiffness) = (per_depth * e.torque, per_depth * whole.per_cone * e.stiffness);
+        let force = damping.apply(elastic, stiffness, d, rate);
+        let elastic_by_place = per_depth * e.torque_by_place;
+        // damping either adds to the elastic force or scales it
+        let total_by_place = match *damping {
+            _ if force.total <= 0.0 => 0.0,
+            Damping::Step { .. } => elastic_by_place,
+            Damping::HuntCrossley { lambda } => elastic_by_place * (1.0 + lambda * rate),
+        };
+        Response {
+            force,
+            by_place: per_arc * e.by_place,
+            elastic_by_place,
+            total_by_place,
+            by_place_twice: per_arc * e.by_place_twice,
+            energy: per_arc * e.energy,
+        }
     }
 }
 
@@ -61,6 +134,8 @@ impl ImpactSpring {
 }
 
 impl Spring for ImpactSpring {
+    const PLACED: bool = false;
+
     type Place = Anywhere;
 
     #[inline(always)]
@@ -77,6 +152,89 @@ impl Spring for ImpactSpring {
             torque: self.cone * force.elastic,
             stiffness: self.cone * self.cone * force.by_depth,
             ..Elastic::default()
+        }
+    }
+
+    /// The law is one of d already.
+    #[inline(always)]
+    fn respond_whole<const STORED: bool>(
+        &self,
+        _: &Anywhere,
+        (_, damping): (&Resultant, &Damping),
+        d: f64,
+        rate: f64,
+    ) -> Response {
+        let energy = if STORED { self.law.energy(d) } else { 0.0 };
+        Response { force: self.law.damped_by(damping, d, rate), energy, ..Response::default() }
+    }
+}
+
+/// Any elastic law of a tooth pair or of a mesh.
+#[derive(Clone, Debug)]
+pub enum AnySpring {
+    /// K dᵉ.
+    Impact(ImpactSpring),
+    /// Stiffness of the teeth, per unit of ∫R² dR.
+    Line(Line),
+    /// The same with the Hertz part by load.
+    LineWeber(LineWeber),
+}
+
+/// Evaluates an expression with `law` bound to the elastic law in use.
+macro_rules! with_spring {
+    ($of:expr, $law:ident => $body:expr) => {
+        match $of {
+            $crate::contact::spring::AnySpring::Impact($law) => $body,
+            $crate::contact::spring::AnySpring::Line($law) => $body,
+            $crate::contact::spring::AnySpring::LineWeber($law) => $body,
+        }
+    };
+}
+pub(crate) use with_spring;
+
+/// Whether a law depends on the place of a pair.
+pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
+    S::PLACED
+}
+
+impl AnySpring {
+    /// Whether loads are spread over the face, growing with the cone distance.
+    pub fn is_over_face(&self) -> bool {
+        with_spring!(self, law => is_placed(law))
+    }
+}
+
+/// What follows from the place alone, for any law.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyPlace {
+    /// Nothing.
+    Anywhere,
+    /// What [`Line`] has there.
+    Line(<Line as Spring>::Place),
+    /// What [`LineWeber`] has there.
+    LineWeber(<LineWeber as Spring>::Place),
+}
+
+/// The law is looked up at each response, so that sums outside the steps are compiled once for all laws.
+impl Spring for AnySpring {
+    type Place = AnyPlace;
+
+    #[inline(always)]
+    fn place(&self, s: f64) -> AnyPlace {
+        match self {
+            Self::Impact(_) => AnyPlace::Anywhere,
+            Self::Line(law) => AnyPlace::Line(law.place(s)),
+            Self::LineWeber(law) => AnyPlace::LineWeber(law.place(s)),
+        }
+    }
+
+    fn respond(&self, place: &AnyPlace, p: f64) -> Elastic {
+        match (self, place) {
+            (Self::Impact(law), _) => law.respond(&Anywhere, p),
+            (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
+            (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),
+            // of another law than this
+            (Self::Line(_) | Self::LineWeber(_), _) => Elastic::default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Derivatives by time: of inputs, as the host sets them, and of outputs.
 
-use super::sensitivity::{Slopes, check_built, finite_slope, output_source};
+use super::sensitivity::{Slopes, check_built};
+use super::unknowns::{finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
 use crate::model::{InputDerivatives, LedgerReadings, ORDERS};

@@ -1,6 +1,6 @@
 //! Derivatives of initial values with respect to inputs and parameters, by differences that stay within the ranges.
 
-use super::sensitivity::{Unknowns, finite_slope};
+use super::unknowns::{Unknowns, finite_slope};
 use super::values::row;
 use super::{CallError, CallResult, Snapshot};
 use crate::model::GearCache;

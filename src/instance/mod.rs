@@ -28,6 +28,7 @@ mod sensitivity;
 mod snapshot;
 mod steps;
 mod stored;
+mod unknowns;
 pub(crate) mod values;
 
 pub use basic::*;

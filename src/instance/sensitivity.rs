@@ -3,10 +3,11 @@
 use crate::FULL;
 
 use super::initial_derivatives::initial_derivatives;
-use super::values::{finite, row, wrong_type};
+use super::unknowns::{Unknowns, finite_slope};
+use super::values::row;
 use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
 use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, Simulation, StencilReadings};
-use crate::variables::{Access, OutputSource, Variable, table};
+use crate::variables::{Access, OutputSource, table};
 
 impl Instance {
     /// Derivatives of unknowns along a direction of knowns.
@@ -124,34 +125,6 @@ impl Columns<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Variables whose derivatives are asked for.
-pub struct Unknowns(pub Vec<(&'static Variable, OutputSource)>);
-
-impl Unknowns {
-    fn of(references: impl Iterator<Item = u32>) -> CallResult<Self> {
-        references
-            .map(|reference| row(reference).and_then(|row| Ok((row, output_source(row)?))))
-            .collect::<CallResult<_>>()
-            .map(Self)
-    }
-}
-
-/// The derivative of a variable, if it is finite.
-pub fn finite_slope(row: &Variable, slope: f64) -> CallResult<f64> {
-    finite(row, slope).map_err(|error| CallError { message: format!("the derivative of {}", error.message), ..error })
-}
-
-/// Source of a variable that has derivatives.
-pub fn output_source(row: &Variable) -> CallResult<OutputSource> {
-    match row.access {
-        Access::Output(source) => Ok(source),
-        Access::Real(_) | Access::Input(_) => {
-            Err(CallError::error(format!("{} is set by the host, so it has no derivative", row.name)))
-        }
-        _ => Err(wrong_type(row)),
     }
 }
 

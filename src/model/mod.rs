@@ -7,17 +7,23 @@
 //! - `setup`: all parameters, and contradictions between them,
 //! - `assembly`: from parameters to constants,
 //! - `dynamics`: the equations of motion and their state,
-//! - `outputs`: what can be read,
-//! - `run`: a running simulation.
+//! - `outputs`: the values that can be read,
+//! - `run`: a running simulation and its steps,
+//! - `readings`: what is read from a simulation, and what it reports,
+//! - `start`: the start of a simulation,
+//! - `exchange`: model exchange and sensitivities.
 
 mod assembly;
 mod dynamics;
 mod effect_kinds;
 pub mod effects;
+mod exchange;
 mod outputs;
+mod readings;
 mod run;
 mod scene;
 mod setup;
+mod start;
 mod thermal;
 
 pub use crate::contact::tooth_load::{ToothLoad, Touch};
@@ -31,16 +37,15 @@ pub use dynamics::watched::Watched;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::strength::Fatigue;
 pub use effects::{EFFECTS, EffectParameters, Effects};
+pub use exchange::{BODIES, Body, Direction, INDICATORS, STATES, StencilReadings, Update};
 pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
-pub use run::{
-    BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, Simulation, StencilReadings, StepFailure, Update,
-    six_digits,
-};
-pub use scene::attached::ATTACHED;
+pub use readings::{CostClass, Reported};
+pub use run::{Simulation, StepFailure, six_digits};
+pub use scene::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::process::Command;
 
-use fmu_build::fmu::own;
+use fmu_build::fmu::libraries::own;
 use lab::check::fuzz::{self, Tally, VERSIONS};
 use lab::check::memcheck;
 
@@ -20,23 +20,23 @@ fn calls_at_random_keep_every_promise() {
         let mut tally = Tally::default();
         for seed in 1..=(CALLS / fuzz::CALLS) as u64 {
             if let Err(broken) = fuzz::run(version, seed, fuzz::CALLS, &mut tally) {
-                panic!("{broken:?}\nagain: {}", fuzz::again(seed, Some(version.number)));
+                panic!("{broken:?}\nagain: {}", fuzz::again(seed, Some(version.interface.number)));
             }
         }
         assert_eq!(tally.calls(), CALLS as u64);
         let done: u64 = version.functions.iter().map(|function| tally.returned_ok(function.name)).sum();
         assert!(done as f64 > DONE * CALLS as f64, "{done} calls of {CALLS} were carried out");
         for step in ["DoStep", "CompletedIntegratorStep"] {
-            let done = tally.returned_ok(&format!("fmi{}{step}", version.number));
+            let done = tally.returned_ok(&format!("fmi{}{step}", version.interface.number));
             assert!(done * 1000 >= STEPS * CALLS as u64, "{step}: {done} carried out");
         }
-        assert_eq!(version.number > 2, tally.updates > 100, "{} updates within steps", tally.updates);
+        assert_eq!(version.interface.number > 2, tally.updates > 100, "{} updates within steps", tally.updates);
     }
 }
 
 #[test]
 fn seeds_take_both_versions_in_turn() {
-    let numbers = |given| [1, 2, 3].map(|seed| fuzz::version(seed, given).number);
+    let numbers = |given| [1, 2, 3].map(|seed| fuzz::version(seed, given).interface.number);
     assert_eq!(numbers(None), [3, 2, 3]);
     assert_eq!(numbers(Some(2)), [2; 3]);
 }

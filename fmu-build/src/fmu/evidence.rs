@@ -1,52 +1,19 @@
-//! Evidence in the FMU: start values, inputs, results and tolerances of scenes, as data in the repository. A script
-//! makes them; packaging copies them.
+//! Evidence in the FMU: start values, inputs, results and tolerances of scenes, as data in the repository. The
+//! command `evidence` makes them; packaging copies them.
 
 use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use clap::Args;
 
-use crate::fmu::package;
 use crate::tools::files::remove_folder;
 use crate::tools::lock::Lock;
-use crate::tools::progress::Progress;
-use crate::tools::python::Environment;
-use crate::tools::{paths, script};
+use crate::tools::paths;
 
 /// The folder in the archive. FMI-LS-REF gives its name.
 const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
 /// Document that states how to test with the evidence. FMI-LS-REF recommends its name, in the FMU's folder of documentation.
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
-/// The script that makes the files.
-const SCRIPT: &str = "fmu-build/python/evidence.py";
-/// Scenes only for the evidence, with the laws, levels of gear contact and effects that no shipped scene uses.
-const SCENES: &str = "fmu-build/evidence";
-
-/// Simulates the shipped scenes and those of fmu-build/evidence, and writes their results to modelDescription/evidence, for `bevel-differential verify`
-#[derive(Args, Clone, Debug)]
-pub struct EvidenceCommand {}
-
-impl EvidenceCommand {
-    /// Writes the files and prints the script's summary.
-    pub fn run(&self) -> Result<()> {
-        let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.stage(what))?;
-        progress.stage("packaging the FMU");
-        let fmu = package::package()?;
-        progress.begin_bar("simulating");
-        let _alone = Lock::of(&paths::target().join("evidence"))?;
-        let made = paths::evidence().with_file_name(".evidence.part");
-        let mut command = environment.command();
-        command.arg(paths::workspace().join(SCRIPT)).arg(&fmu).arg(paths::workspace().join(SCENES)).arg(&made);
-        let output = script::follow(&mut command, SCRIPT, &progress)?;
-        take(&made)?;
-        progress.finish();
-        print!("{output}");
-        println!("{} is renewed; the next packaging takes it into the FMU", paths::shown(&paths::evidence()));
-        Ok(())
-    }
-}
 
 /// The lock of the evidence in the repository, held while it is replaced or read.
 fn lock() -> Result<Lock> {
@@ -54,7 +21,7 @@ fn lock() -> Result<Lock> {
 }
 
 /// Puts the folder `made` in the place of the evidence in the repository.
-fn take(made: &Path) -> Result<()> {
+pub fn take(made: &Path) -> Result<()> {
     let (_alone, old) = (lock()?, paths::evidence());
     remove_folder(&old)?;
     fs::rename(made, &old).with_context(|| format!("{} cannot be written", paths::shown(&old)))

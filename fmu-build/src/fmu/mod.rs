@@ -2,21 +2,19 @@
 //! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
 //! `evidence`, `toolchains`.
 
-pub mod darwin;
+pub mod archive;
 pub mod dependencies;
 pub mod describe;
 pub mod describe3;
 pub mod documentation;
 pub mod effect_list;
 pub mod evidence;
+pub mod evidence_command;
 pub mod libraries;
 pub mod licences;
-pub mod linux;
-pub mod own;
 pub mod package;
 pub mod page;
 pub mod plain_types;
-pub mod platforms;
 pub mod sources;
 pub mod terminals;
 pub mod toolchains;
@@ -34,7 +32,7 @@ pub enum BuildCommand {
     Wheel(wheel::WheelCommand),
     Page(page::PageCommand),
     Describe(describe::DescribeCommand),
-    Evidence(evidence::EvidenceCommand),
+    Evidence(evidence_command::EvidenceCommand),
     Toolchains(toolchains::ToolchainsCommand),
 }
 

@@ -1,66 +1,16 @@
-//! The .fmu archive: the libraries, their description, documentation and licences; the same bytes every time.
+//! The command that builds the libraries and packs the FMU for every version of FMI.
 
-use std::fs;
-use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use crate::fmu::libraries::{self, CRATES, Libraries, Library};
-use crate::fmu::page;
-use crate::fmu::{
-    describe, describe3, documentation, effect_list, evidence, licences, plain_types, sources, terminals,
-};
-use crate::tools::files::write_whole;
+use crate::fmu::archive::{Packing, Version, write_archive};
+use crate::fmu::libraries::{self, Libraries};
+use crate::fmu::{effect_list, page, plain_types, sources};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
-
-/// Permissions of the archive's files.
-const PLAIN: u32 = 0o644;
-const EXECUTABLE: u32 = 0o755;
-
-/// How an archive is compressed: the level of deflate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Packing {
-    /// In little time, for this machine.
-    Quick = 1,
-    /// To little size, for shipping.
-    Small = 9,
-}
-
-/// Version of FMI that an archive is made for. Both hold the same library.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Version {
-    /// FMI 2.0.
-    Two,
-    /// FMI 3.0.
-    Three,
-}
-
-impl Version {
-    /// Folders and files of a platform's library.
-    fn binaries(self, library: &Library) -> Vec<(&'static str, &Path)> {
-        match self {
-            Self::Two => vec![(library.platform, &library.file)],
-            Self::Three => library.in_fmi3.iter().map(|(name, file)| (*name, file.as_path())).collect(),
-        }
-    }
-
-    fn description(self) -> Result<String> {
-        match self {
-            Self::Two => describe::model_description(describe::Choices::Enumerations),
-            Self::Three => describe3::model_description(),
-        }
-    }
-
-    fn icon(self) -> &'static str {
-        if self == Self::Two { "model.png" } else { "terminalsAndIcons/icon.png" }
-    }
-}
 
 /// Builds target/fmu/BevelDifferential.fmu (FMI 2.0) and BevelDifferential3.fmu (FMI 3.0) for every platform whose tool chain is installed
 #[derive(Args, Clone, Debug)]
@@ -119,57 +69,4 @@ fn packed() -> Result<(PathBuf, Vec<String>)> {
 /// The FMU of FMI 3.0 beside that of FMI 2.0.
 pub fn of_fmi3(fmu: &Path) -> PathBuf {
     fmu.with_file_name(format!("{MODEL_NAME}3.fmu"))
-}
-
-/// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
-pub fn write_archive(
-    version: Version,
-    libraries: &[Library],
-    page: Option<&[u8]>,
-    packing: Packing,
-    target: &Path,
-) -> Result<()> {
-    write_whole(target, &archive(version, libraries, page, packing).context("the archive cannot be created")?)
-}
-
-fn archive(version: Version, libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Result<Vec<u8>> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let mut add = |path: &str, content: &[u8], permissions: u32| -> Result<()> {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated)
-            .compression_level(Some(packing as i64))
-            .last_modified_time(DateTime::default())
-            .unix_permissions(permissions);
-        zip.start_file(path, options)?;
-        Ok(zip.write_all(content)?)
-    };
-    let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
-    add("modelDescription.xml", version.description()?.as_bytes(), PLAIN)?;
-    add(terminals::FILE, terminals::text()?.as_bytes(), PLAIN)?;
-    let evidence = evidence::files()?;
-    for (path, content) in &evidence {
-        add(path, content, PLAIN)?;
-    }
-    for library in libraries {
-        for (platform, file) in version.binaries(library) {
-            add(&format!("binaries/{platform}/{MODEL_NAME}.{}", library.ending), &read(file)?, EXECUTABLE)?;
-        }
-    }
-    let licences = licences::collected(CRATES[0], libraries)?;
-    let tests = (!evidence.is_empty()).then_some(evidence::DOCUMENT);
-    let beside = documentation::Beside { live: page.map(|_| page::FILE), tests };
-    let index = documentation::page(libraries, &licences.linked, &beside)?;
-    add("documentation/index.html", index.as_bytes(), PLAIN)?;
-    if let Some(page) = page {
-        add(&format!("documentation/{}", page::FILE), page, PLAIN)?;
-    }
-    for figure in documentation::FIGURES {
-        let file = figure.file.iter().fold(paths::workspace(), |path, part| path.join(part));
-        add(&format!("documentation/{}", figure.name()), &read(&file)?, PLAIN)?;
-    }
-    for (path, text) in licences.files {
-        add(&format!("documentation/licenses/{path}"), &text, PLAIN)?;
-    }
-    add(version.icon(), &read(&paths::workspace().join("fmu-build").join("model.png"))?, PLAIN)?;
-    Ok(zip.finish()?.into_inner())
 }

@@ -7,11 +7,11 @@ use anyhow::{Context, Result};
 use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
 
+use crate::fmu::archive::{self, Packing};
+use crate::fmu::libraries::platforms::{self, Platform};
 use crate::fmu::libraries::{CRATES, Library};
 use crate::fmu::licences;
-use crate::fmu::package::{self, Packing};
 use crate::fmu::page;
-use crate::fmu::platforms::{self, Platform};
 use crate::tools::files::{copy_file, copy_folder, remove_folder, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
@@ -145,5 +145,5 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
             write_whole(&package.join("answers").join("licenses").join(path), &text)?;
         }
     }
-    package::write_archive(package::Version::Two, libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
+    archive::write_archive(archive::Version::Two, libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
 }

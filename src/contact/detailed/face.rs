@@ -12,7 +12,7 @@
 //! (`points`). The ends of a part move with the load and take its points along; a sum's derivative contains how they do
 //! (`carrying`).
 
-use super::carrying::{Moves, Span, carries, carrying};
+use super::carrying::{Moves, Span, carries as carries_at, carrying};
 use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST_NODES, POINTS, nodes};
 use super::{Node, Opening, Slice};
 
@@ -112,6 +112,24 @@ impl Face {
         }
     }
 
+    /// Whether any of it carries at the approach `arc` [rad].
+    #[inline(always)]
+    pub fn is_loaded(&self, arc: f64, opening: &Opening) -> bool {
+        let (a, even) = (arc - opening.turn, opening.even.v);
+        let carries = |even: f64, ends: [f64; 2]| carrying(a, even, opening.bend, ends).is_some();
+        match (self, opening.edge) {
+            (Self::Whole(node), Some((edge, depth))) if node.cone > edge => {
+                carries_at(a, even + depth, opening.bend, node.cone)
+            }
+            (Self::Whole(node), _) => carries_at(a, even, opening.bend, node.cone),
+            (Self::Cut(ends, _) | Self::Sliced(ends, _), None) => carries(even, *ends),
+            (Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _), Some((edge, depth))) => {
+                let edge = edge.clamp(*inner, *outer);
+                *inner < edge && carries(even, [*inner, edge]) || edge < *outer && carries(even + depth, [edge, *outer])
+            }
+        }
+    }
+
     /// The parts that carry at the approach `arc` [rad]: sound, and broken. `cut` is room for the points of what is cut.
     #[inline(always)]
     pub fn loaded<'a>(&'a self, arc: f64, opening: &Opening, cut: &'a mut Cut) -> [Part<'a>; 2] {
@@ -123,7 +141,7 @@ impl Face {
                     Some((edge, depth)) if node.cone > edge => even + depth,
                     _ => even,
                 };
-                let all: &[Node] = if carries(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
+                let all: &[Node] = if carries_at(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
                 [Part { nodes: all, even, moves: None }, Part::NONE]
             }
             Self::Cut(ends, all) => parts(*ends, opening, a, &mut cut.exact, |even, span, room| match span {
@@ -135,7 +153,7 @@ impl Face {
             Self::Sliced(ends, all) => parts(*ends, opening, a, &mut cut.crowded, |even, span, room| {
                 let Some(span) = span else { return Part::NONE };
                 let past = CLEAR * (ends[1] - ends[0]);
-                let is_clear = |r: f64| carries(a, even, bend, r);
+                let is_clear = |r: f64| carries_at(a, even, bend, r);
                 if span.ends == *ends && is_clear(ends[0] - past) && is_clear(ends[1] + past) {
                     return Part { nodes: all, even, moves: None };
                 }

@@ -11,8 +11,8 @@
 use super::face::Cut;
 use super::sums::Approach;
 use super::{Detailed, Opening, SliceLoad};
+use crate::contact::AnySpring;
 use crate::contact::Spring;
-use crate::contact::laws::AnySpring;
 use crate::numeric::sqrt;
 
 /// A loaded slice of the pair.

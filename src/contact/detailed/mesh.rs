@@ -1,6 +1,6 @@
 //! The mesh itself: constants, and the sum of loads over tooth pairs.
 
-use super::super::laws::with_spring;
+use super::super::spring::with_spring;
 use super::directions::{Arcs, Directions};
 use super::face::{Cut, Face, Part};
 use super::touching::Touching;
@@ -129,7 +129,7 @@ impl Detailed {
     }
 
     /// Whether there may be gaps or excess material between the flanks of pairs.
-    fn is_open(&self, teeth: &MeshTeeth) -> bool {
+    pub(super) fn is_open(&self, teeth: &MeshTeeth) -> bool {
         self.has_seats || teeth.gaps.is_some()
     }
 
@@ -245,6 +245,23 @@ impl Detailed {
         (opening, axial, arcs)
     }
 
+    /// The parts of the face that carry where the flanks approach by `depth` [rad]; `cut` is room for the points of what is cut.
+    #[inline(always)]
+    pub(super) fn loaded_parts<'a, const OPEN: bool>(
+        &'a self,
+        depth: f64,
+        opening: &Opening,
+        cut: &'a mut Cut,
+    ) -> [Part<'a>; 2] {
+        if OPEN {
+            self.face.loaded(depth, opening, cut)
+        } else if depth > 0.0 {
+            [Part::of(&self.whole), Part::NONE]
+        } else {
+            [Part::NONE; 2]
+        }
+    }
+
     /// Adds the loads of a pair.
     #[inline(always)]
     fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
@@ -257,18 +274,16 @@ impl Detailed {
     ) {
         let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
         let mut cut = Cut::default();
-        let mut parts = [Part::of(&self.whole), Part::NONE];
         if OPEN {
             (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
-            parts = self.face.loaded(pair.depth, &opening, &mut cut);
         }
+        let parts = self.loaded_parts::<OPEN>(pair.depth, &opening, &mut cut);
         // most pairs that are near do not touch
-        let is_clear = if OPEN { parts.iter().all(Part::is_empty) } else { pair.depth <= 0.0 };
-        if is_clear {
+        if parts.iter().all(Part::is_empty) {
             return;
         }
         let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
-        let touching = Touching { name, pair, opening: &opening, arcs, parts, motion };
+        let touching = Touching { name, pair, place: None, opening: &opening, arcs, parts, motion };
         self.add_touching((spring, teeth, needs_thrust), totals, touching, look);
     }
 }

@@ -16,10 +16,10 @@ mod face;
 mod face_load;
 mod loads;
 mod mesh;
+mod on_bodies;
 mod pair;
 mod points;
 mod rubbed_face;
-mod shared;
 mod sums;
 mod totals;
 mod touching;
@@ -29,10 +29,10 @@ pub use face::Face;
 pub use face_load::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, MeshTeeth};
+pub use on_bodies::SharedTeeth;
 pub use pair::PairMotion;
 pub use points::Node;
 pub use rubbed_face::RubbedPlace;
-pub use shared::SharedTeeth;
 pub use totals::Totals;
 
 /// Variables of a mesh: q, x, w and their rates.

@@ -7,11 +7,13 @@ use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad,
 use crate::contact::{Spring, ToothPair};
 
 /// A pair that touches.
-pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {
+pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
     /// Which teeth.
     pub name: &'a PairName,
     /// The pair; where elastic gear bodies move it, its depth is its own arc (`contact::shared`).
     pub pair: &'a ToothPair,
+    /// Its place as the law sees it, if it is known already.
+    pub place: Option<P>,
     /// What opens its flanks.
     pub opening: &'a Opening,
     /// Its arcs, where the axial seats need them.
@@ -35,10 +37,10 @@ impl Detailed {
         &self,
         (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, WIDE>,
-        touching: Touching<OPEN, SHARED>,
+        touching: Touching<S::Place, OPEN, SHARED>,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let Touching { name, pair, opening, mut arcs, parts, motion } = touching;
+        let Touching { name, pair, place, opening, mut arcs, parts, motion } = touching;
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
@@ -79,7 +81,7 @@ impl Detailed {
                 opening,
             });
         };
-        let place = spring.place(pair.s);
+        let place = place.unwrap_or_else(|| spring.place(pair.s));
         let law = (spring, &place, &self.damping);
         let mut sums = Sums::default();
         for part in if OPEN { &parts[..] } else { &parts[..1] } {

@@ -1,7 +1,6 @@
 //! Own arcs a_k and loads ω_k of pairs that move each other: solution of a_k + Σ t_kl ω_l(a_l) = A_k.
 
 use super::Couplings;
-use super::couplings::MOST_PAIRS;
 
 /// Newton steps at most; usually a few suffice.
 const STEPS: usize = 40;
@@ -29,9 +28,6 @@ pub struct OwnArcs<const K: usize> {
 }
 
 impl<const K: usize> OwnArcs<K> {
-    /// Those of no pairs.
-    pub const NONE: Self = Self { arc: [0.0; K], load: [0.0; K], stiffness: [0.0; K] };
-
     /// The same for a law that is linear at positive arcs: if all pairs carry, one linear system gives the solution.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
@@ -54,8 +50,8 @@ impl<const K: usize> OwnArcs<K> {
     /// Those of pairs whose arcs A_k are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
     ///
     /// The loads minimise ΣΦ*(ω_k) + ½Σt_kl ω_k ω_l − ΣA_k ω_k with the complementary energy Φ* of a pair. Elastic
-    /// bodies make the sum convex. Newton's method converges quickly unless pairs gain and lose contact in turn.
-    /// Gauss-Seidel rounds always descend.
+    /// bodies make the sum convex. Newton's method converges quickly unless pairs gain and lose contact in turn. Gauss-Seidel
+    /// rounds always descend.
     #[inline(always)]
     pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
@@ -68,7 +64,7 @@ impl<const K: usize> OwnArcs<K> {
             for k in 0..n {
                 [own.load[k], own.stiffness[k]] = law(k, own.arc[k]);
             }
-            let moved = couplings.times(&couplings.value, &own.load);
+            let moved = couplings.moved(&own.load);
             let (mut left, mut most) = ([[0.0]; K], 0.0f64);
             for k in 0..n {
                 left[k][0] = arcs[k] - moved[k] - own.arc[k];
@@ -80,7 +76,7 @@ impl<const K: usize> OwnArcs<K> {
             // pairs gain and lose contact in turn: halve the step
             (part, vain) = if most < last { (1.0, 0) } else { (0.5 * part, vain + 1) };
             last = most;
-            if K == MOST_PAIRS && vain > VAIN {
+            if vain > VAIN {
                 if most <= ROUNDED * scale {
                     break;
                 }
@@ -115,7 +111,7 @@ impl<const K: usize> OwnArcs<K> {
         let n = couplings.count;
         let mut matrix = [[0.0; K]; K];
         for (row, t) in matrix.iter_mut().zip(&couplings.value).take(n) {
-            for k in 0..n {
+            for k in 0..K {
                 row[k] = t[k] * self.stiffness[k];
             }
         }

@@ -40,34 +40,22 @@ pub struct CouplingCurvatures<const K: usize> {
 
 impl<const K: usize> Couplings<K> {
     /// Those of no pairs.
-    pub const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+    const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Couplings of the first `count` pairs, each at its `pair_place`.
+    /// Couplings of the first `count` pairs at their `places`.
     #[inline(always)]
-    pub fn new<'a>(bodies: &PairCouplings, count: usize, pair_place: impl Fn(usize) -> Option<&'a PairPlace>) -> Self {
-        let mut all = Self::NONE;
-        all.fill(bodies, count, pair_place);
+    pub fn new(bodies: &PairCouplings, count: usize, places: &[Option<&PairPlace>; K]) -> Self {
+        let mut all = Self { count, ..Self::NONE };
+        for_each_two::<false>(bodies, &places[..count], |k, l, t: &Coupling| all.set(k, l, t));
         all
-    }
-
-    /// Fills in those of the first `count` pairs, each at its `pair_place`.
-    #[inline(always)]
-    pub fn fill<'a>(
-        &mut self,
-        bodies: &PairCouplings,
-        count: usize,
-        pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
-    ) {
-        self.count = count;
-        for_each_two(bodies, count, pair_place, |k, l, t: &Coupling| self.set(k, l, t), false);
     }
 
     /// The same with second derivatives.
     #[inline(always)]
-    pub fn with_curvatures<'a>(
+    pub fn with_curvatures(
         bodies: &PairCouplings,
         count: usize,
-        pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
+        places: &[Option<&PairPlace>; K],
     ) -> (Self, CouplingCurvatures<K>) {
         let mut all = Self { count, ..Self::NONE };
         let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
@@ -76,7 +64,7 @@ impl<const K: usize> Couplings<K> {
             (curvatures.own[k][l], curvatures.own[l][k]) = (t.hessian[0], t.hessian[2]);
             (curvatures.both[k][l], curvatures.both[l][k]) = (t.hessian[1], t.hessian[1]);
         };
-        for_each_two(bodies, count, pair_place, set, true);
+        for_each_two::<true>(bodies, &places[..count], set);
         (all, curvatures)
     }
 
@@ -86,33 +74,44 @@ impl<const K: usize> Couplings<K> {
         (self.by_own[k][l], self.by_own[l][k]) = (t.gradient[0], t.gradient[1]);
     }
 
-    /// Σ_l m_kl ω_l of one of the matrices above.
+    /// Σ_l t_kl ω_l.
     #[inline(always)]
-    pub fn times(&self, matrix: &[[f64; K]; K], load: &[f64; K]) -> [f64; K] {
+    pub fn moved(&self, load: &[f64; K]) -> [f64; K] {
         let mut product = [0.0; K];
-        for k in 0..self.count {
-            for l in 0..self.count {
-                product[k] += matrix[k][l] * load[l];
+        // t is symmetric: whole rows fill vectors, and entries beyond the pairs are zero
+        for (row, load) in self.value.iter().zip(load).take(self.count) {
+            for (sum, t) in product.iter_mut().zip(row) {
+                *sum += t * load;
+            }
+        }
+        product
+    }
+
+    /// τ_k = Σ_l ∂t_kl/∂s_k ω_l.
+    #[inline(always)]
+    pub fn along(&self, load: &[f64; K]) -> [f64; K] {
+        let mut product = [0.0; K];
+        for (sum, row) in product.iter_mut().zip(&self.by_own).take(self.count) {
+            for (t, load) in row.iter().zip(load).take(self.count) {
+                *sum += t * load;
             }
         }
         product
     }
 }
 
-/// Calls `visit` with each two pairs and their coupling; with second derivatives if `twice`.
+/// Calls `visit` with each two of the pairs at `places` and their coupling; with second derivatives if `TWICE`.
 #[inline(always)]
-fn for_each_two<'a>(
+fn for_each_two<const TWICE: bool>(
     bodies: &PairCouplings,
-    count: usize,
-    pair_place: impl Fn(usize) -> Option<&'a PairPlace>,
+    places: &[Option<&PairPlace>],
     mut visit: impl FnMut(usize, usize, &Coupling),
-    twice: bool,
 ) {
-    for k in 1..count {
-        for l in 0..k {
-            let (Some(a), Some(b)) = (pair_place(k), pair_place(l)) else { continue };
-            let t = if twice { bodies.coupling::<true>(a, b) } else { bodies.coupling::<false>(a, b) };
-            visit(k, l, &t);
+    for (k, a) in places.iter().enumerate() {
+        for (l, b) in places[..k].iter().enumerate() {
+            if let (Some(a), Some(b)) = (a, b) {
+                visit(k, l, &bodies.coupling::<TWICE>(a, b));
+            }
         }
     }
 }

@@ -18,9 +18,11 @@ mod couplings;
 mod gradients;
 mod opening_by_others;
 mod plain;
+mod sharing;
 
 pub use arcs::OwnArcs;
 pub use couplings::{CouplingCurvatures, Couplings, MOST_PAIRS, place_for};
 pub use gradients::{Change, Gradients};
 pub use opening_by_others::OpeningByOthers;
 pub use plain::{SharedForce, SharedMeshes};
+pub use sharing::{COORDINATES, Share, Sharing};

@@ -6,7 +6,7 @@
 //! f = (1 − W M) P_c.
 
 use super::{BodyEffects, Ideal};
-use crate::model::scene::{Layout, PLANET, Plan, attached};
+use crate::model::scene::{ATTACHED_COUNT, Layout, PLANET, Plan};
 
 /// Most degrees of freedom, with ends of half-shafts, rounded up to whole vectors of any width.
 pub const MOST: usize = 8;
@@ -48,7 +48,7 @@ impl IdealWithEffects {
         // columns of P
         let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]];
-        columns.extend((0..attached::COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
+        columns.extend((0..ATTACHED_COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
         let is_free = |k: usize, column: &[f64; MOST]| !(k < IMPOSED && imposed[k]) && *column != [0.0; MOST];
         let free: Vec<[f64; MOST]> =

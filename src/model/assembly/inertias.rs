@@ -1,8 +1,8 @@
 //! Moments of inertia of the bodies, assembled from parameters and solids.
 
 use crate::geometry::solid::mass::GearMass;
-use crate::model::scene::attached::{self, ENDS};
-use crate::model::scene::{CARRIER, MAX_DOF, Plan};
+
+use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, MAX_DOF, Plan};
 use crate::model::setup::Parameters;
 
 /// Inertias that the equations of motion need [kg·m²].
@@ -66,7 +66,7 @@ impl Inertias {
                 inertia[layout.end(s)] = self.end[s] - rigid_end[s];
             }
         }
-        for k in (ENDS..attached::COUNT).filter(|&k| plan.attached[k]) {
+        for k in (ENDS..ATTACHED_COUNT).filter(|&k| plan.attached[k]) {
             inertia[layout.body(k)] = plan.attached_inertia[k];
         }
         inertia[CARRIER] = self.carrier;

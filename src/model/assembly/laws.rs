@@ -6,10 +6,10 @@ use crate::FULL;
 use crate::contact::bodies::PairCouplings;
 use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
-use crate::contact::law::{DampedImpact, FaceLaw, Lumped};
-use crate::contact::spring;
+use crate::contact::solid::mesh::SolidMesh;
+use crate::contact::spring::{ImpactSpring, Resultant};
 use crate::contact::stiffness::PairStiffness;
-use crate::contact::{AnySpring, ContactLaw, Damping, DampingModel, Impact, Law, hertz};
+use crate::contact::{AnySpring, ContactLaw, Damping, DampingModel, Impact, hertz};
 use crate::geometry::Pair;
 use crate::model::assembly::face::centroid;
 use crate::model::assembly::gear_cache::GearCache;
@@ -19,18 +19,18 @@ use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
-/// One law in its two forms.
+/// The law of a scene, and what it acts on.
 pub struct Laws {
-    /// For a plain mesh.
-    pub law: Law,
-    /// For a mesh in detail: the elastic part alone,
+    /// Elastic law of a tooth pair, or of a mesh.
     pub spring: AnySpring,
-    /// and the face it acts on.
+    /// Where the resultant of a pair acts.
+    pub whole: Resultant,
+    /// Solid teeth.
+    pub solid: Option<Box<SolidMesh>>,
+    /// The face over which loads are summed in detail.
     pub face: CutFace,
     /// The face over which flanks rub, if the law is valid at every cone distance.
     pub rubbed: Option<CutFace>,
-    /// Cone distance at which the resultant of a pair acts [m].
-    pub cone: f64,
     /// The bodies that pairs share, where they are elastic.
     pub bodies: Option<Arc<PairCouplings>>,
 }
@@ -40,7 +40,6 @@ impl Laws {
     /// distance, and elastic bodies.
     pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
         let cut = tooth.sliced;
-        let damping = Self::damping(p);
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
@@ -54,55 +53,43 @@ impl Laws {
                 p.contact.mesh_stiffness
             };
             let k = per_width * moment / (centroid * centroid);
-            return Ok(Self {
-                law: Law::Lumped(Lumped { stiffness: k, damping }),
-                spring: AnySpring::Impact(spring::ImpactSpring::linear(k, centroid)),
-                face: whole(centroid, 1.0),
-                rubbed: None,
-                cone: centroid,
-                bodies: None,
-            });
+            return Ok(Self::of_depth(ImpactSpring::linear(k, centroid), whole(centroid, 1.0)));
         }
         if FULL && p.scene.gear_contact == GearContact::Solid {
             let impact = impact(p, pair);
+            let damping = Self::damping(p);
             let solids = cache.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
-            return Ok(Self {
-                law: Law::Solid(Box::new(solids)),
-                spring: AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone }),
-                face: whole(pair.mean_cone, 1.0),
-                rubbed: None,
-                cone: pair.mean_cone,
-                bodies: None,
-            });
+            let laws = Self::of_depth(ImpactSpring { law: impact, cone: pair.mean_cone }, whole(pair.mean_cone, 1.0));
+            return Ok(Self { solid: Some(Box::new(solids)), ..laws });
         }
+        let of_face = |(spring, bodies), rubbed: CutFace| Self {
+            spring,
+            whole: Resultant::new(centroid, moment),
+            solid: None,
+            face: if cut { rubbed } else { whole(centroid, moment) },
+            rubbed: Some(rubbed),
+            bodies,
+        };
         Ok(match p.contact.law {
             ContactLaw::Impact => {
-                let impact = impact(p, pair);
-                let law = match damping {
-                    Damping::Step { .. } => Law::Impact(impact),
-                    Damping::HuntCrossley { .. } => Law::DampedImpact(DampedImpact { elastic: impact, damping }),
-                };
-                let spring = AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone });
-                let face = whole(pair.mean_cone, 1.0);
-                Self { law, spring, face, rubbed: None, cone: pair.mean_cone, bodies: None }
+                let spring = ImpactSpring { law: impact(p, pair), cone: pair.mean_cone };
+                Self::of_depth(spring, whole(pair.mean_cone, 1.0))
             }
             ContactLaw::Line => {
-                let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line)?;
-                let spring = AnySpring::Line(specific.clone());
-                let law = Law::Line(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
-                let rubbed = CutFace::cut(inner, outer);
-                let face = if cut { rubbed } else { whole(centroid, moment) };
-                Self { law, spring, face, rubbed: Some(rubbed), cone: centroid, bodies }
+                let law = of_teeth(p, pair, tooth, cache, |pairs| AnySpring::Line(pairs.line()))?;
+                of_face(law, CutFace::cut(inner, outer))
             }
             ContactLaw::LineWeber => {
-                let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line_weber)?;
-                let spring = AnySpring::LineWeber(specific.clone());
-                let law = Law::LineWeber(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
-                let rubbed = CutFace::sliced(inner, outer);
-                let face = if cut { rubbed } else { whole(centroid, moment) };
-                Self { law, spring, face, rubbed: Some(rubbed), cone: centroid, bodies }
+                let law = of_teeth(p, pair, tooth, cache, |pairs| AnySpring::LineWeber(pairs.line_weber()))?;
+                of_face(law, CutFace::sliced(inner, outer))
             }
         })
+    }
+
+    /// A law of the penetration at its cone distance.
+    fn of_depth(spring: ImpactSpring, face: CutFace) -> Self {
+        let whole = Resultant::new(spring.cone, 1.0);
+        Self { spring: AnySpring::Impact(spring), whole, solid: None, face, rubbed: None, bodies: None }
     }
 
     /// Damping of a tooth pair.

@@ -6,6 +6,7 @@ use super::laws::Laws;
 use super::{BodyEffects, EffectTerms, Ideal, Inertias, Teeth, solid};
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
+use crate::contact::planet::Contact;
 use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::solid::mass::GearMass;
 use crate::geometry::{Pair, checks};
@@ -156,16 +157,15 @@ impl Model {
             Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),
             Gears::Teeth(teeth) => {
                 let damping = Laws::damping(parameters);
-                teeth.mesh.law.set_damping(damping);
-                let effect_terms = &mut teeth.effect_terms;
-                effect_terms.detailed.set_damping(damping);
-                effect_terms.detailed.friction = effects.on_flanks().map(|friction| friction.law);
+                let Teeth { contact, effect_terms, .. } = &mut **teeth;
+                contact.set_damping(damping);
+                contact.detailed.friction = effects.on_flanks().map(|friction| friction.law);
                 effect_terms.body_effects.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
-                effect_terms.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
-                effect_terms.in_detail |= effect_terms.detailed.needs_thrust;
+                contact.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
+                contact.in_detail |= contact.detailed.needs_thrust;
                 if let Some(together) = &mut self.together {
-                    together.mesh.law.set_damping(damping);
+                    together.contact.set_damping(damping);
                 }
             }
         }
@@ -202,23 +202,30 @@ fn teeth(
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
     body_effects.has_effects |= in_detail || laws.bodies.is_some();
     let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
-    let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
-    let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
+    let damping = Laws::damping(p);
+    let mesh = Mesh { spring: laws.spring, damping, whole: laws.whole, is_single: single, engagement };
+    let mut detailed =
+        Detailed::new(pair, mesh.spring.clone(), damping, laws.face, single, friction.map(|friction| friction.law));
     (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
     if let Some(rubbed) = laws.rubbed {
         detailed.rub_over(rubbed);
     }
-    let effect_terms = EffectTerms {
+    let contact = Contact {
+        mesh,
+        solid: laws.solid,
+        bodies: laws.bodies,
         detailed,
-        in_detail,
-        is_watched: BUILT && (p.effects.warm_up || p.effects.strength || p.effects.mesh_history),
-        friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
+        in_detail,
+    };
+    let effect_terms = EffectTerms {
+        is_watched: BUILT && (p.effects.warm_up || p.effects.strength || p.effects.mesh_history),
+        friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         planet_mass_moment: ideal.inertia.planet_mass_moment,
         body_effects,
     };
-    Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, effect_terms)
+    Teeth::new(pair, contact, plan, &ideal.inertia, deflection_limit, effect_terms)
 }
 
 /// What steps are watched for.

@@ -1,11 +1,7 @@
 //! Constants of the equations of motion of a differential with teeth.
 
-use std::sync::Arc;
-
 use super::{BodyEffects, Inertias};
-use crate::contact::bodies::PairCouplings;
-use crate::contact::detailed::Detailed;
-use crate::contact::{FlankGaps, Mesh};
+use crate::contact::planet::Contact;
 use crate::geometry::Pair;
 use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
 
@@ -15,8 +11,8 @@ pub const SIGMA: [f64; 2] = [1.0, -1.0];
 /// Constants of a differential with teeth.
 #[derive(Clone, Debug)]
 pub struct Teeth {
-    /// The mesh, alike for all planets and both sides.
-    pub mesh: Mesh,
+    /// Contact of a planet with both side gears, alike for all planets.
+    pub contact: Contact,
     /// Scene plan.
     pub plan: Plan,
     /// Index of each degree of freedom.
@@ -35,8 +31,6 @@ pub struct Teeth {
     pub deflection_limit: f64,
     /// Whether completed steps have more to record than work and heat of contact.
     pub records_more: bool,
-    /// Elastic gear bodies that couple the tooth pairs; `None` where bodies are rigid.
-    pub shared: Option<Arc<PairCouplings>>,
     /// Constants of the effects; boxed, so that the layout of `Teeth` is the same in every build.
     pub effect_terms: Box<EffectTerms>,
 }
@@ -53,10 +47,10 @@ impl Teeth {
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
     }
 
-    /// Constants for the scene plan `plan` and the gears `pair`, with their mesh and elastic bodies.
+    /// Constants for the scene plan `plan` and the gears `pair`, with their contact.
     pub fn new(
         pair: &Pair,
-        (mesh, shared): (Mesh, Option<Arc<PairCouplings>>),
+        contact: Contact,
         plan: Plan,
         inertias: &Inertias,
         deflection_limit: f64,
@@ -81,8 +75,8 @@ impl Teeth {
             }
         }
         Self {
-            records_more: !mesh.engagement.corner_contact() || effect_terms.is_watched,
-            mesh,
+            records_more: !contact.mesh.engagement.corner_contact() || effect_terms.is_watched,
+            contact,
             plan,
             layout,
             inertia,
@@ -91,7 +85,6 @@ impl Teeth {
             sin_base: pair.sin_base(),
             base_pitch: pair.base_pitch,
             deflection_limit,
-            shared,
             effect_terms: Box::new(effect_terms),
         }
     }
@@ -100,18 +93,10 @@ impl Teeth {
 /// Constants of the effects that act besides plain teeth.
 #[derive(Clone, Debug)]
 pub struct EffectTerms {
-    /// The mesh in detail, summed over the face.
-    pub detailed: Detailed,
-    /// Whether an effect needs the mesh in detail even while no tooth is broken.
-    pub in_detail: bool,
     /// Whether steps feed temperatures, damage or histories, which act on no force themselves.
     pub is_watched: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat_index: usize,
-    /// Gaps of the tooth pairs before and after a tooth breaks.
-    pub gaps: [Option<Arc<FlankGaps>>; 2],
-    /// Teeth without errors, which give each tooth its number.
-    pub perfect: FlankGaps,
     /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m].
     pub planet_mass_moment: f64,
     /// Effects on bodies.

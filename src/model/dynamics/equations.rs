@@ -5,46 +5,53 @@
 //!
 //!   J_s ω̇_s = Σ Q_α − T_s,   J_c ω̇_c = T_c − Σ_s Σ Q_α,   I_p ψ̈ = Q_ψL + Q_ψR,   α̇_s = ω_s − ω_c
 //!
-//! with q = sinδ_bs α − σ sinδ_bp ψ and x = σ sinδ_bp ψ + h of every mesh, σ = +1 left, −1 right, and the mesh forces
-//! Q_α = sinδ_bs F_q, Q_ψ = σ sinδ_bp (F_x − F_q). Imposed motions have a given acceleration.
+//! Forces come in this order: the contact of each planet with both side gears (`planet_contact`), carried to the bodies (`bodies`), with
+//! the dry friction under its loads (`dry_friction`); then effects on bodies; then inputs and imposed motions. Derivatives come with
+//! them. Imposed motions have a given acceleration.
 //!
 //! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
-use super::friction::by_body;
-use super::ledger_rates::LedgerRates;
-use super::sizes::EXACT;
-use super::{Acted, Acting, Largest, State};
-use crate::contact::Law;
-use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
-use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::{SIGMA, Teeth};
-use crate::model::effect_kinds::{FrictionSource, SurfaceLoad};
-use crate::model::scene::attached::ENDS;
-use crate::model::scene::layout::{LEFT, over_groups};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, PLANET, Plan};
-use crate::numeric::lanes;
+use std::marker::PhantomData;
+use std::ops::Range;
 
-/// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
-/// degrees of freedom and `G` groups of planets; in larger ones these are the most there can be, and the layout tells how
-/// many there are.
+use super::ledger_rates::LedgerRates;
+use super::shape::{Any, ByGroup, LARGEST, Shape};
+use super::{Acted, Acting, State};
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
+use crate::model::assembly::{BodyEffects, Teeth};
+use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
+use crate::model::scene::layout::{LEFT, over_groups};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, Plan};
+
+/// The equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
 #[derive(Clone, Copy)]
-pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> {
+pub struct Equations<'a, S, const N: usize> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) acting: Acting,
     pub(in crate::model) is_tooth_broken: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
-    offset: [[f64; 2]; MAX_GROUPS],
+    pub(super) offset: [[f64; 2]; MAX_GROUPS],
     /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
     wrapped: [i64; MAX_GROUPS],
+    shape: PhantomData<S>,
 }
 
-impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
-    /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins and seats, and with ends of
-    /// half-shafts in the largest of these sizes alone.
-    pub(super) const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
+/// Equations with teeth of any scene: for all that is not done in every step.
+pub type Largest<'a> = Equations<'a, Any, LARGEST>;
 
+/// Derivatives of forces and of the carrier's imposed acceleration.
+pub struct Jacobian<'a, const N: usize> {
+    /// ∂force/∂position.
+    pub by_position: &'a mut Matrix<N>,
+    /// ∂force/∂(rate of position).
+    pub by_rate: &'a mut Matrix<N>,
+    /// ∂force/∂velocity.
+    pub by_velocity: &'a mut Matrix<N>,
+}
+
+impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
         let mut offset = [[0.0; 2]; MAX_GROUPS];
@@ -56,14 +63,14 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 offset[g][s] = teeth.base_pitch * (state.whole_periods[LEFT + s] - spin) as f64;
             }
         }
-        let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.effect_terms.body_effects), inputs, state);
-        Self { teeth, acting, is_tooth_broken: state.is_tooth_broken, offset, wrapped }
+        let acting = Acting::new(S::MAY_ACT.then_some(&teeth.effect_terms.body_effects), inputs, state);
+        Self { teeth, acting, is_tooth_broken: state.is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 
     /// Groups of planets.
     #[inline]
     pub(in crate::model) fn groups(&self) -> usize {
-        if Self::EXACT { G } else { self.teeth.layout.groups.min(G) }
+        S::groups(&self.teeth.layout)
     }
 
     /// Σ over the groups of planets.
@@ -72,26 +79,32 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         over_groups(self.groups(), term)
     }
 
-    /// What `of` gives for each group of planets.
+    /// Values of the groups of planets; `none` fills what there is no group for.
     #[inline]
-    pub(in crate::model) fn by_group<T: Copy + Default>(&self, of: impl Fn(usize) -> T) -> [T; G] {
-        let mut all = [T::default(); G];
+    pub(super) fn by_group<T: Copy>(&self, none: T, of: impl Fn(usize) -> T) -> S::ByGroup<T> {
+        let mut all = S::ByGroup::filled(none);
         for g in 0..self.groups() {
             all[g] = of(g);
         }
         all
     }
 
+    /// Number of planets in group `g`.
+    #[inline]
+    pub(in crate::model) fn members(&self, g: usize) -> f64 {
+        self.teeth.plan.group(g).members
+    }
+
     /// Whether pins and seats move.
     #[inline]
     pub(in crate::model) fn has_pins(&self) -> bool {
-        !Self::EXACT && self.teeth.layout.has_pins
+        S::has_pins(&self.teeth.layout)
     }
 
     /// Index of the planets of group `g`.
     #[inline]
     pub(in crate::model) fn planet(&self, g: usize) -> usize {
-        if Self::EXACT { PLANET + g } else { self.teeth.layout.planet(g) }
+        S::planet(&self.teeth.layout, g)
     }
 
     /// Index of the pin of group `g`.
@@ -109,116 +122,97 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Index of the end of the half-shaft of side `s`.
     #[inline]
     pub(in crate::model) fn end(&self, s: usize) -> usize {
-        if Self::EXACT { PLANET + G + s } else { self.teeth.layout.end(s) }
-    }
-
-    /// Ends of half-shafts with the side gears they turn against, in a size that is exact: the only bodies attached there.
-    #[inline]
-    pub(in crate::model) fn exact_ends(&self) -> impl Iterator<Item = (usize, usize)> + use<N, G, WITH_EFFECTS> {
-        (0..if Self::EXACT && self.has_ends() { ENDS } else { 0 }).map(|s| (PLANET + G + s, s))
-    }
-
-    /// Whether anything is attached.
-    #[inline]
-    pub(in crate::model) fn is_attached(&self) -> bool {
-        if Self::EXACT { self.has_ends() } else { self.teeth.layout.is_attached() }
+        S::end(&self.teeth.layout, s)
     }
 
     /// Degrees of freedom.
     #[inline]
     pub(in crate::model) fn count(&self) -> usize {
-        if Self::EXACT { N } else { self.teeth.layout.count().min(N) }
+        S::count(&self.teeth.layout)
+    }
+
+    /// Indices of planets and their pins.
+    #[inline]
+    pub(super) fn planets_and_pins(&self) -> Range<usize> {
+        let (first, pins) = (self.planet(0), if self.has_pins() { self.groups() } else { 0 });
+        first..first + self.groups() + pins
     }
 
     /// Whether inputs change while they act.
     #[inline]
     pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
-        WITH_EFFECTS && self.acting.driven
+        S::MAY_ACT && self.acting.driven
     }
 
-    /// The same equations in the size that every scene fits in.
+    /// The same equations in the shape of any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
-        let Self { teeth, acting, is_tooth_broken, offset, wrapped } = *self;
-        Largest { teeth, acting, is_tooth_broken, offset, wrapped }
-    }
-
-    /// State of the mesh of group `g` with side `s`.
-    #[inline]
-    pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
-        let [planet, side] = self.teeth.sin_base;
-        let turn = SIGMA[s] * planet;
-        let (travel, travel_rate) = (turn * at.q[self.planet(g)], turn * at.v[self.planet(g)]);
-        let (angle, speed) = if !self.has_pins() {
-            (at.q[s], at.v[s] - at.v[CARRIER])
-        } else {
-            (at.q[s] - at.q[self.pin(g)], at.v[s] - at.v[self.pin(g)])
-        };
-        MeshState {
-            position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
-            rate: [side * speed - travel_rate, travel_rate],
-            which: [self.teeth.plan.group(g).planet, s],
-        }
-    }
-
-    /// Writes the force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all
-    /// others.
-    #[inline]
-    pub(super) fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
-        if Self::EXACT { self.teeth.mesh.write_force(state, to) } else { self.teeth.mesh.write_force_apart(state, to) }
-    }
-
-    /// The same linearised.
-    #[inline]
-    pub(super) fn mesh_linearised(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
-        if Self::EXACT { self.teeth.mesh.linearise(state) } else { self.teeth.mesh.linearise_apart(state) }
-    }
-
-    /// A group before `g` whose plain meshes are in the same state to the last bit: what its teeth do, those of `g` do too.
-    /// Planets that are simulated one by one move together until something tells them apart, such as a tooth that breaks.
-    #[inline]
-    pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
-        if self.groups() == 1 || matches!(self.teeth.mesh.law, Law::Solid(_)) {
-            return None;
-        }
-        let same = |i: usize, j: usize| at.q[i] == at.q[j] && at.v[i] == at.v[j];
-        (0..g).find(|&h| {
-            self.teeth.plan.group(g).phase == self.teeth.plan.group(h).phase
-                && self.offset[g] == self.offset[h]
-                && same(self.planet(g), self.planet(h))
-                && (!self.has_pins() || same(self.pin(g), self.pin(h)))
-        })
+        let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
+        Largest { teeth, acting, is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 
     /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
     #[inline]
-    pub(in crate::model) fn wrapped(&self, g: usize, s: usize) -> i64 {
+    pub(super) fn wrapped(&self, g: usize, s: usize) -> i64 {
         if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
     }
 
+    /// Accelerations; completes the ledger rates.
     #[inline]
-    pub(in crate::model) fn members(&self, g: usize) -> f64 {
-        self.teeth.plan.group(g).members
+    pub(super) fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
+        let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
+        self.act(at, &mut sum, &mut imposed, ledger_rates);
+        // in small sizes a copy that stays in registers
+        let mut sum = if S::HAS_OWN_STEPS { std::array::from_fn(|i| sum[i]) } else { sum };
+        self.finish(at, &mut sum, &imposed, ledger_rates);
+        sum
     }
 
-    /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
+    /// Adds all forces except commanded torques.
     #[inline]
-    pub(in crate::model) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
-        let [planet, side] = self.teeth.sin_base;
-        let on = |s: usize| self.sum(|g| self.members(g) * side * force(g, s)[0]);
-        let on_side = [on(0), on(1)];
-        for s in 0..2 {
-            sum[s] += on_side[s];
+    pub(in crate::model) fn act(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        imposed: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        self.act_of_teeth(at, sum, ledger_rates);
+        if S::MAY_ACT {
+            self.act_on_bodies(at, sum, imposed, ledger_rates);
         }
-        if !self.has_pins() {
-            sum[CARRIER] -= on_side[0] + on_side[1];
+    }
+
+    /// Adds the forces of the effects on bodies.
+    pub(in crate::model) fn act_on_bodies(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        imposed: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        let motion = self.body_motion(at);
+        imposed[CARRIER] += motion.input_rates.carrier_speed;
+        let mut out = Action {
+            force: sum,
+            imposed: &mut imposed[CARRIER],
+            drive: &mut ledger_rates.drive,
+            heat: &mut ledger_rates.heat,
+        };
+        for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+            effect.act(&motion, &mut out);
         }
-        for g in 0..self.groups() {
-            let (left, right) = (force(g, 0), force(g, 1));
-            sum[self.planet(g)] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
-            if self.has_pins() {
-                sum[self.pin(g)] -= side * left[0] + side * right[0];
-            }
+        if self.has_ends() {
+            ledger_rates.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
         }
+    }
+
+    /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]; the load torque if the shaft is no degree of freedom.
+    pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
+        if !self.has_ends() || !self.teeth.plan.shafts[s] {
+            return self.acting.inputs.load_torque[s];
+        }
+        let end = self.end(s);
+        self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
@@ -234,8 +228,8 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         let rates = &self.acting.input_derivatives.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
-            let wheel = if WITH_EFFECTS { self.wheel(s) } else { s };
-            if WITH_EFFECTS && plan.side_imposed[s] {
+            let wheel = if S::MAY_ACT { self.wheel(s) } else { s };
+            if S::MAY_ACT && plan.side_imposed[s] {
                 input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.acting.inputs.load_torque[s];
@@ -245,18 +239,18 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + if WITH_EFFECTS { ledger_rates.drive } else { 0.0 }
+            self.acting.inputs.carrier_torque + if S::MAY_ACT { ledger_rates.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
         if plan.spin_imposed {
-            let inertial = if WITH_EFFECTS { self.teeth.inertia[self.planet(0)] * rates.planet_spin } else { 0.0 };
+            let inertial = if S::MAY_ACT { self.teeth.inertia[self.planet(0)] * rates.planet_spin } else { 0.0 };
             input -= self.sum(|g| self.members(g) * (sum[self.planet(g)] - inertial) * at.v[self.planet(g)]);
         }
         for (sum, inverse) in sum.iter_mut().zip(inverse) {
             *sum *= inverse;
         }
-        if WITH_EFFECTS && plan.carrier_imposed {
+        if S::MAY_ACT && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
         }
         if self.is_driven_by_inputs() {
@@ -270,79 +264,112 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         ledger_rates.input += input;
     }
 
-    /// Adds tooth torques without any input to the sums of side gears, carrier, planets and pins; returns the heat of contact.
-    #[inline(never)]
-    pub fn add_tooth_torques(&self, at: &Point<N>, sum: &mut [f64; N]) -> f64 {
-        let mut load = [[MeshForce::default(); 2]; G];
-        for g in 0..self.groups() {
-            if let Some(twin) = self.twin(at, g) {
-                load[g] = load[twin];
-                continue;
-            }
-            if let Some(bodies) = self.bodies_of_gears() {
-                load[g] = self.forces_on_bodies(bodies, at, g);
-                continue;
-            }
-            for s in 0..2 {
-                self.write_force(&self.mesh_state(at, g, s), &mut load[g][s]);
-            }
-        }
-        let mut all = *sum;
-        self.add_forces(|g, s| load[g][s].force, &mut all);
-        lanes::write(all, sum);
-        self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat))
-    }
-
-    /// Elastic energy of all meshes [J].
-    pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
-        let mut energy = [0.0; G];
-        for g in 0..self.groups() {
-            let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
-            energy[g] = match (self.twin(at, g), self.bodies_of_gears()) {
-                (Some(twin), _) => energy[twin],
-                (None, None) => of(0) + of(1),
-                (None, Some(bodies)) => self.energy_on_bodies(bodies, [at, at], g),
-            };
-        }
-        self.sum(|g| self.members(g) * energy[g])
-    }
-
-    /// Kinetic energy [J].
-    pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
-        let twice_energy = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
-        let planets = self.sum(|g| {
-            self.members(g)
-                * (twice_energy(self.planet(g)) + if self.has_pins() { twice_energy(self.pin(g)) } else { 0.0 })
-        });
-        let others = |range: std::ops::Range<usize>| range.map(twice_energy).sum::<f64>();
-        let behind = self.inner().end;
-        0.5 * (others(0..self.planet(0)) + planets + others(behind..self.count()))
-    }
-
-    /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
+    /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
     #[inline]
-    pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
-        self.deepest_of_touching(at).0
+    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        (lin.acceleration, lin.ledger_rates) = ([0.0; N], LedgerRates::default());
+        // rows beyond are never anything but zero
+        for i in 0..self.count() {
+            (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
+        }
+        if S::MAY_ACT { self.linearise_all(at, lin) } else { self.linearise_teeth(at, lin) }
     }
 
-    /// Largest approach of any flank pair as in [`Self::deepest`], and the meshes whose flanks touch, one bit for each.
+    /// Adds to `lin` the equations of teeth without effects, linearised; returns the elastic energy [J].
     #[inline]
-    pub fn deepest_of_touching(&self, at: &Point<N>) -> ((f64, usize, usize), u8) {
-        let (mut deepest, mut touching) = ((f64::NEG_INFINITY, 0, 0), 0);
-        for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
-            for s in 0..2 {
-                let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
-                touching |= u8::from(approach > 0.0) << (2 * g + s);
-                if approach > deepest.0 {
-                    deepest = (approach, g, s);
-                }
+    fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
+        let mut unused = [[0.0; N]; N];
+        let mut j = Jacobian { by_position, by_rate: by_velocity, by_velocity: &mut unused };
+        let energy = self.linearise_contact(at, acceleration, ledger_rates, &mut j);
+        // α̇ = ω_s − ω_c
+        self.times_rates(j.by_rate);
+        self.divide_by_inertia(j.by_position);
+        self.divide_by_inertia(j.by_rate);
+        self.finish(at, acceleration, &[0.0; N], ledger_rates);
+        energy
+    }
+
+    /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].
+    #[inline]
+    fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
+        let (mut imposed, mut by_rate) = ([0.0; N], [[0.0; N]; N]);
+        let j = &mut Jacobian { by_position: &mut *by_position, by_rate: &mut by_rate, by_velocity: &mut *by_velocity };
+        let energy = self.linearise_contact(at, acceleration, ledger_rates, j);
+        self.act_on_bodies(at, acceleration, &mut imposed, ledger_rates);
+        let mut imposed_by = [[0.0; N]; 2];
+        let mut out = Slopes::new([&mut *by_position, &mut *by_velocity], &mut imposed_by);
+        for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+            effect.slopes(&self.body_motion(at), &mut out);
+        }
+        self.times_rates(&mut by_rate);
+        for i in 0..self.count() {
+            for j in 0..N {
+                by_velocity[i][j] += by_rate[i][j];
             }
         }
-        (deepest, touching)
+        self.divide_by_inertia(by_position);
+        self.divide_by_inertia(by_velocity);
+        if self.teeth.plan.carrier_imposed {
+            (by_position[CARRIER], by_velocity[CARRIER]) = (imposed_by[0], imposed_by[1]);
+        }
+        self.finish(at, acceleration, &imposed, ledger_rates);
+        energy
+    }
+
+    fn divide_by_inertia(&self, m: &mut Matrix<N>) {
+        for (row, inverse) in m[..self.count()].iter_mut().zip(&self.teeth.inverse_inertia) {
+            row.iter_mut().for_each(|x| *x *= inverse);
+        }
+    }
+
+    /// Forces of meshes, pins and seats at rest and their derivatives by positions, for the static equilibrium.
+    pub(in crate::model) fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
+        let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
+        self.static_contact(at, &mut sum, &mut by_position);
+        let still = Point { q: at.q, v: [0.0; N] };
+        let (mut carrier, mut ledger_rates) = (0.0, LedgerRates::default());
+        let motion = self.body_motion(&still);
+        let mut action = Action {
+            force: &mut sum,
+            imposed: &mut carrier,
+            drive: &mut ledger_rates.drive,
+            heat: &mut ledger_rates.heat,
+        };
+        let mut unused = [[0.0; N]; 2];
+        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity], &mut unused);
+        for effect in self.teeth.effect_terms.body_effects.forces.iter().filter(|e| e.is_structure()) {
+            effect.act(&motion, &mut action);
+            effect.slopes(&motion, &mut slopes);
+        }
+        (sum, by_position)
+    }
+
+    /// Elastic energy of meshes, pins and seats [J]; with `all` also of half-shafts and stuck friction.
+    pub(in crate::model) fn stored_energy(&self, at: &Point<N>, all: bool) -> f64 {
+        self.elastic_energy(at) + self.stored_energy_of_bodies(at, all)
+    }
+
+    /// Elastic energy of pins and seats [J]; with `all` also of half-shafts and stuck friction.
+    pub(in crate::model) fn stored_energy_of_bodies(&self, at: &Point<N>, all: bool) -> f64 {
+        if !S::MAY_ACT {
+            return 0.0;
+        }
+        let forces = &self.teeth.effect_terms.body_effects.forces;
+        let motion = self.body_motion(at);
+        let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&motion)).sum::<f64>();
+        if all { energy + self.friction_energy(at) } else { energy }
+    }
+
+    /// Effects on bodies, where any may act.
+    #[inline]
+    fn body_effects(&self) -> Option<&BodyEffects> {
+        S::MAY_ACT.then_some(&self.teeth.effect_terms.body_effects)
     }
 }
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equations<'_, N, G, WITH_EFFECTS> {
+impl<const N: usize, S: Shape<N>> Acted<N> for Equations<'_, S, N> {
     #[inline]
     fn acting(&self) -> &Acting {
         &self.acting
@@ -355,7 +382,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
 
     #[inline]
     fn friction_sources(&self) -> &[FrictionSource] {
-        if WITH_EFFECTS { &self.teeth.effect_terms.body_effects.friction } else { &[] }
+        self.body_effects().map_or(&[], |effects| &effects.friction)
     }
 
     #[inline]
@@ -370,12 +397,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
 
     #[inline]
     fn rubs(&self) -> bool {
-        WITH_EFFECTS && self.acting.rubs
+        S::MAY_ACT && self.acting.rubs
     }
 
     #[inline]
     fn has_ends(&self) -> bool {
-        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.has_ends() }
+        S::has_ends(&self.teeth.layout)
     }
 
     #[inline]
@@ -384,8 +411,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     }
 
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES] {
-        let pressed = self.acting.friction().depends_on_load();
-        by_body(pressed.then(|| self.mesh_surface_loads(at, &self.all_loads::<f64>(at))).as_ref())
+        let is_pressed = self.acting.friction().depends_on_load();
+        self.by_body(if is_pressed { self.surfaces_pressed(at) } else { None }.as_ref())
     }
 
     fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N] {

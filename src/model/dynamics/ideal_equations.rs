@@ -231,17 +231,17 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, LedgerRates> {
         let (acceleration, ledger_rates) = self.evaluate(at);
-        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
-        let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
+        let zero = [[0.0; MOST]; MOST];
+        let (mut by_position, mut by_rate, mut by_velocity) = (zero, zero, zero);
+        let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity: &mut by_velocity };
         let mut imposed = [[0.0; MOST]; 2];
         let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed);
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&self.body_motion(at), &mut out);
         }
         if self.rubs() {
-            self.friction_slopes(at, &self.surface_loads(at, 0.0), &mut j);
+            self.friction_slopes(at, &self.surface_loads(at, 0.0), j);
         }
-        let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
         let ideal = self.ideal;
         let follow = ideal.follow[0];

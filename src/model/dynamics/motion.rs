@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
-use super::{Acted, Equations, LARGEST, twists};
+use super::shape::{LARGEST, Shape};
+use super::{Acted, Equations};
+use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
-use crate::model::setup::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;
@@ -20,24 +21,7 @@ const SPEED_FLOOR: f64 = 1.0;
 /// Twist below which that of a half-shaft is resolved absolutely [rad].
 const TWIST_FLOOR: f64 = 1e-3;
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Accelerations; completes the ledger rates.
-    #[inline]
-    fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
-        let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
-        if WITH_EFFECTS {
-            self.act(at, &mut sum, &mut imposed, ledger_rates, None);
-        } else {
-            ledger_rates.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
-        }
-        // in small sizes a copy that stays in registers
-        let mut sum = if Self::EXACT { std::array::from_fn(|i| sum[i]) } else { sum };
-        self.finish(at, &mut sum, &imposed, ledger_rates);
-        sum
-    }
-}
-
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> for Equations<'_, N, G, WITH_EFFECTS> {
+impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     type Rates = LedgerRates;
 
     #[inline]
@@ -48,8 +32,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     /// Planets and their pins.
     #[inline]
     fn inner(&self) -> Range<usize> {
-        let (first, pins) = (self.planet(0), if self.has_pins() { self.groups() } else { 0 });
-        first..first + self.groups() + pins
+        self.planets_and_pins()
     }
 
     #[inline]
@@ -63,10 +46,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 rates[self.pin(g)] -= v[CARRIER];
             }
         }
-        twists::set(self.exact_ends(), v, &mut rates);
-        if !Self::EXACT && self.is_attached() {
-            self.teeth.layout.set_twist_rates(v, &mut rates);
-        }
+        S::set_twist_rates(&self.teeth.layout, v, &mut rates);
         rates
     }
 
@@ -77,10 +57,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
             if self.has_pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
-            twists::turn(self.exact_ends(), row);
         }
-        if !Self::EXACT && self.is_attached() {
-            m[..self.count()].iter_mut().for_each(|row| self.teeth.layout.turn_twist_rates(row));
+        if S::is_attached(&self.teeth.layout) {
+            m[..self.count()].iter_mut().for_each(|row| S::turn_twist_rates(&self.teeth.layout, row));
         }
     }
 
@@ -141,16 +120,16 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         let mut v = [1.0 / (carrier + spin); N];
         (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
         if self.has_pins() {
-            let per_length = per_approach / self.teeth.mesh.cone;
+            let per_length = per_approach / self.teeth.contact.mesh.whole.cone;
             for s in 0..2 {
                 q[CARRIER + 1 + s] = per_length;
-                v[CARRIER + 1 + s] = v[s] / self.teeth.mesh.cone;
+                v[CARRIER + 1 + s] = v[s] / self.teeth.contact.mesh.whole.cone;
             }
             for g in 0..self.groups() {
                 (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        for (i, to) in self.teeth.layout.attached().take(if self.is_attached() { N } else { 0 }) {
+        for (i, to) in self.teeth.layout.attached().take(if S::is_attached(&self.teeth.layout) { N } else { 0 }) {
             (q[i], v[i]) = (1.0 / (TWIST_FLOOR + at.q[i].abs()), v[to]);
         }
         Point { q, v }
@@ -158,7 +137,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
-        [self.kinetic_energy(at), if WITH_EFFECTS { self.stored_energy(at, true) } else { self.elastic_energy(at) }]
+        [self.kinetic_energy(at), self.stored_energy(at, true)]
     }
 
     #[inline]
@@ -168,17 +147,20 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         } else {
             self.linearise_and_store(at, lin)
         };
-        let bodies = if WITH_EFFECTS { self.stored_energy_of_bodies(at, true) } else { 0.0 };
-        [self.kinetic_energy(at), teeth + bodies]
+        [self.kinetic_energy(at), teeth + self.stored_energy_of_bodies(at, true)]
     }
 
     #[inline]
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
         // pairs that come and go abruptly bring energy that no force gave
-        if !self.teeth.mesh.engagement.corner_contact() {
+        if !self.teeth.contact.mesh.engagement.corner_contact() {
             return Imbalance::NONE;
         }
-        LedgerRates::imbalance::<WITH_EFFECTS>(energies, h, ledger_rates)
+        if S::MAY_ACT {
+            LedgerRates::imbalance::<true>(energies, h, ledger_rates)
+        } else {
+            LedgerRates::imbalance::<false>(energies, h, ledger_rates)
+        }
     }
 
     #[inline(never)]
@@ -187,7 +169,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
             let free = self.largest().under(&Inputs::ZERO, &InputDerivatives::ZERO);
             let rest = Point::of([&ends[1].q, &[0.0; N]]);
             let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
-            free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default(), None);
+            free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default());
             std::array::from_fn(|i| sum[i])
         };
         energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
@@ -197,9 +179,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         let mut part = 1.0f64;
         for g in 0..self.groups() {
             for s in 0..2 {
-                let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[0]);
-                let most = self.teeth.mesh.half_backlash()
-                    + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.mesh.approach(from));
+                let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[Q]);
+                let most = self.teeth.contact.mesh.half_backlash()
+                    + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.contact.mesh.approach(from));
                 if to.abs() > most {
                     part = part.min((most.copysign(to) - from) / (to - from));
                 }
@@ -210,22 +192,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
-        let mut first: Option<f64> = None;
-        for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
-            let opening_by_others = self.bodies_of_gears().map(|bodies| self.opening_by_others(bodies, at, g));
-            for s in 0..2 {
-                let found = self.mesh_kink(at, h, (g, s), opening_by_others.as_ref());
-                first = match (first, found) {
-                    (Some(a), Some(b)) => Some(a.min(b)),
-                    (a, b) => a.or(b),
-                };
-            }
-        }
-        first
+        self.first_kink(at, h)
     }
 
     #[inline]
     fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if WITH_EFFECTS { self.friction_crossing(start, end) } else { None }
+        if S::MAY_ACT { self.friction_crossing(start, end) } else { None }
     }
 }

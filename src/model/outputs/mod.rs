@@ -2,8 +2,10 @@
 
 pub mod forces;
 pub mod ledger_readings;
+mod loads;
 pub mod motion;
 pub mod pairs;
+pub mod pv;
 pub mod resultants;
 
 pub use ledger_readings::LedgerReadings;

@@ -10,7 +10,7 @@
 //! between the loaded sections, and extrapolated to toe and heel down to zero.
 
 use crate::contact::shared::MOST_PAIRS;
-use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad};
+use crate::contact::{Flank, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
 use crate::model::dynamics::{LARGEST, Largest};
@@ -149,9 +149,9 @@ pub fn pair_lines(
     at: &Point<LARGEST>,
     [g, s]: [usize; 2],
 ) -> PairLines {
-    let mesh = &equations.teeth.mesh;
+    let mesh = &equations.teeth.contact.mesh;
     let mut lines = PairLines::default();
-    if matches!(mesh.law, Law::Lumped(_)) {
+    if mesh.is_single {
         return lines;
     }
     let mut gathered: [Option<Gathered>; MOST_PAIRS] = [None; MOST_PAIRS];
@@ -171,7 +171,7 @@ pub fn pair_lines(
         let force = |own: &Option<Gathered>| own.as_ref().map_or(0.0, |own| own.force);
         force(b).total_cmp(&force(a))
     });
-    let grows = mesh.law.is_over_face();
+    let grows = mesh.spring.is_over_face();
     let mut count = 0;
     for (line, own) in lines.iter_mut().zip(gathered.iter().flatten()) {
         *line = own.line(contact, grows);

@@ -1,12 +1,13 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
 use super::forces::{Extent, Forces, MeshForces, bias};
+use super::pv::each_pv;
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State, each_pv};
+use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State};
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, Plan};
@@ -117,10 +118,16 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
     let mut flash = 0.0f64;
     for g in 0..plan.groups().len() {
+        if let Some(strength) = model.strength() {
+            equations.pair_loads(pair, point, g, |s, load| {
+                strength.add_load(&mut stress[g][s], load);
+                strength.add_pressure(&mut stress[g][s], load);
+            });
+        }
         for s in 0..2 {
             let mesh = &mut groups[g][s];
             mesh.transmission_error =
-                teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
+                teeth.contact.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             let add = &mut |load: &ToothLoad| mesh.add(load);
             if has_parts {
                 equations.tooth_loads(pair, point, g, s, add);
@@ -128,10 +135,6 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
             }
             if let Some(strength) = model.strength() {
-                equations.pair_loads(pair, point, g, s, |load| {
-                    strength.add_load(&mut stress[g][s], load);
-                    strength.add_pressure(&mut stress[g][s], load);
-                });
                 // damping is spread over the face in another way than the elastic load
                 equations.loads_over_the_face(point, g, s, |load, line_load| {
                     if let Some(line_load) = line_load {
@@ -141,9 +144,9 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                 if let Some(law) = equations.flank_friction() {
                     // one slice stands for its pair, whose whole face is searched
                     let mut last = None;
-                    equations.detail(point, g, s, |slice| {
+                    equations.slices(point, g, s, |slice| {
                         if last.replace(slice.name) != Some(slice.name) {
-                            flash = flash.max(strength.flash(&teeth.effect_terms.detailed, &law, slice));
+                            flash = flash.max(strength.flash(&teeth.contact.detailed, &law, slice));
                         }
                     });
                 }

@@ -4,7 +4,7 @@ use super::hints;
 use crate::integrate::{Point, SecondOrder, Statistics};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::rattle::Rattle;
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Acted, State};
 use crate::model::effect_kinds::Mode;
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout};

@@ -4,7 +4,7 @@ use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
 use crate::model::dynamics::event::Happening;
-use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Acted, State};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};

@@ -54,7 +54,7 @@ impl ExcessiveDeflection {
     /// Which tooth bends how far, and what helps.
     pub fn message(&self, model: &Model) -> String {
         let (limit, cone) = match &model.gears {
-            Gears::Teeth(teeth) => (teeth.deflection_limit, teeth.mesh.cone),
+            Gears::Teeth(teeth) => (teeth.deflection_limit, teeth.contact.mesh.whole.cone),
             Gears::Ideal(_) => (0.0, model.pair.mean_cone),
         };
         format!(

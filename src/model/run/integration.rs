@@ -4,22 +4,16 @@ use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
-use crate::contact::Law;
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LEAST};
+use crate::model::dynamics::shape::{Any, DIFFERENT, LEAST, Plain, Shape, WITH_ENDS, WithEffects, WithEnds};
 use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State, Watched};
-use crate::model::scene::{FRICTION_BODIES, Inputs, MAX_GROUPS, Method};
+use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
-/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and the least.
-const SOLID_PER_FACET: usize = 2;
-const LEAST_SOLID: usize = 40;
-/// What the meshes of a planet on elastic gear bodies cost at most, where a dozen pairs move each other.
-const ON_BODIES: usize = 16;
 /// What effects that act on bodies add: drag, shafts, dry friction.
 const EFFECTS: usize = 3;
 /// Entries of the matrices of plain teeth with planets that are alike.
@@ -39,17 +33,8 @@ pub const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
-    let work = match &teeth.mesh.law {
-        // few facets have many neighbours, many facets are many
-        Law::Solid(solid) => {
-            solid.section_count() * (SOLID_PER_FACET * model.parameters.solid.facets as usize).max(LEAST_SOLID)
-        }
-        _ => {
-            let in_detail = if teeth.effect_terms.in_detail { teeth.effect_terms.detailed.face.points() } else { 0 };
-            let on_bodies = if teeth.shared.is_some() { ON_BODIES } else { 0 };
-            ((in_detail + on_bodies) * teeth.layout.groups).max(1)
-        }
-    };
+    let groups = if teeth.contact.solid.is_some() { 1 } else { teeth.layout.groups };
+    let work = (teeth.contact.work(model.parameters.solid.facets as usize) * groups).max(1);
     let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
     let effects = if has_effects { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries
@@ -85,7 +70,7 @@ pub fn integrate(
     match &model.gears {
         Gears::Ideal(ideal) => {
             let equations: &mut dyn LedgerEquations<MOST> = &mut IdealEquations::new(ideal, integration.inputs, state);
-            integrate_equations::<MOST, true, _>(equations, model, state, integration, budget)
+            integrate_equations::<MOST, Any, _>(equations, model, state, integration, budget)
         }
         Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
@@ -99,62 +84,47 @@ pub fn integrate_teeth(
     integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
+    let (groups, plain) = (teeth.layout.groups, teeth.layout.plain());
     let method = model.parameters.solver.method;
-    if !FULL {
-        return match (teeth.layout.groups, teeth.layout.plain()) {
-            (1, Some(false)) => whole::<LEAST, 1, true>(teeth, model, state, integration, budget),
-            (1, Some(true)) => whole::<EXACT, 1, true>(teeth, model, state, integration, budget),
-            _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget),
-        };
-    }
-    if method == Method::Adaptive && !teeth.effect_terms.body_effects.act_in(state) {
-        match teeth.layout.groups {
-            1 => return whole::<LEAST, 1, false>(teeth, model, state, integration, budget),
-            2 => return whole::<DIFFERENT, 2, false>(teeth, model, state, integration, budget),
+    let is_default = method == Method::Adaptive;
+    let arguments = (teeth, model, state, integration, budget);
+    if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
+        match groups {
+            1 => return whole::<LEAST, Plain<1>>(arguments),
+            2 => return whole::<DIFFERENT, Plain<2>>(arguments),
             _ => {}
         }
     }
-    let is_default = method == Method::Adaptive;
-    match (teeth.layout.groups, teeth.layout.plain()) {
-        (1, Some(false)) if is_default || method == Method::FixedStep => {
-            whole::<LEAST, 1, true>(teeth, model, state, integration, budget)
-        }
-        (2, Some(false)) if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, integration, budget),
-        (1, Some(true)) if is_default => whole::<EXACT, 1, true>(teeth, model, state, integration, budget),
-        _ if teeth.layout.count() <= MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, integration, budget),
-        _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget),
+    match (groups, plain) {
+        (1, Some(false)) if is_default || method == Method::FixedStep => whole::<LEAST, WithEffects<1>>(arguments),
+        (2, Some(false)) if FULL && is_default => whole::<DIFFERENT, WithEffects<2>>(arguments),
+        (1, Some(true)) if is_default || !FULL => whole::<WITH_ENDS, WithEnds>(arguments),
+        _ if FULL && teeth.layout.count() <= MOST => by_table::<MOST>(arguments),
+        _ => by_table::<LARGEST>(arguments),
     }
 }
 
-/// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each size.
+/// What to integrate with which equations.
+type Arguments<'a, 'b> = (&'a Teeth, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
+
+/// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each shape.
 #[inline(never)]
-fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
-    teeth: &Teeth,
-    model: &Model,
-    state: &mut State,
-    integration: Integration,
-    budget: &mut u64,
+fn whole<const N: usize, S: Shape<N>>(
+    (teeth, model, state, integration, budget): Arguments,
 ) -> Result<(), StepFailure> {
-    let equations = &mut Equations::<N, G, WITH_EFFECTS>::new(teeth, integration.inputs, state);
-    integrate_equations::<N, WITH_EFFECTS, _>(equations, model, state, integration, budget)
+    let equations = &mut Equations::<S, N>::new(teeth, integration.inputs, state);
+    integrate_equations::<N, S, _>(equations, model, state, integration, budget)
 }
 
 /// All other teeth and methods: the integration calls their forces through a table of functions.
 #[inline(never)]
-fn by_table<const N: usize, const G: usize>(
-    teeth: &Teeth,
-    model: &Model,
-    state: &mut State,
-    integration: Integration,
-    budget: &mut u64,
-) -> Result<(), StepFailure> {
-    let equations: &mut dyn LedgerEquations<N> = &mut Equations::<N, G, true>::new(teeth, integration.inputs, state);
-    integrate_equations::<N, true, _>(equations, model, state, integration, budget)
+fn by_table<const N: usize>((teeth, model, state, integration, budget): Arguments) -> Result<(), StepFailure> {
+    let equations: &mut dyn LedgerEquations<N> = &mut Equations::<Any, N>::new(teeth, integration.inputs, state);
+    integrate_equations::<N, Any, _>(equations, model, state, integration, budget)
 }
 
-/// Integrates with the method of the scene. In small sizes only the default method is compiled, and fixed steps in the least one
-/// of them: [`integrate_teeth`] chooses the size accordingly.
-fn integrate_equations<const N: usize, const WITH_EFFECTS: bool, E: LedgerEquations<N> + ?Sized>(
+/// Integrates with the method of the scene, as far as it is compiled for the shape: [`integrate_teeth`] chooses the shape accordingly.
+fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
     state: &mut State,
@@ -200,12 +170,12 @@ fn integrate_equations<const N: usize, const WITH_EFFECTS: bool, E: LedgerEquati
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
-            Method::FixedStep if WITH_EFFECTS && (N == LEAST || N > EXACT || !FULL) => {
+            Method::FixedStep if S::HAS_FIXED_STEPS => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
                 let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            Method::Radau if FULL && N > EXACT => {
+            Method::Radau if S::HAS_RADAU => {
                 integrate::proceed(&Radau, system, &mut course, clock.now, context, |step, motion| {
                     observe(step, Some(motion))
                 })

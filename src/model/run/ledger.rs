@@ -8,6 +8,7 @@ use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
+use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::torque_means::TorqueMeans;
 use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, Watched};
 use crate::model::effect_kinds::BUILT;
@@ -42,9 +43,7 @@ pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> +
     fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
 }
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N>
-    for Equations<'_, N, G, WITH_EFFECTS>
-{
+impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
     #[inline]
     fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection> {
         let ((approach, g, side), touching) = self.deepest_of_touching(at);
@@ -56,11 +55,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> LedgerEquations<N
 
     #[inline]
     fn record(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
-        add_to_ledger(step, sums.work, sums.heat, WITH_EFFECTS);
+        add_to_ledger(step, sums.work, sums.heat, S::MAY_ACT);
         if self.teeth.records_more {
             self.record_more(model, (step, motion), sums);
         }
-        if WITH_EFFECTS && self.has_ends() {
+        if self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             Cycle { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
@@ -92,12 +91,12 @@ impl LedgerEquations<MOST> for IdealEquations<'_> {
     }
 }
 
-impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
+impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Records what few scenes ask for: jumps of elastic energy, temperatures, damage, histories. Nothing of it acts on a force, so
     /// that plain equations serve scenes with these effects alone.
     #[inline(never)]
     fn record_more(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
-        if !self.teeth.mesh.engagement.corner_contact() {
+        if !self.teeth.contact.mesh.engagement.corner_contact() {
             sums.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
         if BUILT {
@@ -124,7 +123,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 let change = [end[0] - start[0], end[1] - start[1]];
                 // in a very short step JUMP_HALF_WIDTH of the step would be lost in rounding
                 let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
-                self.teeth.mesh.engagement.jumps(start, change, |t| {
+                self.teeth.contact.mesh.engagement.jumps(start, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);
                     energy += self.members(g) * self.energy_brought([&before, &after], g, s);
                 });

@@ -2,95 +2,35 @@
 
 use std::sync::Arc;
 
-use super::events::{apply_changes, break_tooth};
+use crate::FULL;
+
 use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
-use super::{StepFailure, imposed, start, start_report, timeline};
+use super::{StepFailure, timeline};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::event::{Events, Pause, Way};
-use crate::model::dynamics::{Accepted, Largest, State, Watched};
+use crate::model::dynamics::{Accepted, State, Watched};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
-use crate::model::scene::{InputDerivatives, Inputs, Method, Start};
-use crate::model::setup::{HEATS, Parameters};
+use crate::model::scene::{InputDerivatives, Inputs, Method};
+use crate::model::setup::Parameters;
 use crate::model::thermal::Thermal;
 use crate::problem::Problem;
-
-/// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
-const FIRST_STEP: f64 = 1e-6;
 
 /// A simulation; cloning it takes a snapshot (constants are shared, the state is copied).
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    pub(super) model: Arc<Model>,
-    pub(super) state: State,
+    pub(in crate::model) model: Arc<Model>,
+    pub(in crate::model) state: State,
     /// What steps are watched for.
-    pub(super) watched: Watched,
-    pub(super) inputs: Inputs,
-    pub(super) forces: Option<Forces>,
+    pub(in crate::model) watched: Watched,
+    pub(in crate::model) inputs: Inputs,
+    pub(in crate::model) forces: Option<Forces>,
     /// Where the last step ended that a solver of the host's completed.
-    pub(super) accepted: Option<Accepted>,
+    pub(in crate::model) accepted: Option<Accepted>,
 }
 
 impl Simulation {
-    /// Starts a simulation at `time` [s]; values must be within the ranges of the interface.
-    pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
-        Self::start_with(parameters, inputs, time, &Given::default())
-    }
-
-    /// The same with what is `given` besides.
-    pub fn start_with(
-        parameters: &Parameters,
-        inputs: &Inputs,
-        time: f64,
-        given: &Given,
-    ) -> Result<Self, Vec<Problem>> {
-        let mut simulation =
-            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
-        let (model, state) = (&simulation.model, &mut simulation.state);
-        let oil = parameters.oil.temperature;
-        state.thermal = match &model.thermal {
-            Some(network) => {
-                let sump = network.around.changed(inputs.changes_outside()).sump;
-                Thermal::at(parameters.specs.warm_up.temperatures_at_start(sump.unwrap_or(oil)))
-            }
-            None => Thermal::uniform(oil),
-        };
-        start::set_speeds(model, inputs, state);
-        // a tooth that is broken from the start on
-        break_tooth(model, inputs, state);
-        let mut preload = None;
-        if parameters.scene.start.is_in_equilibrium() {
-            match &model.gears {
-                Gears::Ideal(ideal) => start::wind(model, &ideal.body_effects.half_shafts, inputs, state),
-                Gears::Teeth(teeth) => {
-                    let equations = Largest::new(teeth, inputs, state);
-                    let pressed = start::preload(&equations, model, inputs, state);
-                    preload = Some(pressed.map_err(|problem| vec![problem])?);
-                }
-            }
-        }
-        imposed::jump(&simulation.model, inputs, &mut simulation.state);
-        let events = simulation.state.events;
-        apply_changes(&simulation.model, inputs, &mut simulation.state);
-        // friction that holds from the start on causes no event
-        simulation.state.events = events;
-        let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
-        if let Some(preload) = &preload {
-            let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
-            in_equilibrium = outcome.in_equilibrium;
-            Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
-        }
-        if parameters.scene.start == Start::SteadyHeat {
-            simulation.begin_with_steady_heat().map_err(|problem| vec![problem])?;
-        }
-        simulation.state.work = 0.0;
-        simulation.state.heat = [0.0; HEATS];
-        simulation.state.energy_at_start = simulation.energy(&simulation.state);
-        simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
-        Ok(simulation)
-    }
-
     /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet and no history.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
@@ -151,6 +91,11 @@ impl Simulation {
     /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.advance_by(until, Way::default())
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.state.time()
     }
 
     /// The last events.
@@ -243,6 +188,11 @@ impl Simulation {
         let until = time.next_up().max(time + 2.0 * RESOLUTION);
         self.advance_by(until, Way { is_part: true, ..Way::default() })?;
         Ok(end(&self.state))
+    }
+
+    /// True if a solver of the host integrates the states.
+    pub fn is_model_exchange(&self) -> bool {
+        FULL && self.accepted.is_some()
     }
 
     /// Where the host's solver last completed a step, for snapshots.

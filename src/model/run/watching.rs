@@ -44,9 +44,7 @@ pub fn count_fatigue(
         (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
         sample.mesh[..groups].fill(Default::default());
         for g in 0..groups {
-            for s in 0..2 {
-                equations.pair_loads(&model.pair, &at, g, s, |load| strength.add_load(&mut sample.mesh[g][s], load));
-            }
+            equations.pair_loads(&model.pair, &at, g, |s, load| strength.add_load(&mut sample.mesh[g][s], load));
         }
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
@@ -71,7 +69,7 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history
     let pitch = model.periods[LEFT];
     let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
     let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));
-    let mesh = &equations.teeth.mesh;
+    let mesh = &equations.teeth.contact.mesh;
     let error = |g: usize, s: usize| {
         curve(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
     };

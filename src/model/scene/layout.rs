@@ -1,6 +1,8 @@
 //! Degrees of freedom: how many there can be, and the index of each.
-
-use super::attached::{self, ATTACHED, ENDS};
+//!
+//! Some bodies turn against another one. The position of such an attached body is the twist, the angle of the other body less its own;
+//! its velocity is absolute, and so not the rate of its position. A new one is a row of [`ATTACHED`]; an effect asks for it by its
+//! moment of inertia (`Requests`).
 
 /// Largest number of planets.
 pub const MAX_PLANETS: usize = 4;
@@ -8,7 +10,7 @@ pub const MAX_PLANETS: usize = 4;
 pub const MAX_GROUPS: usize = MAX_PLANETS;
 /// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, and
 /// what is attached to these.
-pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + attached::COUNT;
+pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + ATTACHED_COUNT;
 /// Number of bodies with dry friction: side gears, groups of planets, wheels.
 pub const FRICTION_BODIES: usize = FRICTION_WHEELS + 2;
 /// Index of the first group of planets among them.
@@ -23,6 +25,42 @@ pub const CARRIER: usize = 2;
 /// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
+/// A body that turns against another one.
+pub struct Attached {
+    /// The degree of freedom it turns against.
+    pub to: usize,
+    /// What it is, in the interface.
+    pub what: &'static str,
+    /// What its states belong to, by name.
+    pub of: &'static str,
+    /// Names of its position and its velocity there.
+    pub states: [&'static str; 2],
+}
+
+/// Number of ends of half-shafts, the first among these bodies.
+pub const ENDS: usize = 2;
+
+/// All attached bodies, in the order of their degrees of freedom.
+pub const ATTACHED: [Attached; ENDS] = [
+    Attached {
+        to: LEFT,
+        what: "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. \
+               Its position is the twist, side gear ahead",
+        of: "left",
+        states: ["shaft_twist", "end_speed"],
+    },
+    Attached {
+        to: LEFT + 1,
+        what: "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. \
+               Its position is the twist, side gear ahead",
+        of: "right",
+        states: ["shaft_twist", "end_speed"],
+    },
+];
+
+/// Number of attached bodies.
+pub const ATTACHED_COUNT: usize = ATTACHED.len();
+
 /// Index of each degree of freedom: side gears, carrier, [axial seats of the side gears], planets, [their pins], [ends of the
 /// half-shafts], [what else is attached].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +72,7 @@ pub struct Layout {
     /// Whether pins and seats move.
     pub has_pins: bool,
     /// Which bodies are attached, of `ATTACHED`.
-    pub attached: [bool; attached::COUNT],
+    pub attached: [bool; ATTACHED_COUNT],
 }
 
 impl Layout {
@@ -71,7 +109,7 @@ impl Layout {
     }
     /// Indices of the attached bodies and of those that they turn against.
     pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..attached::COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
+        (0..ATTACHED_COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
     }
     /// Whether any is attached.
     #[inline]
@@ -96,7 +134,7 @@ impl Layout {
     /// Degrees of freedom.
     #[inline]
     pub fn count(&self) -> usize {
-        self.body(attached::COUNT)
+        self.body(ATTACHED_COUNT)
     }
 }
 

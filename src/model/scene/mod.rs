@@ -1,6 +1,5 @@
 //! What a scene is made of before any effect: drives, inputs, material, integration, and the plan of its bodies.
 
-pub mod attached;
 mod drives;
 mod input_derivatives;
 mod inputs;
@@ -14,7 +13,8 @@ pub use drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start}
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
 pub use layout::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET,
+    ATTACHED, ATTACHED_COUNT, CARRIER, ENDS, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF,
+    MAX_GROUPS, MAX_PLANETS, PLANET,
 };
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};

@@ -3,9 +3,9 @@
 //! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
 //! as there are.
 
-use super::attached::{self, ENDS};
 use super::{
-    CARRIER, CarrierDrive, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin, Scene, SideDrive,
+    ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin,
+    Scene, SideDrive,
 };
 use crate::geometry::{GearSpec, Pair, assembly};
 use crate::problem::Problem;
@@ -39,9 +39,9 @@ pub struct Plan {
     /// Half-shafts that twist, left and right.
     pub shafts: [bool; 2],
     /// Which bodies are attached,
-    pub attached: [bool; attached::COUNT],
+    pub attached: [bool; ATTACHED_COUNT],
     /// and their moments of inertia, those of ends of half-shafts aside [kg·m²].
-    pub attached_inertia: [f64; attached::COUNT],
+    pub attached_inertia: [f64; ATTACHED_COUNT],
     /// Pins and seats give way.
     pub has_pins: bool,
     /// Representation of tooth contact.
@@ -58,7 +58,7 @@ pub struct Requests {
     /// Half-shafts that twist even if they are driven by torque, left and right.
     pub shafts: [bool; 2],
     /// Moments of inertia of attached bodies, beyond the ends of half-shafts; 0 for none [kg·m²].
-    pub attached: [f64; attached::COUNT],
+    pub attached: [f64; ATTACHED_COUNT],
 }
 
 impl Plan {

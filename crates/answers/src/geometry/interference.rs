@@ -13,8 +13,8 @@ use bevel_differential::geometry::solid::interference::{Approach, FACETS, Interf
 use bevel_differential::geometry::{GearSpec, Pair};
 
 use super::design::Design;
-use super::json::Ordered;
 use crate::progress::Progress;
+use crate::text::ordered::Ordered;
 use crate::text::table::wrapped;
 
 const MM: f64 = 1e3;

@@ -4,7 +4,6 @@ use anyhow::Result;
 use bevel_differential::model::Inputs;
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable};
-use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::design::{Design, parameters};
@@ -12,29 +11,7 @@ use super::dimensions::{Dimension, DimensionGroup, QuantityKind, of_gears, of_pa
 use super::interference::InterferenceCheck;
 use super::tredgold::{TredgoldComparison, comparisons};
 use crate::scene::set::Setting;
-
-/// JSON whose objects keep the order in which their entries are given, which a map of the library would lose.
-#[derive(Serialize)]
-#[serde(untagged)]
-pub enum Ordered {
-    /// A value without objects.
-    Value(Value),
-    /// A list.
-    List(Vec<Ordered>),
-    /// An object.
-    #[serde(serialize_with = "entries")]
-    Object(Vec<(&'static str, Ordered)>),
-}
-
-fn entries<S: Serializer>(entries: &[(&'static str, Ordered)], to: S) -> Result<S::Ok, S::Error> {
-    to.collect_map(entries.iter().map(|(key, value)| (key, value)))
-}
-
-impl<T: Into<Value>> From<T> for Ordered {
-    fn from(value: T) -> Self {
-        Self::Value(value.into())
-    }
-}
+use crate::text::ordered::Ordered;
 
 /// All of it, with what the check of interference found if it was made.
 pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String> {

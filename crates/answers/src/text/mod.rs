@@ -1,9 +1,10 @@
-//! Text that answers are given in: tables, numbers, CSV, XML, and files of them; and text from users: CSV files, names with slips.
+//! Text that answers are given in: tables, numbers, CSV, XML, JSON, and files of them; and text from users: CSV files, names with slips.
 
 pub mod csv_file;
 pub mod csv_input;
 pub mod near;
 pub mod numbers;
+pub mod ordered;
 pub mod table;
 pub mod whole_file;
 pub mod xml;

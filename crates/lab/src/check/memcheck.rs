@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::check::fuzz;
 use answers::text::table::Table;
-use fmu_build::fmu::own;
+use fmu_build::fmu::libraries::own;
 use fmu_build::tools::paths;
 use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;

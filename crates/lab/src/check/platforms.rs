@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use anyhow::{Result, bail};
 use clap::ArgMatches;
 
+use fmu_build::fmu::archive::{self, Packing};
 use fmu_build::fmu::libraries::{self, Libraries, Library};
-use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, ARM, WINDOWS};
 use fmu_build::tools::progress::{self, Progress};
 use fmu_build::tools::{paths, python::Environment};
@@ -42,7 +42,7 @@ pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsStri
     arguments.extend(tools(&zig));
     for (index, (name, library)) in named.into_iter().enumerate() {
         let fmu = folder.join(format!("{index}.fmu"));
-        package::write_archive(package::Version::Two, &[library], None, Packing::Quick, &fmu)?;
+        archive::write_archive(archive::Version::Two, &[library], None, Packing::Quick, &fmu)?;
         arguments.push(pair(&name, fmu));
     }
     Ok(arguments)

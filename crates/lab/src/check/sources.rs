@@ -5,7 +5,8 @@ use std::ffi::OsString;
 use anyhow::{Result, anyhow};
 use clap::ArgMatches;
 
-use fmu_build::fmu::package::{self, Packing};
+use fmu_build::fmu::archive::Packing;
+use fmu_build::fmu::package;
 use fmu_build::fmu::sources::{self, Tools};
 use fmu_build::fmu::toolchains;
 use fmu_build::tools::paths;

@@ -10,8 +10,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::{File, Tools};
+use crate::fmu::archive::Packing;
 use crate::fmu::libraries::{CRATES, Library};
-use crate::fmu::package::Packing;
 use crate::fmu::{describe, documentation, licences};
 use crate::tools::files::write_whole;
 

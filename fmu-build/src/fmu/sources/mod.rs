@@ -13,7 +13,7 @@ use anyhow::{Context, Result};
 pub use archive::package;
 pub use translate::File;
 
-use crate::fmu::package::Packing;
+use crate::fmu::archive::Packing;
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::fmu::wasm::WasmCrate;
 use crate::tools::lock::Lock;

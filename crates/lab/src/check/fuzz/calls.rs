@@ -6,91 +6,17 @@ use std::ptr;
 
 use bevel_differential::instance::{ComponentPointer, Kind, Status, Text};
 use bevel_differential::model::STATES;
-use bevel_differential::variables::table;
 use fastrand::Rng;
 
 use super::arguments::{CallResult, Flaws, VariableKind, references, row};
-use super::instance::FuzzedInstance;
-use super::random::{integer_for, real, value_for};
-use super::states::HeldStates;
-use super::version::Version;
+use super::random::{integer_for, real};
+use super::site::{ROOM, Site};
 use crate::tools::random::Draws;
 
-/// Room for arrays of states and event indicators, and the largest count announced for it.
-const ROOM: usize = 64;
 /// Sizes of communication steps that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 /// Largest deviation of the time after a step from its end, relative to the time or to 1 s.
 const ROUNDING: f64 = 1e-12;
-
-/// A call that is to be made.
-pub struct Site<'a> {
-    /// Version of FMI of the function, which may be another one than that of the instance.
-    pub version: &'static Version,
-    /// The component, or a pointer that must be refused.
-    pub c: ComponentPointer,
-    /// The generator.
-    pub r: &'a mut Rng,
-    /// Faults of the arguments so far.
-    pub flaws: Flaws,
-    /// The instance.
-    pub instance: &'a mut FuzzedInstance,
-    /// States of all instances.
-    pub held: &'a mut HeldStates,
-}
-
-impl Site<'_> {
-    /// `pointer`, or one that must be refused if it is `needed`.
-    pub fn read<T>(&mut self, pointer: *const T, needed: bool) -> *const T {
-        self.flaws.pointer(self.r, pointer, needed)
-    }
-
-    /// Place to write to, or one that must be refused if it is `needed`.
-    pub fn place<T>(&mut self, pointer: *mut T, needed: bool) -> *mut T {
-        self.flaws.place(self.r, pointer, needed)
-    }
-
-    /// Counts of references and values, or such as must be refused.
-    fn counts(&mut self, n: usize) -> [usize; 2] {
-        if self.version.number == 2 { [self.flaws.count(self.r, n); 2] } else { self.flaws.counts(self.r, n) }
-    }
-
-    /// Result with a status.
-    pub fn result(&self, status: Status) -> CallResult {
-        CallResult::of(status, &self.flaws)
-    }
-
-    /// A step of Euler's from where the instance is, now and then with something wild in it.
-    fn next_states(&mut self) -> [f64; ROOM] {
-        let (mut x, mut rates) = ([0.0; ROOM], [0.0; STATES]);
-        let version = self.instance.version;
-        // SAFETY: a live component and places for all states
-        unsafe {
-            (version.get_states)(self.instance.component, x.as_mut_ptr(), STATES);
-            (version.get_rates)(self.instance.component, rates.as_mut_ptr(), STATES);
-        }
-        self.instance.take_log();
-        let h = self.r.pick(&[0.0, 1e-7, 1e-6]);
-        x.iter_mut().zip(rates).for_each(|(x, rate)| *x += h * rate);
-        if self.r.chance(8) {
-            x[self.r.below(STATES)] = real(self.r);
-        }
-        x
-    }
-
-    /// Values for `references`, for states those of a next step.
-    fn reals(&mut self, references: &[u32], wanted: VariableKind) -> Vec<f64> {
-        let share = |r: &mut Rng| if r.chance(2) { 1.0 } else { 0.9 };
-        let drawn = |&v: &u32| row(v).map_or(0.0, |row| value_for(self.r, row)) * share(self.r);
-        let mut values: Vec<f64> = references.iter().map(drawn).collect();
-        if wanted == VariableKind::State {
-            let x = self.next_states();
-            let states = references.iter().map(|&v| table().state(v));
-            values.iter_mut().zip(states).for_each(|(value, k)| *value = k.map_or(*value, |k| x[k]));
-        }
-        values
-    }
-}
 
 /// A value of a variable.
 pub trait Value: Copy + PartialEq {
@@ -143,7 +69,7 @@ pub fn plain(s: &mut Site, function: unsafe extern "C" fn(ComponentPointer) -> S
 
 /// A reset, which forgets what was announced.
 pub fn reset(s: &mut Site) -> CallResult {
-    let status = unsafe { (s.version.reset)(s.c) };
+    let status = unsafe { (s.interface.reset)(s.c) };
     s.instance.has_announced &= status != Status::Ok;
     s.result(status)
 }
@@ -174,8 +100,8 @@ pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> Cal
 /// Frees what is no instance: nothing must happen. The round makes and frees instances.
 pub fn free(s: &Site) -> CallResult {
     unsafe {
-        (s.version.free)(ptr::null_mut());
-        (s.version.free)(s.instance.component.wrapping_byte_add(1));
+        (s.interface.free)(ptr::null_mut());
+        (s.interface.free)(s.instance.component.wrapping_byte_add(1));
     }
     s.result(Status::Ok)
 }

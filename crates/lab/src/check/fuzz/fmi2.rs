@@ -10,7 +10,9 @@ use bevel_differential::variables::guid;
 
 use super::arguments::{CallResult, VariableKind as V};
 use super::calls::*;
-use super::instance::{Host, Making, Recorder};
+use super::host::{Host, Making, Recorder};
+use super::interface::Interface;
+use super::site::Site;
 use super::states;
 use super::version::{EXCHANGE, Function, STEPS, Version, functions};
 use crate::tools::random::Draws;
@@ -19,7 +21,6 @@ use crate::tools::random::Draws;
 
 /// FMI 2.0.
 pub static VERSION: Version = Version {
-    number: 2,
     functions: functions! {
         fmi2GetTypesPlatform 1 None, |s| text(s, fmi2GetTypesPlatform);
         fmi2GetVersion 1 None, |s| text(s, fmi2GetVersion);
@@ -87,37 +88,40 @@ pub static VERSION: Version = Version {
             s.result(status).unless(text.is_null(), "NULL")
         };
     },
-    make,
-    free: |c| unsafe { fmi2FreeInstance(c) },
-    reset: |c| unsafe { fmi2Reset(c) },
-    log_all: |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) },
-    initialise: |c| unsafe {
-        fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0);
-        [fmi2EnterInitializationMode(c), fmi2ExitInitializationMode(c)]
-    },
-    run: |c, kind| {
-        if kind == Kind::ModelExchange {
-            unsafe {
-                fmi2NewDiscreteStates(c, &mut EventInfo::default());
-                fmi2EnterContinuousTimeMode(c);
+    interface: Interface {
+        number: 2,
+        make,
+        free: |c| unsafe { fmi2FreeInstance(c) },
+        reset: |c| unsafe { fmi2Reset(c) },
+        log_all: |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) },
+        initialise: |c| unsafe {
+            fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0);
+            [fmi2EnterInitializationMode(c), fmi2ExitInitializationMode(c)]
+        },
+        run: |c, kind| {
+            if kind == Kind::ModelExchange {
+                unsafe {
+                    fmi2NewDiscreteStates(c, &mut EventInfo::default());
+                    fmi2EnterContinuousTimeMode(c);
+                }
             }
-        }
+        },
+        time: |c, now| unsafe { fmi2GetRealStatus(c, LAST_SUCCESSFUL_TIME, now) },
+        step: |c, point, h| unsafe { fmi2DoStep(c, point, h, 1) },
+        set_real: |c, v, x| unsafe { fmi2SetReal(c, &v, 1, &x) },
+        set_integer: |c, v, x| unsafe { fmi2SetInteger(c, &v, 1, &x) },
+        set_boolean: |c, v, x| unsafe { fmi2SetBoolean(c, &v, 1, &i32::from(x)) },
+        get_reals: |c, v, n, x| unsafe { fmi2GetReal(c, v, n, x) },
+        get_states: fmi2GetContinuousStates,
+        get_rates: fmi2GetDerivatives,
+        get_indicators: fmi2GetEventIndicators,
+        get_state: |c, state| unsafe { fmi2GetFMUstate(c, state) },
+        set_state: |c, state| unsafe { fmi2SetFMUstate(c, state) },
+        free_state: |c, state| unsafe { fmi2FreeFMUstate(c, state) },
+        state_size: |c, state, size| unsafe { fmi2SerializedFMUstateSize(c, state, size) },
+        serialize: |c, state, bytes, size| unsafe { fmi2SerializeFMUstate(c, state, bytes.cast(), size) },
+        deserialize: |c, bytes, size, state| unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), size, state) },
     },
-    time: |c, now| unsafe { fmi2GetRealStatus(c, LAST_SUCCESSFUL_TIME, now) },
-    step: |c, point, h| unsafe { fmi2DoStep(c, point, h, 1) },
-    set_real: |c, v, x| unsafe { fmi2SetReal(c, &v, 1, &x) },
-    set_integer: |c, v, x| unsafe { fmi2SetInteger(c, &v, 1, &x) },
-    set_boolean: |c, v, x| unsafe { fmi2SetBoolean(c, &v, 1, &i32::from(x)) },
-    get_reals: |c, v, n, x| unsafe { fmi2GetReal(c, v, n, x) },
-    get_states: fmi2GetContinuousStates,
-    get_rates: fmi2GetDerivatives,
-    get_indicators: fmi2GetEventIndicators,
-    get_state: |c, state| unsafe { fmi2GetFMUstate(c, state) },
-    set_state: |c, state| unsafe { fmi2SetFMUstate(c, state) },
-    free_state: |c, state| unsafe { fmi2FreeFMUstate(c, state) },
-    state_size: |c, state, size| unsafe { fmi2SerializedFMUstateSize(c, state, size) },
-    serialize: |c, state, bytes, size| unsafe { fmi2SerializeFMUstate(c, state, bytes.cast(), size) },
-    deserialize: |c, bytes, size, state| unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), size, state) },
 };
 
 fn make(making: &Making, host: &Host) -> ComponentPointer {

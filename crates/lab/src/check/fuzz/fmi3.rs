@@ -11,7 +11,9 @@ use bevel_differential::variables::{Access, guid, table};
 
 use super::arguments::{CallResult, VariableKind as V, row};
 use super::calls::*;
-use super::instance::{Host, Line, Making};
+use super::host::{Host, Line, Making};
+use super::interface::Interface;
+use super::site::Site;
 use super::states;
 use super::version::{EXCHANGE, Function, STEPS, Version, functions};
 use crate::tools::random::Draws;
@@ -39,7 +41,6 @@ macro_rules! values {
 
 /// FMI 3.0.
 pub static VERSION: Version = Version {
-    number: 3,
     functions: functions! {
         fmi3GetVersion 1 None, |s| text(s, fmi3GetVersion);
         fmi3SetDebugLogging 3 None, |s| logging(s, fmi3SetDebugLogging);
@@ -148,38 +149,41 @@ pub static VERSION: Version = Version {
         fmi3DoStep 40 STEPS, |s| step(s, do_step);
         fmi3ActivateModelPartition 1 None, |s| never(s, |c| unsafe { fmi3ActivateModelPartition(c, 0, 0.0) });
     },
-    make,
-    free: |c| unsafe { fmi3FreeInstance(c) },
-    reset: |c| unsafe { fmi3Reset(c) },
-    log_all: |c| unsafe { fmi3SetDebugLogging(c, 0, 0, ptr::null()) },
-    initialise: |c| unsafe { [fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), fmi3ExitInitializationMode(c)] },
-    run: |c, kind| unsafe {
-        let ([mut a, mut b, mut d, mut e, mut f], mut next) = ([0; 5], 0.0);
-        fmi3UpdateDiscreteStates(c, &mut a, &mut b, &mut d, &mut e, &mut f, &mut next);
-        if kind == Kind::ModelExchange {
-            fmi3EnterContinuousTimeMode(c)
-        } else {
-            fmi3EnterStepMode(c)
-        };
+    interface: Interface {
+        number: 3,
+        make,
+        free: |c| unsafe { fmi3FreeInstance(c) },
+        reset: |c| unsafe { fmi3Reset(c) },
+        log_all: |c| unsafe { fmi3SetDebugLogging(c, 0, 0, ptr::null()) },
+        initialise: |c| unsafe { [fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), fmi3ExitInitializationMode(c)] },
+        run: |c, kind| unsafe {
+            let ([mut a, mut b, mut d, mut e, mut f], mut next) = ([0; 5], 0.0);
+            fmi3UpdateDiscreteStates(c, &mut a, &mut b, &mut d, &mut e, &mut f, &mut next);
+            if kind == Kind::ModelExchange {
+                fmi3EnterContinuousTimeMode(c)
+            } else {
+                fmi3EnterStepMode(c)
+            };
+        },
+        time: |c, now| unsafe { fmi3GetFloat64(c, &(table().rows.len() as u32), 1, now, 1) },
+        step: |c, point, h| unsafe {
+            let ([mut event, mut end, mut early], mut last) = ([0; 3], 0.0);
+            fmi3DoStep(c, point, h, 1, &mut event, &mut end, &mut early, &mut last)
+        },
+        set_real: |c, v, x| unsafe { fmi3SetFloat64(c, &v, 1, &x, 1) },
+        set_integer,
+        set_boolean: |c, v, x| unsafe { fmi3SetBoolean(c, &v, 1, &u8::from(x), 1) },
+        get_reals: |c, v, n, x| unsafe { fmi3GetFloat64(c, v, n, x, n) },
+        get_states: fmi3GetContinuousStates,
+        get_rates: fmi3GetContinuousStateDerivatives,
+        get_indicators: fmi3GetEventIndicators,
+        get_state: |c, state| unsafe { fmi3GetFMUState(c, state) },
+        set_state: |c, state| unsafe { fmi3SetFMUState(c, state) },
+        free_state: |c, state| unsafe { fmi3FreeFMUState(c, state) },
+        state_size: |c, state, size| unsafe { fmi3SerializedFMUStateSize(c, state, size) },
+        serialize: |c, state, bytes, size| unsafe { fmi3SerializeFMUState(c, state, bytes, size) },
+        deserialize: |c, bytes, size, state| unsafe { fmi3DeserializeFMUState(c, bytes, size, state) },
     },
-    time: |c, now| unsafe { fmi3GetFloat64(c, &(table().rows.len() as u32), 1, now, 1) },
-    step: |c, point, h| unsafe {
-        let ([mut event, mut end, mut early], mut last) = ([0; 3], 0.0);
-        fmi3DoStep(c, point, h, 1, &mut event, &mut end, &mut early, &mut last)
-    },
-    set_real: |c, v, x| unsafe { fmi3SetFloat64(c, &v, 1, &x, 1) },
-    set_integer,
-    set_boolean: |c, v, x| unsafe { fmi3SetBoolean(c, &v, 1, &u8::from(x), 1) },
-    get_reals: |c, v, n, x| unsafe { fmi3GetFloat64(c, v, n, x, n) },
-    get_states: fmi3GetContinuousStates,
-    get_rates: fmi3GetContinuousStateDerivatives,
-    get_indicators: fmi3GetEventIndicators,
-    get_state: |c, state| unsafe { fmi3GetFMUState(c, state) },
-    set_state: |c, state| unsafe { fmi3SetFMUState(c, state) },
-    free_state: |c, state| unsafe { fmi3FreeFMUState(c, state) },
-    state_size: |c, state, size| unsafe { fmi3SerializedFMUStateSize(c, state, size) },
-    serialize: |c, state, bytes, size| unsafe { fmi3SerializeFMUState(c, state, bytes, size) },
-    deserialize: |c, bytes, size, state| unsafe { fmi3DeserializeFMUState(c, bytes, size, state) },
 };
 
 /// The pointer that goes with messages and updates.

@@ -5,23 +5,27 @@
 //! of FMI 3.0. Workers are separate processes of this program, started by python/fuzz.py, so that a crash or a hang is reported with
 //! its seed.
 //!
-//! `fmi2` and `fmi3` are tables of functions, `calls` and `states` call them by their shapes, and `round` has the promises.
+//! `fmi2` and `fmi3` are tables of functions, `calls` and `states` call them by their shapes at a `site`, and `round` has the promises.
 
 mod arguments;
 mod calls;
+mod choice;
 mod fmi2;
 mod fmi3;
+mod host;
 mod instance;
+mod interface;
 mod random;
 mod round;
 mod scenes;
+mod site;
 mod states;
 mod tally;
 mod version;
 
-pub use round::{BrokenPromise, CALLS, run, version};
+pub use choice::{VERSIONS, version};
+pub use round::{BrokenPromise, CALLS, run};
 pub use tally::Tally;
-pub use version::VERSIONS;
 
 use std::env;
 

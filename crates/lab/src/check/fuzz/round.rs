@@ -7,12 +7,13 @@ use cpu_time::ThreadTime;
 use fastrand::Rng;
 
 use super::arguments::{CallResult, Flaws};
-use super::calls::Site;
-use super::instance::{FuzzedInstance, Line, Making};
+use super::choice::{VERSIONS, draw};
+use super::host::{Line, Making};
+use super::instance::FuzzedInstance;
 use super::scenes;
-use super::states::HeldStates;
+use super::site::{HeldStates, Site};
 use super::tally::Tally;
-use super::version::{Function, VERSIONS, Version};
+use super::version::{Function, Version};
 use crate::tools::random::Draws;
 
 /// Calls of a round.
@@ -39,12 +40,6 @@ pub struct BrokenPromise {
     pub what: String,
 }
 
-/// Version of FMI of a round: `given`, or both by turns of seeds.
-pub fn version(seed: u64, given: Option<u32>) -> &'static Version {
-    let number = given.unwrap_or(2 + (seed % 2) as u32);
-    VERSIONS.into_iter().find(|version| version.number == number).unwrap_or(VERSIONS[0])
-}
-
 /// Calls `calls` functions of a `version` at random by `seed`, and counts them in `tally`.
 pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromise> {
     let mut r = Rng::with_seed(seed);
@@ -54,7 +49,7 @@ pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally
     let events = r.bool();
     for (i, kind) in KINDS.into_iter().enumerate() {
         let making = Making { events, ..Making::drawn(&mut r, kind) };
-        let make = || FuzzedInstance::new(version, making).ok_or_else(|| outside("no instance was made"));
+        let make = || FuzzedInstance::new(&version.interface, making).ok_or_else(|| outside("no instance was made"));
         expected.push(scenes::study(&make()?).ok_or_else(|| outside("the study's scene does not run"))?);
         let instance = make()?;
         if i > 0 {
@@ -70,7 +65,7 @@ pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally
     });
     for (mut state, _) in held.states.drain(..) {
         // SAFETY: a live component and a live state
-        unsafe { (version.free_state)(instances[0].component, &mut state) };
+        unsafe { (version.interface.free_state)(instances[0].component, &mut state) };
     }
     outcome?;
     // after a reset every instance behaves as new, whatever was called before
@@ -98,8 +93,8 @@ fn make_call(
         instance.take_log();
     }
     let is_other = r.chance(OTHER);
-    let version = VERSIONS.into_iter().find(|&v| (v.number != instance.version.number) == is_other);
-    let version = version.unwrap_or(instance.version);
+    let version = VERSIONS.into_iter().find(|v| (v.interface.number != instance.interface.number) == is_other);
+    let version = version.unwrap_or(VERSIONS[0]);
     let function = draw(r, version, instance.making.kind);
     let c = match r.below(150) {
         0 => ptr::null_mut(),
@@ -109,7 +104,8 @@ fn make_call(
     let before = if r.chance(COMPARED) { instance.bytes() } else { None };
     // processor time, so that other load of the machine does not count
     let start = ThreadTime::now();
-    let outcome = (function.call)(&mut Site { version, c, r, flaws: Flaws::default(), instance, held });
+    let outcome =
+        (function.call)(&mut Site { interface: &version.interface, c, r, flaws: Flaws::default(), instance, held });
     tally.count(function.name, outcome.status, start.elapsed(), (seed, at));
     let refused = !matches!(outcome.status, Status::Ok | Status::Warning);
     instance.refused = if refused { instance.refused + 1 } else { 0 };
@@ -132,13 +128,13 @@ fn make_call(
     }
     // FMI 2.0 tells the time only between steps
     match instance.time() {
-        None if instance.version.number > 2 => return Err(broken("the time cannot be read afterwards".into())),
+        None if instance.interface.number > 2 => return Err(broken("the time cannot be read afterwards".into())),
         Some(now) if !now.is_finite() => return Err(broken(format!("the time is {now} afterwards"))),
         _ => {}
     }
     if instance.is_filtered && r.chance(10) {
         // SAFETY: a live component; no categories means all
-        unsafe { (instance.version.log_all)(instance.component) };
+        unsafe { (instance.interface.log_all)(instance.component) };
         instance.is_filtered = false;
     }
     Ok(())
@@ -192,22 +188,5 @@ fn compare(function: &Function, refused: bool, before: &[u8], instance: &mut Fuz
             Err("the call was refused or only reads, but changed the state".into())
         }
         _ => Ok(()),
-    }
-}
-
-/// Draws a function by its weight; functions of the other kind of instance seldom.
-fn draw(r: &mut Rng, version: &'static Version, kind: Kind) -> &'static Function {
-    let total: usize = version.functions.iter().map(|function| function.weight).sum();
-    loop {
-        let mut left = r.below(total);
-        let chosen = version.functions.iter().find(|function| {
-            let found = left < function.weight;
-            left = left.saturating_sub(function.weight);
-            found
-        });
-        match chosen {
-            Some(function) if function.kind.is_none_or(|own| own == kind) || r.chance(10) => return function,
-            _ => {}
-        }
     }
 }

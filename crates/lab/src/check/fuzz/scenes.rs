@@ -29,7 +29,7 @@ const SOLID: i32 = 4;
 pub fn start(instance: &FuzzedInstance, r: &mut Rng) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
-        unsafe { (instance.version.reset)(instance.component) };
+        unsafe { (instance.interface.reset)(instance.component) };
         if attempt < TRIES {
             draw(instance, r);
         }
@@ -43,10 +43,10 @@ pub fn start(instance: &FuzzedInstance, r: &mut Rng) -> bool {
 /// Initialises an instance and brings it to where steps happen. Returns true if that succeeded.
 fn initialised(instance: &FuzzedInstance) -> bool {
     // SAFETY: a live component
-    let is_initialised = unsafe { (instance.version.initialise)(instance.component) } == [Status::Ok; 2];
+    let is_initialised = unsafe { (instance.interface.initialise)(instance.component) } == [Status::Ok; 2];
     if is_initialised {
         // SAFETY: as above
-        unsafe { (instance.version.run)(instance.component, instance.making.kind) };
+        unsafe { (instance.interface.run)(instance.component, instance.making.kind) };
     }
     is_initialised
 }
@@ -65,17 +65,17 @@ fn draw(instance: &FuzzedInstance, r: &mut Rng) {
     if integers.contains(&("scene.gear_contact", SOLID)) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
-    let version = instance.version;
+    let interface = instance.interface;
     for (name, value) in integers {
         if let Some(i) = index_of(name) {
             // SAFETY: a live component
-            unsafe { (version.set_integer)(instance.component, i as u32, value) };
+            unsafe { (interface.set_integer)(instance.component, i as u32, value) };
         }
     }
     for (i, row) in table().rows.iter().enumerate().filter(|(_, row)| row.name.starts_with("effects.")) {
         if matches!(row.access, Access::Boolean(_)) && r.chance(4) {
             // SAFETY: a live component
-            unsafe { (version.set_boolean)(instance.component, i as u32, r.bool()) };
+            unsafe { (interface.set_boolean)(instance.component, i as u32, r.bool()) };
         }
     }
     let values =
@@ -83,31 +83,31 @@ fn draw(instance: &FuzzedInstance, r: &mut Rng) {
     for (name, value) in values {
         if let (true, Some(i)) = (r.chance(2), index_of(name)) {
             // SAFETY: a live component
-            unsafe { (version.set_real)(instance.component, i as u32, value) };
+            unsafe { (interface.set_real)(instance.component, i as u32, value) };
         }
     }
 }
 
 /// Results of the study's own scene after a reset, bit by bit: three steps, or rates and indicators at the start.
 pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
-    let (version, c) = (instance.version, instance.component);
+    let (interface, c) = (instance.interface, instance.component);
     let mut numbers = vec![f64::NAN; STATES + EVENT_INDICATORS];
     // the host ends steps early by the number of its updates
     instance.host.updates.set(0);
     // SAFETY, for all: a live component and room for the counts passed
     unsafe {
-        let mut statuses = vec![(version.reset)(c)];
+        let mut statuses = vec![(interface.reset)(c)];
         let fine = initialised(instance);
         if instance.making.kind == Kind::ModelExchange {
             let (rates, indicators) = numbers.split_at_mut(STATES);
-            statuses.push((version.get_rates)(c, rates.as_mut_ptr(), rates.len()));
-            statuses.push((version.get_indicators)(c, indicators.as_mut_ptr(), indicators.len()));
+            statuses.push((interface.get_rates)(c, rates.as_mut_ptr(), rates.len()));
+            statuses.push((interface.get_indicators)(c, indicators.as_mut_ptr(), indicators.len()));
         } else {
             // a step may end early where the host has said that it may
-            statuses.extend([(); 3].map(|()| (version.step)(c, instance.time().unwrap_or(f64::NAN), 1e-3)));
+            statuses.extend([(); 3].map(|()| (interface.step)(c, instance.time().unwrap_or(f64::NAN), 1e-3)));
             let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
             numbers.resize(outputs.len(), f64::NAN);
-            statuses.push((version.get_reals)(c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
+            statuses.push((interface.get_reals)(c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
         }
         instance.take_log();
         let fine = fine && statuses.iter().all(|&status| status == Status::Ok);

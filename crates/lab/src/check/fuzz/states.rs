@@ -6,23 +6,14 @@ use bevel_differential::instance::{FmuState, Status};
 use bevel_differential::variables::fnv1a;
 
 use super::arguments::CallResult;
-use super::calls::Site;
 use super::instance::serialised;
+use super::site::Site;
 use crate::tools::random::Draws;
 
 /// Most states that are held at a time, and most blobs.
 const HELD: usize = 12;
 /// Bytes before the payload of a serialised state.
 const HEADER: usize = 28;
-
-/// Saved states that any instance may be given.
-#[derive(Default)]
-pub struct HeldStates {
-    /// States, each with its bytes.
-    pub states: Vec<(FmuState, Vec<u8>)>,
-    /// Serialised states.
-    pub blobs: Vec<Vec<u8>>,
-}
 
 /// A state of any instance, or none.
 fn a_state(s: &mut Site) -> (FmuState, Vec<u8>) {
@@ -41,10 +32,10 @@ pub fn get_state(s: &mut Site) -> CallResult {
     let place = if fresh { &raw mut made } else { &raw mut s.held.states[at].0 };
     let place = s.place(place, true);
     // SAFETY: a live component and a place for a state
-    let mut outcome = s.result(unsafe { (s.version.get_state)(s.c, place) });
+    let mut outcome = s.result(unsafe { (s.interface.get_state)(s.c, place) });
     if outcome.status == Status::Ok {
         let state = if fresh { made } else { s.held.states[at].0 };
-        match serialised(s.version, s.c, state) {
+        match serialised(s.interface, s.c, state) {
             None => outcome.broken = Some("a state was made that cannot be serialised".into()),
             Some(bytes) if fresh => s.held.states.push((state, bytes)),
             Some(bytes) => s.held.states[at].1 = bytes,
@@ -60,7 +51,7 @@ pub fn get_state(s: &mut Site) -> CallResult {
 pub fn set_state(s: &mut Site) -> CallResult {
     let (state, bytes) = a_state(s);
     // SAFETY: a live component, and a live state or one that the library checks for
-    let mut outcome = s.result(unsafe { (s.version.set_state)(s.c, state) });
+    let mut outcome = s.result(unsafe { (s.interface.set_state)(s.c, state) });
     outcome.restored = (outcome.status == Status::Ok).then_some(bytes);
     outcome
 }
@@ -71,11 +62,11 @@ pub fn free_state(s: &mut Site) -> CallResult {
         let mut nothing = ptr::null_mut();
         let place = if s.r.chance(2) { ptr::null_mut() } else { &raw mut nothing };
         // SAFETY: a live component, and NULL or a place with no state
-        return s.result(unsafe { (s.version.free_state)(s.c, place) });
+        return s.result(unsafe { (s.interface.free_state)(s.c, place) });
     }
     let at = s.r.below(s.held.states.len());
     // SAFETY: a live component and a live state
-    let status = unsafe { (s.version.free_state)(s.c, &mut s.held.states[at].0) };
+    let status = unsafe { (s.interface.free_state)(s.c, &mut s.held.states[at].0) };
     let mut outcome = s.result(status);
     if status == Status::Ok {
         let (state, _) = s.held.states.swap_remove(at);
@@ -90,7 +81,7 @@ pub fn state_size(s: &mut Site) -> CallResult {
     let mut size = 0;
     let place = s.place(&raw mut size, true);
     // SAFETY: a live component, a live state or one that the library checks for, and a place for the size
-    let outcome = s.result(unsafe { (s.version.state_size)(s.c, state, place) });
+    let outcome = s.result(unsafe { (s.interface.state_size)(s.c, state, place) });
     outcome.unless(size != bytes.len(), "another size than before")
 }
 
@@ -102,7 +93,7 @@ pub fn serialize(s: &mut Site) -> CallResult {
     s.flaws.any |= size != bytes.len();
     let place = s.place(room.as_mut_ptr(), true);
     // SAFETY: a live component, a live state or one that the library checks for, and room for the bytes
-    let outcome = s.result(unsafe { (s.version.serialize)(s.c, state, place, size) });
+    let outcome = s.result(unsafe { (s.interface.serialize)(s.c, state, place, size) });
     outcome.unless(room[..size] != bytes, "other bytes than before")
 }
 
@@ -152,10 +143,10 @@ pub fn deserialize(s: &mut Site) -> CallResult {
     let place = if full { &raw mut s.held.states[at].0 } else { &raw mut made };
     let (place, bytes) = (s.place(place, true), s.read(blob.as_ptr(), true));
     // SAFETY: a live component, the bytes passed, and a place for a state
-    let mut outcome = s.result(unsafe { (s.version.deserialize)(s.c, bytes, blob.len(), place) });
+    let mut outcome = s.result(unsafe { (s.interface.deserialize)(s.c, bytes, blob.len(), place) });
     if outcome.status == Status::Ok {
         let state = if full { s.held.states[at].0 } else { made };
-        let again = serialised(s.version, s.c, state);
+        let again = serialised(s.interface, s.c, state);
         let is_changed = matches!(damage, Damage::None) && again.as_ref() != Some(&blob);
         outcome = outcome.unless(is_changed, "the state that was read is written with other bytes");
         let entry = (state, again.unwrap_or_default());

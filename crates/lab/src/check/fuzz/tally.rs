@@ -6,7 +6,7 @@ use std::time::Duration;
 use bevel_differential::instance::Status;
 use serde_json::{Value, json};
 
-use super::version::VERSIONS;
+use super::choice::VERSIONS;
 
 /// Statuses that are counted: OK, warning, discard, error.
 const STATUSES: usize = 4;

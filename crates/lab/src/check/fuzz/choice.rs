@@ -1,0 +1,34 @@
+//! Both versions of FMI, and the choice of a version for a round and of a function for a call.
+
+use bevel_differential::instance::Kind;
+use fastrand::Rng;
+
+use super::version::{Function, Version};
+use super::{fmi2, fmi3};
+use crate::tools::random::Draws;
+
+/// Both versions.
+pub static VERSIONS: [&Version; 2] = [&fmi2::VERSION, &fmi3::VERSION];
+
+/// Version of FMI of a round: `given`, or both by turns of seeds.
+pub fn version(seed: u64, given: Option<u32>) -> &'static Version {
+    let number = given.unwrap_or(2 + (seed % 2) as u32);
+    VERSIONS.into_iter().find(|version| version.interface.number == number).unwrap_or(VERSIONS[0])
+}
+
+/// Draws a function by its weight; functions of the other kind of instance seldom.
+pub fn draw(r: &mut Rng, version: &'static Version, kind: Kind) -> &'static Function {
+    let total: usize = version.functions.iter().map(|function| function.weight).sum();
+    loop {
+        let mut left = r.below(total);
+        let chosen = version.functions.iter().find(|function| {
+            let found = left < function.weight;
+            left = left.saturating_sub(function.weight);
+            found
+        });
+        match chosen {
+            Some(function) if function.kind.is_none_or(|own| own == kind) || r.chance(10) => return function,
+            _ => {}
+        }
+    }
+}

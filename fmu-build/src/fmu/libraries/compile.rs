@@ -1,0 +1,91 @@
+//! Libraries compiled by cargo, without the folders of this machine.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use super::library::{CRATES, HOST};
+use crate::tools::paths;
+
+/// Builds the dynamic library of `package`, which is not the FMU's, for this machine with cargo and returns its path.
+pub fn build_library(package: &str) -> Result<PathBuf> {
+    let mut command = Command::new(cargo());
+    // with the program, whose choice of features it shares: what both stand on is compiled once
+    command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
+    let [library] = built_by(command, [package], HOST.1)?;
+    Ok(library)
+}
+
+/// Builds the libraries of [`CRATES`] by `options` of the compiler, without paths of this machine. It has a separate
+/// target folder, because the compiler may differ, and its options always do.
+pub(super) fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<[PathBuf; 2]> {
+    let options: Vec<String> =
+        without_folders().into_iter().chain(options.iter().map(|&option| option.into())).collect();
+    command
+        .arg("--target-dir")
+        .arg(paths::target().join("cross").join(name))
+        // whatever the rest is built with: one unit inlines what matters
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
+        .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
+    built_by(command, CRATES, ending).with_context(|| format!("the library for {name}"))
+}
+
+/// Options that replace the folders of this machine in the locations of panics.
+pub(in crate::fmu) fn without_folders() -> Vec<String> {
+    // of several that match, the last one counts
+    let folders = folders().into_iter().rev();
+    folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()
+}
+
+/// Folders of this machine that compilers write into libraries, and what stands for them; the longest first.
+pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
+    let folders = [
+        (Some(paths::workspace()), "."),
+        (Some(paths::target()), "target"),
+        (Some(paths::toolchains()), "toolchains"),
+        (home.clone(), "cargo"),
+        (home.map(|home| home.join("registry").join("src")), "crates"),
+    ];
+    let mut known: Vec<_> = folders.into_iter().filter_map(|(folder, name)| Some((folder?, name))).collect();
+    known.sort_by_key(|(folder, _)| std::cmp::Reverse(folder.as_os_str().len()));
+    known
+}
+
+/// The libraries that `command`, cargo with a target, builds of `packages`. In one go, so that what they share is compiled once.
+fn built_by<const N: usize>(mut command: Command, packages: [&str; N], ending: &str) -> Result<[PathBuf; N]> {
+    let output = command
+        .current_dir(paths::workspace())
+        .args(["--release", "--lib", "--quiet", "--message-format", "json-render-diagnostics"])
+        .args(packages.iter().flat_map(|package| ["-p", package]))
+        .output()
+        .with_context(|| format!("{} cannot be run", command.get_program().display()))?;
+    if !output.status.success() {
+        bail!("the library does not build:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
+    }
+    let artifacts = String::from_utf8_lossy(&output.stdout);
+    let built = packages.map(|package| {
+        let crate_name = package.replace('-', "_");
+        artifacts.lines().filter_map(|line| library_in(line, &crate_name, ending)).next_back()
+    });
+    let complete: Option<Vec<PathBuf>> = built.into_iter().collect();
+    complete.and_then(|built| built.try_into().ok()).with_context(|| format!("cargo built no .{ending} file"))
+}
+
+/// The dynamic library of a crate named in one line of cargo's messages.
+fn library_in(line: &str, crate_name: &str, ending: &str) -> Option<PathBuf> {
+    let message: serde_json::Value = serde_json::from_str(line).ok()?;
+    let is_cdylib = message["target"]["kind"].as_array()?.iter().any(|kind| kind == "cdylib");
+    let files = message["filenames"].as_array()?.iter().filter_map(|name| name.as_str()).map(Path::new);
+    let mut libraries = files.filter(|file| file.extension().is_some_and(|found| found == ending));
+    let is_meant = is_cdylib && message["target"]["name"] == crate_name;
+    if is_meant { libraries.next().map(Path::to_path_buf) } else { None }
+}
+
+/// The cargo that runs this program, or the one in PATH.
+pub fn cargo() -> std::ffi::OsString {
+    env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}

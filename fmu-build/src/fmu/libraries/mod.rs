@@ -1,0 +1,56 @@
+//! The FMU's library, built for this machine or for other machines by the tool chains that are installed.
+
+mod compile;
+mod darwin;
+mod library;
+mod linux;
+pub mod own;
+pub mod platforms;
+mod windows;
+
+use anyhow::Result;
+
+pub(super) use compile::without_folders;
+pub use compile::{build_library, cargo};
+pub use library::{AddedPart, CRATES, Library};
+pub use own::for_this_machine;
+
+use crate::fmu::toolchains::{self, GLIBC};
+use library::{CROSS, HOST};
+
+/// The libraries that were built, and which were not with how to get them.
+#[derive(Clone, Debug)]
+pub struct Libraries {
+    /// In the order of the archive.
+    pub built: Vec<Library>,
+    /// A sentence each.
+    pub left_out: Vec<String>,
+    /// Whether one is for other machines.
+    pub ships: bool,
+}
+
+/// Builds the FMU's library with every tool chain that is installed.
+pub fn build() -> Result<Libraries> {
+    let (mut built, mut left_out) = (Vec::new(), Vec::new());
+    let old_linux = linux::x86_64()?;
+    let mut ships = old_linux.is_some();
+    if CROSS && !ships {
+        left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
+    }
+    built.push(old_linux.map_or_else(own::for_this_machine, Ok)?);
+    if !CROSS {
+        left_out.push(format!("the FMU holds {} alone", HOST.0));
+        return Ok(Libraries { built, left_out, ships });
+    }
+    let others = [("win64", windows::x86_64()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)];
+    ships |= others.iter().any(|(_, library)| library.is_some());
+    let missing: Vec<&str> = others.iter().filter(|(_, library)| library.is_none()).map(|(name, _)| *name).collect();
+    built.extend(others.into_iter().filter_map(|(_, library)| library));
+    if !missing.is_empty() {
+        left_out.push(format!("left out: {}", missing.join(", ")));
+    }
+    if let Some(last) = left_out.last_mut() {
+        last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
+    }
+    Ok(Libraries { built, left_out, ships })
+}

@@ -1,0 +1,98 @@
+//! Platforms to choose for an FMU that shall hold these and no others.
+
+use anyhow::{Result, ensure};
+use clap::ValueEnum;
+
+use super::library::{CROSS, HOST, Library};
+use super::{darwin, linux, own, windows};
+use crate::fmu::toolchains;
+
+/// A platform to build the library for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Platform {
+    /// Linux on x86-64, old systems too
+    Linux64,
+    /// Windows on x86-64
+    Win64,
+    /// Linux on 64-bit ARM, old systems too
+    #[value(name = "aarch64-linux")]
+    ArmLinux,
+    /// macOS on x86-64 and on ARM
+    Darwin64,
+    /// This machine, and systems as new as it
+    ThisMachine,
+}
+
+/// What is shipped as far as tool chains are installed.
+pub const SHIPPED: [Platform; 4] = [Platform::Linux64, Platform::Win64, Platform::ArmLinux, Platform::Darwin64];
+
+/// Builds the library for each of `platforms`, for all that are shipped if there are none. A missing tool chain of a platform
+/// that was chosen is an error before the first build; so is it that no platform can be shipped.
+pub fn build(platforms: &[Platform]) -> Result<Vec<Library>> {
+    let possible: Vec<Platform> = SHIPPED.into_iter().filter(|platform| platform.can_be_built()).collect();
+    let platforms = match platforms {
+        [] if possible.is_empty() => &SHIPPED[..1],
+        [] => &possible,
+        chosen => chosen,
+    };
+    for (i, platform) in platforms.iter().enumerate() {
+        let twice = platforms[..i].iter().any(|other| other.fmi_name() == platform.fmi_name());
+        ensure!(!twice, "the platform {} is chosen twice; choose it once", platform.fmi_name());
+        ensure!(platform.can_be_built(), "{}", platform.hint());
+    }
+    let built = platforms.iter().map(|platform| match platform {
+        Platform::Linux64 => linux::x86_64(),
+        Platform::Win64 => windows::x86_64(),
+        Platform::ArmLinux => linux::arm(),
+        Platform::Darwin64 => darwin::universal(),
+        Platform::ThisMachine => own::for_this_machine().map(Some),
+    });
+    built.filter_map(Result::transpose).collect()
+}
+
+impl Platform {
+    /// FMI's name.
+    pub fn fmi_name(self) -> &'static str {
+        match self {
+            Self::Linux64 => "linux64",
+            Self::Win64 => "win64",
+            Self::ArmLinux => "aarch64-linux",
+            Self::Darwin64 => "darwin64",
+            Self::ThisMachine => HOST.0,
+        }
+    }
+
+    fn can_be_built(self) -> bool {
+        match self {
+            Self::Linux64 => linux::has_x86_64(),
+            Self::Win64 => windows::has_x86_64(),
+            Self::ArmLinux => linux::has_arm(),
+            Self::Darwin64 => darwin::has_universal(),
+            Self::ThisMachine => true,
+        }
+    }
+
+    /// What to do where it cannot be built.
+    fn hint(self) -> String {
+        let (name, install) = (self.fmi_name(), toolchains::COMMAND);
+        if CROSS {
+            format!(
+                "the tool chain for {name} is not installed. Install it: {install} {name}; or choose other platforms: \
+                 --platforms linux64, win64, aarch64-linux, darwin64 or this-machine"
+            )
+        } else {
+            format!("the library for {name} is built on Linux on x86-64. Here choose --platforms this-machine")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_platform_chosen_twice_is_told_before_anything_is_built() {
+        let problem = build(&[Platform::ThisMachine, Platform::ThisMachine]).expect_err("twice").to_string();
+        assert!(problem.contains("twice") && problem.contains(HOST.0), "{problem}");
+    }
+}

@@ -1,0 +1,324 @@
+//! Both meshes of a planet whose gears have elastic bodies (`contact::shared`).
+//!
+//! The own arc of a pair takes the place of its arc in every slice: bodies move a tooth as a whole. The load on other pairs follows
+//! from the elastic torque over the face, ω = M/J.
+
+use super::super::bodies::{PairCouplings, PairPlace};
+use super::super::shared::{COORDINATES, Change, MOST_PAIRS, OpeningByOthers, Share, Sharing, place_for};
+use super::directions::Arcs;
+use super::face::{Cut, Part};
+use super::loads::Look;
+use super::sums::{Approach, Sums};
+use super::touching::Touching;
+use super::{
+    Detailed, DetailedLoad, DetailedState, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER,
+};
+use crate::contact::{AnySpring, Damping, Flank, Spring, ToothPair};
+use crate::numeric::Dual;
+
+/// Evaluates an expression with `law` bound to the law of teeth in use, or another one: bodies are elastic under no other law.
+macro_rules! with_teeth {
+    ($of:expr, $law:ident => $body:expr, $none:expr) => {
+        match $of {
+            AnySpring::Line($law) => $body,
+            AnySpring::LineWeber($law) => $body,
+            AnySpring::Impact(_) => $none,
+        }
+    };
+}
+
+/// Teeth of both meshes of a planet on bodies that they share.
+#[derive(Clone, Copy)]
+pub struct SharedTeeth<'a> {
+    /// Teeth, left and right.
+    pub teeth: [MeshTeeth<'a>; 2],
+    /// The bodies.
+    pub bodies: &'a PairCouplings,
+    /// Number of the planet's tooth that stands at the right mesh's line as tooth 0 does at the left one's.
+    pub opposite: i64,
+}
+
+/// A pair that may touch.
+#[derive(Clone)]
+struct Near<P> {
+    name: PairName,
+    pair: ToothPair,
+    opening: Opening,
+    axial: [f64; 2],
+    arcs: Arcs,
+    pair_place: PairPlace,
+    place: P,
+}
+
+/// All of them.
+struct Pairs<P> {
+    near: [Option<Near<P>>; MOST_PAIRS],
+    /// Approaches of their flanks [rad].
+    arc: [f64; MOST_PAIRS],
+    count: usize,
+}
+
+/// What the elastic part of a face carries at an own arc, over J.
+#[derive(Clone, Copy, Default)]
+struct Carried {
+    load: f64,
+    by_arc: f64,
+    by_opening: f64,
+    by_place: f64,
+    energy: f64,
+}
+
+impl Detailed {
+    /// What the elastic part of a pair carries.
+    #[inline(always)]
+    fn carried<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> Carried {
+        if !OPEN {
+            // one point has the load of a face whose flanks fit
+            if arc <= 0.0 {
+                return Carried::default();
+            }
+            let elastic = spring.respond(&near.place, arc);
+            let (load, by_arc, by_place) = (elastic.torque, elastic.stiffness, elastic.torque_by_place);
+            return Carried { load, by_arc, by_opening: 0.0, by_place, energy: elastic.energy };
+        }
+        let (opening, mut sums) = (&near.opening, Sums::default());
+        let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
+        for part in self.face.loaded(arc, opening, &mut Cut::default()) {
+            sums.add::<S, true, true>(&part, (spring, &near.place, &Damping::NONE), &still, opening, None, |_| {});
+        }
+        let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
+        let (load, energy) = (sums.torque / self.moment, sums.energy / self.moment);
+        Carried { load, by_arc, by_opening, by_place, energy }
+    }
+
+    /// The load of it, and its slope by the arc: what iterations ask for.
+    #[inline(never)]
+    fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> [f64; 2] {
+        let Carried { load, by_arc, .. } = self.carried::<S, OPEN>(spring, near, arc);
+        [load, by_arc]
+    }
+
+    /// Gathers the pairs of both meshes that are pressed, that others may pull together, or that are within `lookout` of the deepest
+    /// approach of flanks. They are written to where they stay, because they are large.
+    fn gather<S: Spring, const OPEN: bool>(
+        &self,
+        spring: &S,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        lookout: f64,
+        Pairs { near, arc, count }: &mut Pairs<S::Place>,
+    ) {
+        // excess material presses before flanks that fit do
+        let excess = [0, 1].map(|side| {
+            let gaps = shared.teeth[side].gaps.map_or(0.0, |gaps| -gaps.least());
+            (gaps + (-states[side].position[2]).max(0.0)) / self.face.inner()
+        });
+        let depth = [0, 1].map(|side| {
+            let q = states[side].position[0];
+            [-q, q].map(|q| q - shared.teeth[side].engagement.half_backlash() + excess[side])
+        });
+        let deepest = depth.as_flattened().iter().fold(0.0f64, |deepest, depth| deepest.max(*depth));
+        for side in 0..2 {
+            let (teeth, state) = (&shared.teeth[side], &states[side]);
+            let margin = [0, 1].map(|flank| shared.bodies.pull.margin(&depth, side, flank) + lookout * deepest);
+            self.each(teeth, state, margin, |name, pair| {
+                let margin = margin[usize::from(pair.flank == Flank::Coast)];
+                let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
+                let is_clear = if OPEN {
+                    (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
+                    !self.face.is_loaded(pair.depth + margin, &opening)
+                } else {
+                    pair.depth + margin <= 0.0
+                };
+                if is_clear {
+                    return;
+                }
+                if let Some(to) = place_for(pair.depth, count, |k| arc[k]) {
+                    let tooth = if side == 0 { name.tooth } else { shared.opposite.wrapping_sub(name.tooth) };
+                    let pair_place = PairPlace { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
+                    let place = spring.place(pair.s);
+                    near[to] = Some(Near { name: *name, pair: *pair, opening, axial, arcs, pair_place, place });
+                    arc[to] = pair.depth;
+                }
+            });
+        }
+    }
+
+    /// Calls `see` with each pair that may touch, the approach of its flanks and its share of the load; with `SLOPES` of the share.
+    fn share<S: Spring, const OPEN: bool, const SLOPES: bool>(
+        &self,
+        spring: &S,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        lookout: f64,
+        see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
+    ) {
+        let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
+        self.gather::<S, OPEN>(spring, shared, states, lookout, &mut pairs);
+        let Pairs { near, arc, count } = &pairs;
+        let near_of = |k: usize| near.get(k).and_then(Option::as_ref);
+        // flanks that excess material presses carry at arcs below 0, so that every arc is asked
+        let law = |k: usize, arc: f64| near_of(k).map_or([0.0; 2], |near| self.load_of::<S, OPEN>(spring, near, arc));
+        let changes = |k: usize, own: f64| {
+            let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
+            if let Some(near) = near_of(k) {
+                let (at, pair) = (3 * near.pair_place.side, &near.pair);
+                (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
+                let carried = self.carried::<S, OPEN>(spring, near, own);
+                let by_place = carried.by_place + carried.by_opening * near.opening.even.d;
+                change.place = (at + 1, pair.s_slope, by_place * pair.s_slope);
+                change.opening = (at + 2, carried.by_opening * near.axial[0]);
+            }
+            (by, change)
+        };
+        let place = |k: usize| near_of(k).map(|near| &near.pair_place);
+        let arcs = &arc[..*count];
+        let sharing = Sharing { bodies: shared.bodies, arcs, place: &place, law: &law, is_linear: S::LINEAR && !OPEN };
+        sharing.solve(if SLOPES { Some(&changes) } else { None }, &mut |k, share| {
+            if let Some(near) = near_of(k) {
+                see(near, arc[k], share);
+            }
+        });
+    }
+
+    /// [`Self::share`] without slopes, for flanks that may not fit and for those that do.
+    #[inline(never)]
+    fn share_at<S: Spring>(
+        &self,
+        spring: &S,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        lookout: f64,
+        see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
+    ) {
+        if self.may_open(shared) {
+            self.share::<S, true, false>(spring, shared, states, lookout, see);
+        } else {
+            self.share::<S, false, false>(spring, shared, states, lookout, see);
+        }
+    }
+
+    fn may_open(&self, shared: &SharedTeeth) -> bool {
+        self.is_open(&shared.teeth[0])
+    }
+
+    /// Loads of both meshes of a planet.
+    pub fn load_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<f64>; 2] {
+        self.load_and_look_shared(shared, states, self.needs_thrust, None)
+    }
+
+    fn load_and_look_shared(
+        &self,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        needs_thrust: bool,
+        look: Look,
+    ) -> [DetailedLoad<f64>; 2] {
+        let mut totals = [Totals::<0, WITH_OTHER>::default(); 2];
+        with_teeth!(&self.spring, spring => if self.may_open(shared) {
+            self.sum_shared::<_, 0, true, false>(spring, &mut totals, shared, states, needs_thrust, look);
+        } else {
+            self.sum_shared::<_, 0, false, false>(spring, &mut totals, shared, states, needs_thrust, look);
+        }, ());
+        totals.map(|totals| totals.load())
+    }
+
+    /// The same with their exact derivatives by q, x, w and their rates of the own mesh, and by q, x, w of the other.
+    pub fn linearise_shared(
+        &self,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+    ) -> [DetailedLoad<Dual<WITH_OTHER>>; 2] {
+        let mut totals = [Totals::<7, WITH_OTHER>::default(); 2];
+        with_teeth!(&self.spring, spring => if self.may_open(shared) {
+            self.sum_shared::<_, 7, true, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
+        } else {
+            self.sum_shared::<_, 7, false, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
+        }, ());
+        totals.map(|totals| totals.linearised())
+    }
+
+    /// Loads of both meshes; calls `look` with each loaded slice.
+    pub fn look_shared(
+        &self,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        look: &mut dyn FnMut(&SliceLoad),
+    ) -> [DetailedLoad<f64>; 2] {
+        self.load_and_look_shared(shared, states, true, Some(look))
+    }
+
+    /// Elastic energy of both meshes [J].
+    pub fn energy_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> f64 {
+        let mut sum = 0.0;
+        with_teeth!(&self.spring, spring => self.share_at(spring, shared, states, 0.0, &mut |near, arc, share| {
+            let alone = if self.may_open(shared) {
+                self.carried::<_, true>(spring, near, share.own)
+            } else {
+                self.carried::<_, false>(spring, near, share.own)
+            };
+            sum += self.moment * (alone.energy + 0.5 * share.load * (arc - share.own));
+        }), ());
+        sum
+    }
+
+    /// By how much pairs that touch or are about to are moved by others.
+    pub fn opening_by_others(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> OpeningByOthers {
+        let mut opening_by_others = OpeningByOthers::default();
+        let lookout = OpeningByOthers::LOOKOUT;
+        with_teeth!(&self.spring, spring => self.share_at(spring, shared, states, lookout, &mut |near, arc, share| {
+            opening_by_others.add(near.pair_place.side, near.pair.flank, near.pair.number, arc - share.own);
+        }), ());
+        opening_by_others
+    }
+
+    /// Adds the loads of all pairs.
+    #[inline(always)]
+    fn sum_shared<S: Spring, const ROWS: usize, const OPEN: bool, const SLOPES: bool>(
+        &self,
+        spring: &S,
+        totals: &mut [Totals<ROWS, WITH_OTHER>; 2],
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        needs_thrust: bool,
+        mut look: Look,
+    ) {
+        let mut see = |slice: &SliceLoad| {
+            if let Some(look) = &mut look {
+                look(slice);
+            }
+        };
+        self.share::<S, OPEN, SLOPES>(spring, shared, states, 0.0, &mut |near, arc, share| {
+            let (side, opening) = (near.pair_place.side, &near.opening);
+            let pair = ToothPair { depth: share.own, ..near.pair };
+            let mut cut = Cut::default();
+            let parts = self.loaded_parts::<OPEN>(pair.depth, opening, &mut cut);
+            if parts.iter().all(Part::is_empty) {
+                return;
+            }
+            let (mut motion, mut along_by) =
+                (PairMotion::<OPEN, true>::new(&pair, opening, near.axial, &states[side]), [[0.0; 3]; 2]);
+            if let Some([own, along]) = share.slopes {
+                let of = |by: &[f64; COORDINATES]| {
+                    [side, 1 - side].map(|side| [by[3 * side], by[3 * side + 1], by[3 * side + 2]])
+                };
+                motion.own = of(own);
+                along_by = of(along).map(|by| by.map(|by| self.moment * pair.s_slope * by));
+            }
+            let force = self.moment * pair.s_slope * share.load * share.along;
+            let energy = 0.5 * self.moment * share.load * (arc - share.own);
+            totals[side].add_moving(force, along_by, energy);
+            let touching = Touching {
+                name: &near.name,
+                pair: &pair,
+                place: Some(near.place),
+                opening,
+                arcs: near.arcs,
+                parts,
+                motion,
+            };
+            let teeth = &shared.teeth[side];
+            self.add_touching((spring, teeth, needs_thrust), &mut totals[side], touching, &mut see);
+        });
+    }
+}

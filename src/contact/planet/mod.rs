@@ -1,0 +1,245 @@
+//! Contact of one planet with both side gears: the unit of contact, since the planet's body couples its two meshes.
+//!
+//! Every kind of contact implements [`PlanetContact`]: forces, derivatives, energy, kinks, and a visitor over loads. The equations of
+//! motion know no more of it. The coordinates of a mesh are q, x and the displacements of its gears (`Q`, `X`, `W`); a kind in which
+//! gears stay on their axes gives no force along w.
+
+mod in_detail;
+mod load;
+mod on_bodies;
+mod plain;
+mod solid;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+pub use in_detail::{InDetail, InDetailOnBodies};
+pub use load::{LinearisedLoad, MeshLoad, Pressing, PressingSlopes};
+pub use on_bodies::OnBodies;
+pub use plain::Plain;
+pub use solid::Solid;
+
+use super::bodies::PairCouplings;
+use super::detailed::{Detailed, DetailedState, PairName, SliceLoad};
+use super::mesh::{Mesh, MeshState};
+use super::solid::mesh::SolidMesh;
+use super::{Damping, Flank, FlankGaps, ToothFriction, ToothLoad};
+use crate::FULL;
+use crate::geometry::Pair;
+
+/// Relative position of planet and side gear [rad].
+pub const Q: usize = 0;
+/// Travel of the planet [rad].
+pub const X: usize = 1;
+/// Displacement of the side gear along its axis, away from the apex [m].
+pub const W: usize = 2;
+/// Coordinates of a mesh.
+pub const COORDINATES: usize = 3;
+
+/// State of the two meshes of a planet.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanetState {
+    /// Planet.
+    pub planet: usize,
+    /// Coordinates of both meshes, left and right.
+    pub position: [[f64; COORDINATES]; 2],
+    /// Their rates.
+    pub rate: [[f64; COORDINATES]; 2],
+    /// Pairs by which the planet's position was wrapped, in the sense of x of each mesh.
+    pub wrapped: [i64; 2],
+}
+
+impl PlanetState {
+    /// State of the mesh of side `s` whose side gear stays where it is.
+    #[inline(always)]
+    pub fn mesh(&self, s: usize) -> MeshState {
+        let [[q, x, _], [dq, dx, _]] = [self.position[s], self.rate[s]];
+        MeshState { position: [q, x], rate: [dq, dx], which: [self.planet, s] }
+    }
+
+    /// State of the mesh of side `s`.
+    #[inline(always)]
+    pub fn detailed(&self, s: usize) -> DetailedState {
+        DetailedState { position: self.position[s], rate: self.rate[s], wrapped: self.wrapped[s] }
+    }
+
+    /// Name of the pair `number` of `flank` of side `s`.
+    fn name(&self, s: usize, flank: Flank, number: i64) -> PairName {
+        let wrapped = self.wrapped[s];
+        let tooth = if flank == Flank::Drive {
+            number.wrapping_sub(wrapped)
+        } else {
+            number.wrapping_add(wrapped).wrapping_neg()
+        };
+        PairName { planet: self.planet, side: s, flank, tooth }
+    }
+}
+
+/// Which loads to visit, and what to find out about them.
+#[derive(Clone, Debug)]
+pub struct Visit<'a> {
+    /// Sides, 0 left and 1 right.
+    pub sides: Range<usize>,
+    /// Geometry from which the direction of a normal follows; without it, directions that cost extra are zero.
+    pub directions: Option<&'a Pair>,
+}
+
+/// Called with each load, and with the slice of the face that it is where loads differ over the face.
+pub type Visitor<'a> = dyn FnMut(&ToothLoad, Option<&SliceLoad>) + 'a;
+
+/// Contact of one planet with both side gears.
+pub trait PlanetContact {
+    /// Load of a mesh.
+    type Load: MeshLoad;
+    /// Load of a mesh with its derivatives.
+    type Linearised: LinearisedLoad;
+
+    /// Writes the loads of both meshes to where they stay.
+    fn write(&self, at: &PlanetState, to: &mut [Self::Load; 2]);
+
+    /// Writes the loads of both meshes with their exact derivatives.
+    fn linearise(&self, at: &PlanetState, to: &mut [Self::Linearised; 2]);
+
+    /// Elastic energy of both meshes [J].
+    fn energy(&self, at: &PlanetState) -> f64;
+
+    /// Elastic energy gained between two states [J].
+    fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
+        self.energy(to) - self.energy(from)
+    }
+
+    /// The fraction of a step of `h` [s] after which a force has its first kink, as far as that can be seen from `at`.
+    fn kink(&self, at: &PlanetState, h: f64) -> Option<f64>;
+
+    /// Calls `see` with each loaded tooth pair, or with each loaded slice of it.
+    fn visit(&self, at: &PlanetState, visit: &Visit, see: &mut Visitor);
+
+    /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
+    fn face_load_factor(&self, _at: &PlanetState, _slice: &ToothLoad, _pair: &Pair) -> f64 {
+        1.0
+    }
+}
+
+/// The smaller of two fractions of a step, as far as there are any.
+#[inline(always)]
+fn first(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Contact of any kind.
+#[derive(Clone, Copy)]
+pub enum AnyContact<'a> {
+    /// Flanks that fit, rigid bodies.
+    Plain(Plain<'a>),
+    /// Solid teeth.
+    Solid(Solid<'a>),
+    /// Flanks that fit, elastic bodies.
+    OnBodies(OnBodies<'a>),
+    /// Sums over the face, rigid bodies.
+    InDetail(InDetail<'a>),
+    /// Sums over the face, elastic bodies.
+    InDetailOnBodies(InDetailOnBodies<'a>),
+}
+
+/// Evaluates an expression with `contact` bound to the contact in use. Where no effects act (`MAY_ACT`), only flanks that fit and solid
+/// teeth are compiled.
+macro_rules! with_contact {
+    ($may_act:expr, $of:expr, $contact:ident => $body:expr) => {
+        match $of {
+            $crate::contact::planet::AnyContact::Plain($contact) => $body,
+            $crate::contact::planet::AnyContact::Solid($contact) => $body,
+            $crate::contact::planet::AnyContact::OnBodies($contact) if $may_act => $body,
+            $crate::contact::planet::AnyContact::InDetail($contact) if $may_act => $body,
+            $crate::contact::planet::AnyContact::InDetailOnBodies($contact) if $may_act => $body,
+            // [`Contact::without_effects`] gives none of these
+            _ => unreachable!(),
+        }
+    };
+}
+pub(crate) use with_contact;
+
+/// Constants of the contact, alike for all planets and both sides.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// The mesh of flanks that fit.
+    pub mesh: Mesh,
+    /// Solid teeth.
+    pub solid: Option<Box<SolidMesh>>,
+    /// Elastic bodies that couple tooth pairs.
+    pub bodies: Option<Arc<PairCouplings>>,
+    /// The mesh in detail, summed over the face.
+    pub detailed: Detailed,
+    /// Gaps of the tooth pairs before and after a tooth breaks.
+    pub gaps: [Option<Arc<FlankGaps>>; 2],
+    /// Teeth without errors, which give each tooth its number.
+    pub perfect: FlankGaps,
+    /// Whether an effect needs sums over the face even while no tooth is broken.
+    pub in_detail: bool,
+}
+
+/// Work of a section of solid teeth in meshes of plain teeth: by facet of a flank, and the least.
+const SOLID_PER_FACET: usize = 2;
+const LEAST_SOLID: usize = 40;
+/// Work of the meshes of a planet on elastic gear bodies at most, where a dozen pairs move each other.
+const ON_BODIES: usize = 16;
+
+impl Contact {
+    /// Contact as it is now: with the viscosity `viscosity` of the oil [Pa·s], where friction follows it.
+    #[inline]
+    pub fn now(&self, is_tooth_broken: bool, viscosity: Option<f64>, is_part_of_steps: bool) -> AnyContact<'_> {
+        let contact = self;
+        if !(self.in_detail || is_tooth_broken) {
+            return match &self.bodies {
+                Some(bodies) => AnyContact::OnBodies(OnBodies { contact, bodies }),
+                None => self.without_effects(is_part_of_steps),
+            };
+        }
+        let teeth = InDetail { contact, gaps: self.gaps(is_tooth_broken), viscosity };
+        match &self.bodies {
+            Some(bodies) => AnyContact::InDetailOnBodies(InDetailOnBodies { teeth, bodies }),
+            None => AnyContact::InDetail(teeth),
+        }
+    }
+
+    /// Contact on which no effect acts.
+    #[inline]
+    pub fn without_effects(&self, is_part_of_steps: bool) -> AnyContact<'_> {
+        match &self.solid {
+            Some(solid) if FULL => AnyContact::Solid(Solid { contact: self, solid }),
+            _ => AnyContact::Plain(Plain { contact: self, is_part_of_steps }),
+        }
+    }
+
+    /// Replaces the damping.
+    pub fn set_damping(&mut self, damping: Damping) {
+        self.mesh.damping = damping;
+        self.detailed.set_damping(damping);
+        if let Some(solid) = &mut self.solid {
+            solid.damping = damping;
+        }
+    }
+
+    /// Gaps of the teeth.
+    pub fn gaps(&self, is_tooth_broken: bool) -> Option<&FlankGaps> {
+        self.gaps[usize::from(is_tooth_broken)].as_deref()
+    }
+
+    /// Friction along the flanks with the viscosity `viscosity` of the oil [Pa·s], where it follows the temperature.
+    pub fn friction(&self, viscosity: Option<f64>) -> Option<ToothFriction> {
+        let friction = self.detailed.friction?;
+        Some(viscosity.map_or(friction, |viscosity| friction.with_viscosity(viscosity)))
+    }
+
+    /// Work of the meshes of a planet, in that of plain teeth at least; `facets` is the number of facets of a solid flank.
+    pub fn work(&self, facets: usize) -> usize {
+        // few facets have many neighbours, many facets are many
+        if let Some(solid) = &self.solid {
+            return solid.section_count() * (SOLID_PER_FACET * facets).max(LEAST_SOLID);
+        }
+        let in_detail = if self.in_detail { self.detailed.face.points() } else { 0 };
+        in_detail + if self.bodies.is_some() { ON_BODIES } else { 0 }
+    }
+}

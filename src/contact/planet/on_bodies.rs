@@ -1,0 +1,130 @@
+//! Flanks that fit, on elastic gear bodies: the pairs of both meshes move each other.
+
+use super::load::{Block, LinearisedLoad, MeshLoad, without_displacement};
+use super::{COORDINATES, Contact, PlanetContact, PlanetState, Visit, Visitor, first, plain};
+use crate::contact::AnySpring;
+use crate::contact::bodies::PairCouplings;
+use crate::contact::mesh::MeshForce;
+use crate::contact::shared::{OpeningByOthers, SharedForce, SharedMeshes};
+
+/// A planet on elastic bodies.
+#[derive(Clone, Copy)]
+pub struct OnBodies<'a> {
+    /// Constants.
+    pub contact: &'a Contact,
+    /// The bodies.
+    pub bodies: &'a PairCouplings,
+}
+
+/// Load of a mesh with its derivatives, those by the planet's other mesh among them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CoupledForce {
+    force: MeshForce,
+    by_position: [[f64; 2]; 2],
+    by_rate: [[f64; 2]; 2],
+    by_other: [[f64; 2]; 2],
+    energy: f64,
+}
+
+impl MeshLoad for CoupledForce {
+    const PRESSES: bool = false;
+    #[inline(always)]
+    fn none() -> Self {
+        Self::default()
+    }
+    #[inline(always)]
+    fn force(&self) -> [f64; COORDINATES] {
+        self.force.force()
+    }
+    #[inline(always)]
+    fn heat(&self) -> [f64; 2] {
+        self.force.heat()
+    }
+}
+
+impl LinearisedLoad for CoupledForce {
+    const COUPLED: bool = true;
+    #[inline(always)]
+    fn energy(&self) -> f64 {
+        self.energy
+    }
+    #[inline(always)]
+    fn by_position(&self) -> Block {
+        without_displacement(&self.by_position)
+    }
+    #[inline(always)]
+    fn by_rate(&self) -> Block {
+        without_displacement(&self.by_rate)
+    }
+    #[inline(always)]
+    fn by_other(&self) -> Block {
+        without_displacement(&self.by_other)
+    }
+}
+
+/// Evaluates an expression with `spring` bound to the law of teeth in use; bodies are elastic under no other.
+macro_rules! with_teeth {
+    ($of:expr, $spring:ident => $body:expr, $none:expr) => {
+        match &$of.contact.mesh.spring {
+            AnySpring::Line($spring) => $body,
+            AnySpring::LineWeber($spring) => $body,
+            AnySpring::Impact(_) => $none,
+        }
+    };
+}
+
+impl OnBodies<'_> {
+    fn meshes(&self, at: &PlanetState) -> SharedMeshes<'_> {
+        let Contact { mesh, perfect, .. } = self.contact;
+        SharedMeshes { mesh, bodies: self.bodies, opposite: perfect.opposite(at.planet), wrapped: at.wrapped }
+    }
+}
+
+impl PlanetContact for OnBodies<'_> {
+    type Load = MeshForce;
+    type Linearised = CoupledForce;
+
+    #[inline]
+    fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
+        let states = &[at.mesh(0), at.mesh(1)];
+        *to = with_teeth!(self, spring => self.meshes(at).force(spring, states), Default::default());
+    }
+
+    #[inline]
+    fn linearise(&self, at: &PlanetState, to: &mut [CoupledForce; 2]) {
+        let states = &[at.mesh(0), at.mesh(1)];
+        let both = with_teeth!(self, spring => self.meshes(at).linearise(spring, states), SharedForce::default());
+        for s in 0..2 {
+            to[s] = CoupledForce {
+                force: both.force[s],
+                by_position: both.by_position[s][s],
+                by_rate: both.by_rate[s],
+                by_other: both.by_position[s][1 - s],
+                // that of both meshes, which is theirs together
+                energy: if s == 0 { both.energy } else { 0.0 },
+            };
+        }
+    }
+
+    fn energy(&self, at: &PlanetState) -> f64 {
+        with_teeth!(self, spring => self.meshes(at).energy(spring, &[at.mesh(0), at.mesh(1)]), 0.0)
+    }
+
+    #[inline]
+    fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
+        let states = [at.mesh(0), at.mesh(1)];
+        let openings =
+            with_teeth!(self, spring => self.meshes(at).opening_by_others(spring, &states), OpeningByOthers::default());
+        let kink =
+            |s: usize| self.contact.mesh.kink_of_open(&states[s], h, |flank, number, _| openings.of(s, flank, number));
+        first(kink(0), kink(1))
+    }
+
+    fn visit(&self, at: &PlanetState, visit: &Visit, see: &mut Visitor) {
+        let states = &[at.mesh(0), at.mesh(1)];
+        for s in visit.sides.clone() {
+            let mut see = |pair: &_, force: &_| see(&plain::load(self.contact, (at, s), (pair, force), visit), None);
+            with_teeth!(self, spring => self.meshes(at).loaded(spring, states, s, &mut see), ());
+        }
+    }
+}

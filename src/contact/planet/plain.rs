@@ -1,0 +1,125 @@
+//! Flanks that fit, on rigid gear bodies: both meshes by themselves, a tooth pair with one resultant.
+//!
+//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm
+//! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
+//! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
+
+use super::load::LinearisedForce;
+use super::{Contact, PlanetContact, PlanetState, Visit, Visitor, first};
+use crate::contact::impact::Force;
+use crate::contact::mesh::MeshForce;
+use crate::contact::{Flank, Mesh, Spot, ToothLoad, ToothPair};
+use crate::geometry::Pair;
+use crate::numeric::{cos, sin, sqrt};
+
+/// A planet whose flanks fit.
+#[derive(Clone, Copy)]
+pub struct Plain<'a> {
+    /// Constants.
+    pub contact: &'a Contact,
+    /// Whether forces are compiled as part of the steps, and not as one function for all others.
+    pub is_part_of_steps: bool,
+}
+
+impl PlanetContact for Plain<'_> {
+    type Load = MeshForce;
+    type Linearised = LinearisedForce;
+
+    #[inline(always)]
+    fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
+        let mesh = &self.contact.mesh;
+        for s in 0..2 {
+            if self.is_part_of_steps {
+                mesh.write_force(&at.mesh(s), &mut to[s]);
+            } else {
+                mesh.write_force_apart(&at.mesh(s), &mut to[s]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn linearise(&self, at: &PlanetState, to: &mut [LinearisedForce; 2]) {
+        let mesh = &self.contact.mesh;
+        for s in 0..2 {
+            let (force, by) =
+                if self.is_part_of_steps { mesh.linearise(&at.mesh(s)) } else { mesh.linearise_apart(&at.mesh(s)) };
+            to[s] = LinearisedForce { force, by };
+        }
+    }
+
+    fn energy(&self, at: &PlanetState) -> f64 {
+        let mesh = &self.contact.mesh;
+        mesh.energy(&at.mesh(0)) + mesh.energy(&at.mesh(1))
+    }
+
+    /// Mesh by mesh, so that a mesh that does not move gains nothing to the last bit.
+    fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
+        let mesh = &self.contact.mesh;
+        let gained = |s: usize| mesh.energy(&to.mesh(s)) - mesh.energy(&from.mesh(s));
+        gained(0) + gained(1)
+    }
+
+    #[inline(always)]
+    fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
+        let mesh = &self.contact.mesh;
+        first(mesh.kink(&at.mesh(0), h), mesh.kink(&at.mesh(1), h))
+    }
+
+    fn visit(&self, at: &PlanetState, visit: &Visit, see: &mut Visitor) {
+        for s in visit.sides.clone() {
+            self.contact
+                .mesh
+                .loaded(&at.mesh(s), |pair, force| see(&load(self.contact, (at, s), (pair, force), visit), None));
+        }
+    }
+}
+
+/// Load of the `pair` of side `s` under its `force`.
+pub(super) fn load(
+    contact: &Contact,
+    (at, s): (&PlanetState, usize),
+    (pair, force): (&ToothPair, &Force),
+    visit: &Visit,
+) -> ToothLoad {
+    let mesh = &contact.mesh;
+    ToothLoad {
+        planet: at.planet,
+        side: s,
+        flank: pair.flank,
+        spot: pair.spot,
+        place: pair.place,
+        teeth: contact.perfect.teeth(at.name(s, pair.flank, pair.number)),
+        s: pair.s,
+        cone: mesh.whole.cone,
+        share: 1.0,
+        line_load: force.total / contact.detailed.face.width(),
+        depth: pair.depth * mesh.whole.cone,
+        normal: force.total,
+        friction: 0.0,
+        parts: visit.directions.map_or([0.0; 3], |of| parts(of, mesh, pair)),
+        touch: None,
+    }
+}
+
+/// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
+pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
+    let [lever_p, lever_s] = pair.sin_base();
+    let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
+    let corner = &mesh.engagement.corner;
+    let (planet, side) = match contact.spot {
+        Spot::Path => (
+            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.place),
+            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.place),
+        ),
+        Spot::PlanetTip => {
+            let corner = corner[0].exact(contact.place);
+            (along(corner.own_polar, lever_p * (1.0 - corner.gap.d)), along(corner.mate_polar, lever_s))
+        }
+        Spot::SideTip => {
+            let corner = corner[1].exact(contact.place);
+            (along(corner.mate_polar, lever_p), along(corner.own_polar, lever_s * (1.0 - corner.gap.d)))
+        }
+    };
+    let forward = sqrt((1.0 - planet * planet - side * side).max(0.0));
+    [planet, side, if contact.flank == Flank::Drive { forward } else { -forward }]
+}

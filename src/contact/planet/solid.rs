@@ -1,0 +1,84 @@
+//! Solid teeth: both meshes by themselves, a tooth pair by the overlap of its solids.
+
+use super::load::LinearisedForce;
+use super::{Contact, PlanetContact, PlanetState, Visit, Visitor};
+use crate::contact::mesh::MeshForce;
+use crate::contact::solid::mesh::SolidMesh;
+use crate::contact::{ToothLoad, Touch};
+use crate::geometry::Pair;
+
+/// A planet of solid teeth.
+#[derive(Clone, Copy)]
+pub struct Solid<'a> {
+    /// Constants.
+    pub contact: &'a Contact,
+    /// The solids.
+    pub solid: &'a SolidMesh,
+}
+
+impl PlanetContact for Solid<'_> {
+    type Load = MeshForce;
+    type Linearised = LinearisedForce;
+
+    #[inline]
+    fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
+        for s in 0..2 {
+            to[s] = self.solid.force(&at.mesh(s));
+        }
+    }
+
+    #[inline]
+    fn linearise(&self, at: &PlanetState, to: &mut [LinearisedForce; 2]) {
+        for s in 0..2 {
+            let (force, by) = self.solid.linearise(&at.mesh(s));
+            to[s] = LinearisedForce { force, by };
+        }
+    }
+
+    fn energy(&self, at: &PlanetState) -> f64 {
+        let of = |s: usize| self.solid.energy([at.planet, s], at.mesh(s).position);
+        of(0) + of(1)
+    }
+
+    fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
+        let of = |at: &PlanetState, s: usize| self.solid.energy([at.planet, s], at.mesh(s).position);
+        let gained = |s: usize| of(to, s) - of(from, s);
+        gained(0) + gained(1)
+    }
+
+    /// None: the force of solid teeth is smooth enough between facets.
+    fn kink(&self, _: &PlanetState, _: f64) -> Option<f64> {
+        None
+    }
+
+    fn visit(&self, at: &PlanetState, visit: &Visit, see: &mut Visitor) {
+        let mesh = &self.contact.mesh;
+        for s in visit.sides.clone() {
+            self.solid.loaded(&at.mesh(s), |load| {
+                let (spot, place) = mesh.engagement.rigid_spot(load.s);
+                let tooth = ToothLoad {
+                    planet: at.planet,
+                    side: s,
+                    flank: load.flank,
+                    spot,
+                    place,
+                    teeth: self.contact.perfect.teeth(at.name(s, load.flank, load.number)),
+                    s: load.s,
+                    cone: load.slice.cone,
+                    share: load.slice.share,
+                    line_load: load.force.total / load.slice.width,
+                    depth: load.depth * load.slice.cone,
+                    normal: load.force.total,
+                    friction: 0.0,
+                    parts: load.parts(),
+                    touch: Some(Touch { point: load.point, polar: load.polar }),
+                };
+                see(&tooth, None);
+            });
+        }
+    }
+
+    fn face_load_factor(&self, at: &PlanetState, slice: &ToothLoad, _: &Pair) -> f64 {
+        self.solid.face_load_factor(&at.mesh(slice.side), slice.flank, slice.s)
+    }
+}

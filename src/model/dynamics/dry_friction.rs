@@ -1,0 +1,169 @@
+//! Dry friction of gears with teeth: under the loads of their meshes, with derivatives by these.
+
+use super::ledger_rates::LedgerRates;
+use super::shape::{ByGroup, Shape};
+use super::{Acted, Equations, Jacobian};
+use crate::contact::detailed::{LOCAL, WITH_OTHER};
+use crate::contact::planet::{COORDINATES, LinearisedLoad, Q};
+use crate::integrate::Point;
+use crate::model::assembly::SIGMA;
+use crate::model::effect_kinds::SurfaceLoad;
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+
+/// Loads on the surfaces of side gears, and of planets by group.
+pub(super) type MeshLoads<S, const N: usize> = ([SurfaceLoad; 2], <S as Shape<N>>::ByGroup<SurfaceLoad>);
+
+impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
+    /// Loads by body; none where meshes press nothing.
+    #[inline(always)]
+    pub(super) fn by_body(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
+        if let Some((sides, planets)) = loads {
+            all[..FRICTION_PLANETS].copy_from_slice(sides);
+            for g in 0..self.groups() {
+                all[FRICTION_PLANETS + g] = planets[g];
+            }
+        }
+        all
+    }
+
+    /// Adds the torques and the heat of dry friction, where there is any, under given loads on the surfaces of side gears and
+    /// planets.
+    #[inline(always)]
+    pub(super) fn add_friction(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<S, N>>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        if self.rubs() {
+            self.rub_under(at, loads, sum, ledger_rates);
+        }
+    }
+
+    fn rub_under(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<S, N>>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        self.rub(at, &self.all_surface_loads(loads), sum, ledger_rates);
+    }
+
+    /// Loads on all surfaces, those of side gears and planets as given.
+    fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = self.by_body(loads);
+        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
+        all
+    }
+
+    /// Derivatives of dry friction by the motion of the bodies on which it acts, under given loads on the surfaces of side gears
+    /// and planets.
+    pub(super) fn friction_slopes_under(
+        &self,
+        at: &Point<N>,
+        loads: Option<&MeshLoads<S, N>>,
+        j: &mut Jacobian<'_, N>,
+    ) {
+        if self.rubs() {
+            self.friction_slopes(at, &self.all_surface_loads(loads), j);
+        }
+    }
+
+    /// Adds the torques of brakes that slide, which follow from inputs and speeds alone.
+    pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
+        let surface_loads = self.acting.friction().wheel_loads(&self.acting.inputs);
+        for s in 0..2 {
+            let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
+            if friction.is_on() {
+                let direction = state.mode.direction();
+                let speed = direction * self.slip(at, FRICTION_WHEELS + s).speed;
+                sum[self.wheel(s)] -= direction * friction.sliding_limit(speed, &surface_loads[s])[0];
+            }
+        }
+    }
+
+    /// Derivatives of dry friction by the loads of the meshes.
+    pub(super) fn friction_slopes_by_loads<L: LinearisedLoad>(
+        &self,
+        at: &Point<N>,
+        loads: &S::ByGroup<[L; 2]>,
+        (sides, planets): &MeshLoads<S, N>,
+        j: &mut Jacobian<'_, N>,
+    ) {
+        let side = self.teeth.sin_base[1];
+        for s in 0..2 {
+            let Some((direction, of_side)) = self.slopes_of_sliding(at, s, &sides[s]) else { continue };
+            let torque = self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]);
+            let slopes = self.by_group([0.0; WITH_OTHER], |g| {
+                let by = loads[g][s].pressing_slopes();
+                std::array::from_fn(|k| {
+                    self.members(g)
+                        * (of_side[0] * by.side_axial[k] + of_side[1] * torque.signum() * side * by.force[k])
+                })
+            });
+            for row in [(s, -direction), (CARRIER, direction)] {
+                self.spread_all::<L>(row, s, &slopes, j);
+            }
+        }
+        for g in 0..self.groups() {
+            let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]) else {
+                continue;
+            };
+            let [l, r] = [loads[g][0].pressing(), loads[g][1].pressing()];
+            let across = l.tangential + r.tangential;
+            let along = l.side_axial - r.side_axial;
+            let per = if planets[g].load > 0.0 { of_planet[1] / planets[g].load } else { 0.0 };
+            for s in 0..2 {
+                let by = loads[g][s].pressing_slopes();
+                let mut slopes = S::ByGroup::filled([0.0; WITH_OTHER]);
+                slopes[g] = std::array::from_fn(|k| {
+                    of_planet[0] * by.planet_axial[k]
+                        + per * (across * by.tangential[k] + SIGMA[s] * along * by.side_axial[k])
+                });
+                self.spread_all::<L>((self.planet(g), -direction), s, &slopes, j);
+            }
+        }
+    }
+
+    /// Direction in which body `i` slides, and the slopes of its limit torque by thrust and load, under the loads `by`; none
+    /// where it does not slide.
+    fn slopes_of_sliding(&self, at: &Point<N>, i: usize, by: &SurfaceLoad) -> Option<(f64, [f64; 2])> {
+        let (friction, state, _) = self.friction_on(i);
+        let direction = state.mode.direction();
+        let slides = direction != 0.0 && friction.is_on();
+        slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed, by)))
+    }
+
+    /// Derivatives of the planets' dry friction by the speeds that throw them outward.
+    pub(super) fn friction_slopes_by_orbit(
+        &self,
+        at: &Point<N>,
+        planets: &S::ByGroup<SurfaceLoad>,
+        j: &mut Jacobian<'_, N>,
+    ) {
+        for g in 0..self.groups() {
+            let slopes = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]);
+            let Some((direction, [per_thrust, _])) = slopes else { continue };
+            j.by_velocity[self.planet(g)][self.orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
+        }
+    }
+
+    /// Adds to a row the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes where those
+    /// matter.
+    fn spread_all<L: LinearisedLoad>(
+        &self,
+        row: (usize, f64),
+        s: usize,
+        slopes: &S::ByGroup<[f64; WITH_OTHER]>,
+        j: &mut Jacobian<'_, N>,
+    ) {
+        self.spread(row, s, (slopes, 0), j.by_position);
+        self.spread(row, s, (slopes, COORDINATES), j.by_rate);
+        if L::COUPLED {
+            self.spread(row, 1 - s, (slopes, LOCAL), j.by_position);
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Contact of the planets with both side gears, as the equations of motion see it. No other file of the model knows the kinds of contact.
+
+use super::dry_friction::MeshLoads;
+use super::ledger_rates::LedgerRates;
+use super::shape::{ByGroup, Shape};
+use super::{Acted, Equations, Jacobian};
+use crate::contact::planet::{
+    AnyContact, LinearisedLoad, MeshLoad, PlanetContact, PlanetState, Q, Visit, Visitor, with_contact,
+};
+use crate::contact::{FlankGaps, ToothFriction, ToothLoad};
+use crate::geometry::Pair;
+use crate::integrate::{Matrix, Point};
+use crate::model::assembly::Teeth;
+use crate::model::dynamics::State;
+use crate::model::effect_kinds::SurfaceLoad;
+use crate::model::setup::CONTACT_HEAT;
+use crate::numeric::{lanes, sqrt};
+
+impl Teeth {
+    /// Whether the meshes are summed in detail in `state`: where an effect needs it, and once a tooth is broken.
+    pub fn are_in_detail(&self, state: &State) -> bool {
+        self.contact.in_detail || state.is_tooth_broken
+    }
+
+    /// Whether teeth carry a load mesh by mesh: no pairs move each other, and no slices of the face carry by themselves.
+    pub fn carry_mesh_by_mesh(&self, state: &State) -> bool {
+        !self.are_in_detail(state) && self.contact.bodies.is_none() && !self.layout.has_pins
+    }
+}
+
+impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
+    /// Contact as it is now.
+    #[inline]
+    pub(super) fn contact(&self) -> AnyContact<'_> {
+        if S::MAY_ACT {
+            let viscosity = self.acting.oil_viscosity.map(|oil| oil.dynamic);
+            self.teeth.contact.now(self.is_tooth_broken, viscosity, S::HAS_OWN_STEPS)
+        } else {
+            self.teeth.contact.without_effects(S::HAS_OWN_STEPS)
+        }
+    }
+
+    /// Gaps of the teeth as they are now.
+    pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
+        self.teeth.contact.gaps(self.is_tooth_broken)
+    }
+
+    /// Whether flanks may not fit, or bodies give way.
+    pub(in crate::model) fn is_open_or_elastic(&self) -> bool {
+        self.gaps().is_some() || self.teeth.contact.bodies.is_some()
+    }
+
+    /// Friction along the flanks, with the viscosity of the oil as it is now.
+    pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
+        self.teeth.contact.friction(self.acting.oil_viscosity.map(|oil| oil.dynamic))
+    }
+
+    /// A group before `g` whose meshes are in the same state to the last bit: what its teeth do, those of `g` do too. Planets that are
+    /// simulated one by one move together until something tells them apart, such as a tooth that breaks.
+    #[inline]
+    pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
+        if self.groups() == 1 || self.teeth.contact.solid.is_some() {
+            return None;
+        }
+        let same = |i: usize, j: usize| at.q[i] == at.q[j] && at.v[i] == at.v[j];
+        (0..g).find(|&h| {
+            self.teeth.plan.group(g).phase == self.teeth.plan.group(h).phase
+                && self.offset[g] == self.offset[h]
+                && same(self.planet(g), self.planet(h))
+                && (!self.has_pins() || same(self.pin(g), self.pin(h)))
+        })
+    }
+
+    /// The same for loads `L`: teeth of two planets that are summed in detail may differ.
+    #[inline(always)]
+    fn twin_under<L: MeshLoad>(&self, at: &Point<N>, g: usize) -> Option<usize> {
+        if L::PRESSES { None } else { self.twin(at, g) }
+    }
+
+    /// Adds the forces of all meshes to `sum`, which is zero, and sets their heat; adds the dry friction that depends on them. Returns the
+    /// torques of the meshes on the side gears.
+    #[inline]
+    pub(in crate::model) fn act_of_teeth(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) -> [f64; 2] {
+        with_contact!(S::MAY_ACT, self.contact(), contact => {
+            let surfaces = self.add_contact(&contact, at, sum, ledger_rates);
+            let on_sides = [sum[0], sum[1]];
+            self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
+            on_sides
+        })
+    }
+
+    /// Adds the forces of all meshes and sets their heat. Returns the loads under which gears rub, where they do.
+    #[inline(never)]
+    fn add_contact<C: PlanetContact>(
+        &self,
+        contact: &C,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) -> Option<MeshLoads<S, N>> {
+        let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
+        for g in 0..self.groups() {
+            match self.twin_under::<C::Load>(at, g) {
+                Some(twin) => loads[g] = loads[twin],
+                None => contact.write(&self.planet_state(at, g), &mut loads[g]),
+            }
+        }
+        let mut all = *sum;
+        self.add_loads(&loads, &mut all, ledger_rates);
+        lanes::write(all, sum);
+        (C::Load::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, &loads))
+    }
+
+    /// Adds the forces of `loads` and sets their heat.
+    #[inline(always)]
+    fn add_loads<L: MeshLoad>(&self, loads: &S::ByGroup<[L; 2]>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        self.add_forces(|g, s| loads[g][s].force(), sum);
+        let heat = |i: usize| self.sum(|g| self.members(g) * (loads[g][0].heat()[i] + loads[g][1].heat()[i]));
+        ledger_rates.heat[CONTACT_HEAT] = heat(0);
+        let of_friction = self.teeth.effect_terms.friction_heat_index;
+        if L::PRESSES && of_friction != CONTACT_HEAT {
+            ledger_rates.heat[of_friction] = heat(1);
+        }
+    }
+
+    /// The same with the derivatives of all forces; returns the elastic energy of all meshes [J].
+    #[inline]
+    pub(super) fn linearise_contact(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+        j: &mut Jacobian<'_, N>,
+    ) -> f64 {
+        with_contact!(S::MAY_ACT, self.contact(), contact => self.add_linearised(&contact, at, sum, ledger_rates, j))
+    }
+
+    #[inline(always)]
+    fn add_linearised<C: PlanetContact>(
+        &self,
+        contact: &C,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+        j: &mut Jacobian<'_, N>,
+    ) -> f64 {
+        let loads = self.linearised_loads(contact, at);
+        self.add_loads(&loads, sum, ledger_rates);
+        self.add_block::<false>(|g, s| loads[g][s].by_position(), j.by_position);
+        self.add_block::<false>(|g, s| loads[g][s].by_rate(), j.by_rate);
+        if C::Linearised::COUPLED {
+            self.add_block::<true>(|g, s| loads[g][s].by_other(), j.by_position);
+        }
+        let surfaces = (C::Linearised::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, &loads));
+        self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
+        if let Some(surfaces) = &surfaces {
+            self.friction_slopes_by_loads(at, &loads, surfaces, j);
+            self.friction_slopes_by_orbit(at, &surfaces.1, j);
+        }
+        self.friction_slopes_under(at, surfaces.as_ref(), j);
+        self.sum(|g| self.members(g) * (loads[g][0].energy() + loads[g][1].energy()))
+    }
+
+    #[inline(always)]
+    fn linearised_loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Linearised; 2]> {
+        let mut loads = S::ByGroup::filled([C::Linearised::none(); 2]);
+        for g in 0..self.groups() {
+            match self.twin_under::<C::Linearised>(at, g) {
+                Some(twin) => loads[g] = loads[twin],
+                None => contact.linearise(&self.planet_state(at, g), &mut loads[g]),
+            }
+        }
+        loads
+    }
+
+    /// Forces of the meshes at rest, with their derivatives by position.
+    pub(super) fn static_contact(&self, at: &Point<N>, sum: &mut [f64; N], by_position: &mut Matrix<N>) {
+        let still = &Point { q: at.q, v: [0.0; N] };
+        with_contact!(S::MAY_ACT, self.contact(), contact => {
+            let loads = self.linearised_loads(&contact, still);
+            self.add_forces(|g, s| loads[g][s].force(), sum);
+            self.add_block::<false>(|g, s| loads[g][s].by_position(), by_position);
+            self.add_block::<true>(|g, s| loads[g][s].by_other(), by_position);
+        });
+    }
+
+    /// Torque that teeth on which no effect acts put on the gear of side `s` at rest, and its derivative by the gear's angle.
+    pub(in crate::model) fn torque_of_plain_teeth(&self, s: usize, at: &Point<N>) -> [f64; 2] {
+        let still = &Point { q: at.q, v: [0.0; N] };
+        let arm = self.teeth.sin_base[1];
+        with_contact!(false, self.teeth.contact.without_effects(false), contact => {
+            let loads = self.linearised_loads(&contact, still);
+            let force = self.sum(|g| self.members(g) * arm * loads[g][s].force()[Q]);
+            [force, self.sum(|g| self.members(g) * arm * arm * loads[g][s].by_position()[Q][Q])]
+        })
+    }
+
+    /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes and the planets' orbit.
+    #[inline]
+    fn mesh_surface_loads<L: MeshLoad>(&self, at: &Point<N>, loads: &S::ByGroup<[L; 2]>) -> MeshLoads<S, N> {
+        let side = self.teeth.sin_base[1];
+        let sides = [0, 1].map(|s| SurfaceLoad {
+            thrust: self.sum(|g| self.members(g) * loads[g][s].pressing().side_axial),
+            load: self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]).abs(),
+        });
+        let mut planets = S::ByGroup::filled(SurfaceLoad::default());
+        for g in 0..self.groups() {
+            let [l, r] = [loads[g][0].pressing(), loads[g][1].pressing()];
+            let across = l.tangential + r.tangential;
+            let along = l.side_axial - r.side_axial;
+            planets[g] = SurfaceLoad {
+                thrust: l.planet_axial + r.planet_axial + self.centrifugal(at, g)[0],
+                load: sqrt(across * across + along * along),
+            };
+        }
+        (sides, planets)
+    }
+
+    /// Loads on the rubbing surfaces of side gears and planets.
+    pub(super) fn surfaces_pressed(&self, at: &Point<N>) -> Option<MeshLoads<S, N>> {
+        with_contact!(S::MAY_ACT, self.contact(), contact => self.surfaces_pressed_by(&contact, at))
+    }
+
+    fn surfaces_pressed_by<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> Option<MeshLoads<S, N>> {
+        if !C::Load::PRESSES {
+            return None;
+        }
+        let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
+        for g in 0..self.groups() {
+            contact.write(&self.planet_state(at, g), &mut loads[g]);
+        }
+        Some(self.mesh_surface_loads(at, &loads))
+    }
+
+    /// Elastic energy of all meshes [J].
+    pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
+        with_contact!(S::MAY_ACT, self.contact(), contact => self.energy_of(&contact, at))
+    }
+
+    fn energy_of<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> f64 {
+        let mut energy = S::ByGroup::filled(0.0);
+        for g in 0..self.groups() {
+            energy[g] = match self.twin_under::<C::Load>(at, g) {
+                Some(twin) => energy[twin],
+                None => contact.energy(&self.planet_state(at, g)),
+            };
+        }
+        self.sum(|g| self.members(g) * energy[g])
+    }
+
+    /// Elastic energy that the pairs of the mesh of group `g` with side `s` bring along which come or go between two points
+    /// [J]. Those of both sides may do so at once.
+    pub(in crate::model) fn energy_brought(&self, [before, after]: [&Point<N>; 2], g: usize, s: usize) -> f64 {
+        let [from, to] = if s == 0 { [[before, before], [after, before]] } else { [[after, before], [after, after]] };
+        let state = |at: [&Point<N>; 2]| {
+            let [mut left, right] = at.map(|at| self.planet_state(at, g));
+            (left.position[1], left.rate[1]) = (right.position[1], right.rate[1]);
+            left
+        };
+        with_contact!(S::MAY_ACT, self.contact(), contact => contact.energy_gained(&state(from), &state(to)))
+    }
+
+    /// Torques of the teeth of one planet of group `g` on both side gears, while nothing turns against anything else [N·m].
+    pub(in crate::model) fn planet_torques(&self, at: &Point<N>, g: usize) -> [f64; 2] {
+        let still = &Point { q: at.q, v: [0.0; N] };
+        let side = self.teeth.sin_base[1];
+        with_contact!(S::MAY_ACT, self.contact(), contact => Self::force_of(&contact, &self.planet_state(still, g)).map(|force| side * force))
+    }
+
+    /// Forces along q of both meshes.
+    fn force_of<C: PlanetContact>(contact: &C, at: &PlanetState) -> [f64; 2] {
+        let mut loads = [C::Load::none(); 2];
+        contact.write(at, &mut loads);
+        loads.map(|load| load.force()[Q])
+    }
+
+    /// The fraction of a step of `h` [s] from `at` on after which a force has its first kink.
+    #[inline]
+    pub(super) fn first_kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        with_contact!(S::MAY_ACT, self.contact(), contact => {
+            let mut first: Option<f64> = None;
+            for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
+                first = match (first, contact.kink(&self.planet_state(at, g), h)) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
+            }
+            first
+        })
+    }
+
+    /// Calls `see` with each loaded tooth pair of the planets of group `g`, or with each loaded slice of it. Compiled once, for whoever
+    /// looks.
+    #[inline(never)]
+    pub fn visit_loads(&self, at: &Point<N>, g: usize, visit: &Visit, see: &mut Visitor) {
+        let state = &self.planet_state(at, g);
+        with_contact!(S::MAY_ACT, self.contact(), contact => contact.visit(state, visit, see));
+    }
+
+    /// K_Hβ of the pair of group `g` of which `slice` is a loaded slice.
+    pub(in crate::model) fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
+        let state = &self.planet_state(at, g);
+        with_contact!(S::MAY_ACT, self.contact(), contact => contact.face_load_factor(state, slice, pair))
+    }
+
+    /// Whether loads differ over the face, and are summed over it.
+    pub(in crate::model) fn is_sliced(&self) -> bool {
+        S::MAY_ACT
+            && (self.teeth.contact.in_detail || self.is_tooth_broken)
+            && self.teeth.contact.detailed.face.is_cut()
+    }
+}

@@ -1,0 +1,258 @@
+//! Sensitivity of the model: rates of the state by the exact Jacobian, and directional derivatives of what is read.
+//!
+//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds follow
+//! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
+//! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
+
+use super::states::STATES;
+use crate::integrate::SecondOrder;
+use crate::model::assembly::Gears;
+use crate::model::dynamics::Acted;
+use crate::model::dynamics::with_equations;
+use crate::model::effect_kinds::Changes;
+use crate::model::outputs::forces::{Extent, Forces};
+use crate::model::outputs::pairs::PairLines;
+use crate::model::outputs::{LedgerReadings, Motion};
+use crate::model::run::Simulation;
+use crate::model::run::imposed::{add_impulse, imposed_speeds};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::{HEATS, STEP_READINGS};
+use crate::model::thermal::network::Rates;
+use crate::model::thermal::{NODES, Network};
+
+/// Distance of neighbouring points along a direction, in natural magnitudes.
+const APART: f64 = 3e-5;
+/// Central differences of order 4: places of the points as multiples of their distance, and their weights.
+const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+
+/// A change of everything that motion and forces depend on.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction {
+    /// Of the positions.
+    pub q: [f64; MAX_DOF],
+    /// Of the velocities.
+    pub v: [f64; MAX_DOF],
+    /// Of the inputs.
+    pub inputs: Inputs,
+    /// Of the rates of the inputs.
+    pub rates: Inputs,
+    /// Of the command that the carrier follows [rad/s].
+    pub carrier_command: f64,
+    /// Changes of the temperatures of the nodes [K], which change only with time.
+    pub temperatures: [f64; NODES],
+}
+
+impl Direction {
+    /// No change.
+    pub const NONE: Self = Self {
+        q: [0.0; MAX_DOF],
+        v: [0.0; MAX_DOF],
+        inputs: Inputs::ZERO,
+        rates: Inputs::ZERO,
+        carrier_command: 0.0,
+        temperatures: [0.0; NODES],
+    };
+
+    /// Whether positions or velocities change.
+    fn moves(&self) -> bool {
+        self.carrier_command != 0.0 || self.q.iter().chain(&self.v).any(|change| *change != 0.0)
+    }
+}
+
+/// Readings at the points of the central difference along a direction.
+pub struct StencilReadings<T> {
+    read: [T; STENCIL.len()],
+    apart: f64,
+}
+
+impl<T> StencilReadings<T> {
+    /// Derivative of a value of the readings.
+    pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
+        // the slope of a constant is exactly 0
+        let first = of(&self.read[0]);
+        let sum: f64 = STENCIL.iter().zip(&self.read).map(|((_, weight), read)| weight * (of(read) - first)).sum();
+        sum / self.apart
+    }
+}
+
+impl Simulation {
+    /// Derivatives of the rates of positions and velocities along `direction`.
+    pub fn rate_slopes(&self, direction: &Direction) -> [[f64; MAX_DOF]; 2] {
+        let (n, state) = (self.degrees_of_freedom(), &self.state);
+        let mut slopes = [[0.0; MAX_DOF]; 2];
+        if direction.moves() {
+            let mut rows = [0.0; 4 * MAX_DOF * MAX_DOF];
+            self.slopes(&state.q, &state.v, &mut rows);
+            for (i, row) in rows.chunks_exact(2 * n).enumerate().take(2 * n) {
+                let by = |columns: &[f64], change: &[f64]| columns.iter().zip(change).map(|(a, b)| a * b).sum::<f64>();
+                slopes[i / n][i % n] = by(&row[..n], &direction.q[..n]) + by(&row[n..], &direction.v[..n]);
+            }
+        }
+        let input_acceleration_slopes = self.input_acceleration_slopes(direction);
+        for i in 0..n {
+            slopes[1][i] += input_acceleration_slopes[i];
+        }
+        slopes
+    }
+
+    /// Derivatives of the accelerations by the inputs alone.
+    fn input_acceleration_slopes(&self, direction: &Direction) -> [f64; MAX_DOF] {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let mut input_acceleration_slopes = [0.0; MAX_DOF];
+        let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
+        let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
+        with_equations!(self.model, state, inputs, |equations| {
+            let by_inputs = equations.input_accelerations(&state.point(), &change, &input_derivatives);
+            input_acceleration_slopes.iter_mut().zip(by_inputs).for_each(|(slope, by_inputs)| *slope = by_inputs);
+        });
+        input_acceleration_slopes
+    }
+
+    /// The direction in which state and inputs change with time, without temperatures.
+    pub fn time_direction(&self) -> Direction {
+        let mut direction = Direction::NONE;
+        let Direction { q, v, .. } = &mut direction;
+        self.rates(&self.state.q, &self.state.v, [q, v]);
+        if let Some(input_derivatives) = self.input_derivatives() {
+            [direction.inputs, direction.rates] = input_derivatives.rates;
+            direction.carrier_command = direction.inputs.carrier_speed;
+        }
+        direction
+    }
+
+    /// Rates of the temperatures [K/s].
+    pub fn temperature_rates(&self) -> [f64; NODES] {
+        let rates = &self.ledger_rates().readings[const { places_of("warm_up", Changes::ByStep) }];
+        std::array::from_fn(|node| rates[node])
+    }
+
+    /// Derivatives of angles and speeds along `direction`.
+    pub fn motion_slopes(&self, direction: &Direction) -> Motion {
+        let mut along = self.moved(&direction.q, &direction.v);
+        along.state.whole_periods = [0; MAX_DOF];
+        let slopes = along.motion_of_state();
+        let spin = self.model.ideal.plan.layout().planet(0);
+        let sense = if self.state.v[spin] == 0.0 { 0.0 } else { (self.state.v[spin] * direction.v[spin]).signum() };
+        Motion { mesh_frequency: sense * slopes.mesh_frequency, ..slopes }
+    }
+
+    /// Forces along `direction`. Meshes do not change where nothing moves, so they are left out there.
+    pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
+        if direction.moves() {
+            self.along(direction, |displaced| displaced.forces_of_state(Extent::Parts))
+        } else {
+            self.along(direction, |displaced| displaced.forces_of_state(Extent::Bodies))
+        }
+    }
+
+    /// Loaded tooth pairs along `direction`.
+    pub fn pair_lines_along(&self, direction: &Direction) -> StencilReadings<PairLines> {
+        if direction.moves() {
+            self.along(direction, Self::pair_lines_of_state)
+        } else {
+            StencilReadings { read: Default::default(), apart: 1.0 }
+        }
+    }
+
+    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> StencilReadings<T> {
+        let size = self.natural_size(direction);
+        let apart = if size > 0.0 { APART / size } else { 1.0 };
+        let mut displaced = Self { forces: None, ..self.clone() };
+        let read = STENCIL.map(|(place, _)| {
+            self.displace(&mut displaced, direction, place * apart);
+            read(&displaced)
+        });
+        StencilReadings { read, apart }
+    }
+
+    /// Rates of what moves continuously in the ledger: heat, temperatures, and heat stored and given off.
+    pub fn ledger_rates(&self) -> LedgerReadings {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let heat = with_equations!(self.model, state, inputs, |equations| equations.evaluate(&state.point()).1.heat);
+        let mut readings = [0.0; STEP_READINGS];
+        if let Some(network) = &self.model.thermal {
+            let Rates { temperatures, given_off } = self.thermal_rates(network, &heat);
+            let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
+            thermal[..NODES].copy_from_slice(&temperatures);
+            thermal[NODES..].copy_from_slice(&[network.absorbed(&temperatures), given_off]);
+        }
+        LedgerReadings { heat, readings, ..LedgerReadings::default() }
+    }
+
+    /// Rates of temperatures while `heat` arises [W].
+    fn thermal_rates(&self, network: &Network<HEATS>, heat: &[f64; HEATS]) -> Rates {
+        let changes = self.inputs.changes_outside();
+        let around = network.around.changed(changes);
+        let is_limited = around.sump != network.around.commanded(changes).sump;
+        let sump = if is_limited { 0.0 } else { self.input_derivatives().map_or(0.0, |of| of.rates[0].sump_change) };
+        network.rates(&self.state.thermal, heat, self.state.v[CARRIER].abs(), (around, sump))
+    }
+
+    /// Sets all of `displaced` that follows `direction`.
+    fn displace(&self, displaced: &mut Self, direction: &Direction, factor: f64) {
+        let (from, state) = (&self.state, &mut displaced.state);
+        for i in 0..MAX_DOF {
+            state.q[i] = from.q[i] + factor * direction.q[i];
+            state.v[i] = from.v[i] + factor * direction.v[i];
+        }
+        state.carrier_command = from.carrier_command + factor * direction.carrier_command;
+        if let (Some(from), Some(to)) = (&from.input_derivatives, &mut state.input_derivatives) {
+            to.rates[0] = from.rates[0].plus(factor, &direction.rates);
+        }
+        displaced.inputs = self.inputs.plus(factor, &direction.inputs);
+        for (to, (from, change)) in
+            state.thermal.rises.iter_mut().zip(from.thermal.rises.iter().zip(&direction.temperatures))
+        {
+            *to = from + factor * change;
+        }
+    }
+
+    /// The largest change in `direction`, in natural magnitudes.
+    fn natural_size(&self, direction: &Direction) -> f64 {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let mut largest = 0.0f64;
+        with_equations!(self.model, state, inputs, |equations| {
+            let weights = equations.weights(&state.point());
+            for i in 0..equations.degrees_of_freedom() {
+                largest = largest.max((weights.q[i] * direction.q[i]).abs());
+                largest = largest.max((weights.v[i] * direction.v[i]).abs());
+            }
+        });
+        self.inputs.visit(&direction.inputs, |now, change| largest = largest.max(change.abs() / (1.0 + now.abs())));
+        largest
+    }
+
+    /// The direction in which states and inputs change by `states` and `inputs`; imposed motions follow their commands.
+    pub fn direction(&self, states: &[f64; STATES], inputs: &Inputs) -> Direction {
+        let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
+        self.set_from_states(states, &mut direction.q, &mut direction.v);
+        direction.carrier_command = inputs.carrier_speed;
+        let Direction { q, v, .. } = &mut direction;
+        for speed in imposed_speeds(&self.model, inputs, q) {
+            v[speed.freedom] = match speed.freedom {
+                CARRIER => self.carrier_speed_slope(q[CARRIER], inputs.carrier_speed),
+                _ => speed.value,
+            };
+        }
+        if let Gears::Ideal(_) = &self.model.gears {
+            if !self.is_model_exchange() {
+                add_impulse(&self.model, [v[CARRIER], v[PLANET]], v);
+            }
+            self.model.ideal.constrain(v);
+        }
+        direction
+    }
+
+    /// Derivative of the speed of an imposed carrier where its angle changes by `angle` and its command by `command`.
+    fn carrier_speed_slope(&self, angle: f64, command: f64) -> f64 {
+        let at = |place: f64| {
+            let mut state = self.state;
+            state.q[CARRIER] += place * APART * angle;
+            let command = self.inputs.carrier_speed + place * APART * command;
+            self.model.body_effects().carrier_speed(&state.q, command)
+        };
+        let here = at(0.0);
+        STENCIL.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
+    }
+}

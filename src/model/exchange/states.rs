@@ -1,0 +1,141 @@
+//! What a solver of the host reads: continuous states, which are the same in every scene, one pair for each body; their rates; and
+//! event indicators. The host sees positions unwrapped.
+
+use crate::model::assembly::Gears;
+use crate::model::dynamics::with_equations;
+use crate::model::dynamics::{Acted, Largest};
+use crate::model::run::Simulation;
+use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
+
+/// A body with a position and a velocity among the states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// Side gear; its angle is counted from the carrier.
+    Side(usize),
+    /// Carrier.
+    Carrier,
+    /// Axial seat of a side gear.
+    Seat(usize),
+    /// Planet on its pin.
+    Planet(usize),
+    /// Pin; its angle is counted from the carrier, its speed is not.
+    Pin(usize),
+    /// Attached body, such as the wheel-side end of a half-shaft; its position is the twist, its speed its own.
+    Attached(usize),
+}
+
+/// The bodies, in the order of the states.
+pub const BODIES: [Body; MAX_DOF] = {
+    use Body::*;
+    let mut all = [Carrier; MAX_DOF];
+    let pairs = [(0, Side(0)), (1, Side(1)), (3, Seat(0)), (4, Seat(1))];
+    let mut i = 0;
+    while i < pairs.len() {
+        all[pairs[i].0] = pairs[i].1;
+        i += 1;
+    }
+    i = 0;
+    while i < MAX_PLANETS {
+        (all[5 + i], all[5 + MAX_PLANETS + i]) = (Planet(i), Pin(i));
+        i += 1;
+    }
+    i = 5 + 2 * MAX_PLANETS;
+    while i < MAX_DOF {
+        all[i] = Attached(i - 5 - 2 * MAX_PLANETS);
+        i += 1;
+    }
+    all
+};
+
+/// States: positions of all bodies, then their velocities.
+pub const STATES: usize = 2 * MAX_DOF;
+/// Event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets and wheels.
+pub const INDICATORS: usize = 4 * MAX_PLANETS + FRICTION_PLANETS + MAX_PLANETS + 2;
+/// Indicator of an event that cannot come.
+const NEVER: f64 = 1.0;
+
+impl Body {
+    /// Its degree of freedom in a scene; none where it does not move independently.
+    fn freedom(self, plan: &Plan) -> Option<usize> {
+        let layout = plan.layout();
+        match self {
+            Self::Side(s) => Some(s),
+            Self::Carrier => Some(CARRIER),
+            Self::Seat(s) => plan.has_pins.then(|| layout.seat(s)),
+            Self::Planet(i) => (i < plan.planets).then(|| layout.planet(plan.group_of[i])),
+            Self::Pin(i) => (plan.has_pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
+            Self::Attached(k) => plan.attached(k),
+        }
+    }
+}
+
+impl Simulation {
+    /// All states; 0 of bodies that do not move independently.
+    pub fn states(&self) -> [f64; STATES] {
+        let present = self.with_inputs_applied();
+        let state = &present.as_ref().unwrap_or(self).state;
+        self.states_of(|i| state.position(i, &self.model.periods), &state.v)
+    }
+
+    /// Their rates.
+    pub fn state_rates(&self) -> [f64; STATES] {
+        let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
+        let present = self.with_inputs_applied();
+        let simulation = present.as_ref().unwrap_or(self);
+        simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
+        self.states_of(|i| dq[i], &dv)
+    }
+
+    /// States of positions and velocities by degree of freedom.
+    pub fn states_of(&self, position: impl Fn(usize) -> f64, v: &[f64; MAX_DOF]) -> [f64; STATES] {
+        let mut states = [0.0; STATES];
+        for (k, body) in BODIES.iter().enumerate() {
+            if let Some(i) = body.freedom(&self.model.ideal.plan) {
+                (states[k], states[MAX_DOF + k]) = (position(i), v[i]);
+            }
+        }
+        states
+    }
+
+    /// Sets positions and velocities by degree of freedom from states. Where planets move as one, the first of them counts.
+    pub(super) fn set_from_states(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
+        let plan = &self.model.ideal.plan;
+        for (k, body) in BODIES.iter().enumerate().rev() {
+            if let Some(i) = body.freedom(plan) {
+                (q[i], v[i]) = (states[k], states[MAX_DOF + k]);
+            }
+        }
+    }
+
+    /// Event indicators: approach of flanks [m], positive where they press; distance of dry friction from its
+    /// switch [N·m while stuck, rad/s while sliding].
+    pub fn indicators(&self) -> [f64; INDICATORS] {
+        let mut indicators = [NEVER; INDICATORS];
+        let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);
+        let plan = &model.ideal.plan;
+        if let Gears::Teeth(teeth) = &model.gears {
+            let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+            for i in 0..plan.planets {
+                for s in 0..2 {
+                    let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
+                    let drive = teeth.contact.mesh.drive_approach(position);
+                    let coast = -2.0 * teeth.contact.mesh.half_backlash() - drive;
+                    indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
+                    indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
+                }
+            }
+        }
+        with_equations!(model, state, inputs, |equations| {
+            let margins = equations.friction_margins(&state.point());
+            let friction = &mut indicators[4 * MAX_PLANETS..];
+            for s in 0..2 {
+                friction[s] = margins[s].unwrap_or(NEVER);
+                friction[FRICTION_PLANETS + MAX_PLANETS + s] = margins[FRICTION_WHEELS + s].unwrap_or(NEVER);
+            }
+            for i in 0..plan.planets {
+                friction[FRICTION_PLANETS + i] = margins[FRICTION_PLANETS + plan.group_of[i]].unwrap_or(NEVER);
+            }
+        });
+        indicators
+    }
+}

@@ -1,0 +1,173 @@
+//! Steps and events of model exchange, in which a solver of the host integrates the states.
+//!
+//! Motions that are imposed follow their commands at once; their states have no effect. Trial steps of the host's solver leave no
+//! trace: ledger, friction and teeth record completed steps, and change at events.
+
+use super::states::STATES;
+use crate::integrate::{Point, SecondOrder, Step};
+use crate::model::dynamics::with_equations;
+use crate::model::dynamics::{Accepted, Acted, State};
+use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
+use crate::model::run::progress::complete;
+use crate::model::run::timeline::{breaks_tooth, next_change};
+use crate::model::run::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
+use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
+
+/// Result of an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Update {
+    /// Whether states have changed.
+    pub states_changed: bool,
+    /// Time of the next event that is known already [s].
+    pub next: Option<f64>,
+}
+
+impl Simulation {
+    /// From now on the host's solver integrates the states.
+    pub fn start_model_exchange(&mut self) {
+        self.accept(self.inputs);
+    }
+
+    /// Records the present state as accepted; free speeds have followed the jumps of imposed ones up to `followed`.
+    fn accept(&mut self, followed: Inputs) {
+        let State { q, v, .. } = self.state;
+        self.accepted = Some(Accepted { time: self.state.time(), q, v, inputs: self.inputs, followed });
+        self.forces = None;
+    }
+
+    /// Sets the time [s].
+    pub fn set_time(&mut self, time: f64) {
+        self.state.follow_host(time);
+    }
+
+    /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
+    pub fn set_states(&mut self, states: &[f64; STATES]) {
+        complete(&self.model, (&mut self.state, &mut self.watched));
+        let (mut q, mut v) = (self.state.q, self.state.v);
+        self.set_from_states(states, &mut q, &mut v);
+        for i in 0..MAX_DOF {
+            // periods without end are never counted
+            let count = self.state.whole_periods[i];
+            self.state.q[i] = if count == 0 { q[i] } else { q[i] - count as f64 * self.model.periods[i] };
+        }
+        self.state.v = v;
+        self.follow_commands();
+    }
+
+    /// Moves to `states`, which differ in positions only, at an event. The energy of this jump is work of the host.
+    pub fn jump_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
+        self.complete_step_to_event()?;
+        let stored = |simulation: &Self, from: &Accepted| {
+            energy(&simulation.model, &simulation.inputs, &from.applied_to(&simulation.state))
+        };
+        let before = self.accepted.map(|from| stored(self, &from));
+        self.set_states(states);
+        if let (Some(before), Some(mut from)) = (before, self.accepted) {
+            from.q = self.state.q;
+            self.state.work += stored(self, &from) - before;
+            self.accepted = Some(from);
+        }
+        Ok(())
+    }
+
+    /// Sets imposed motions to their commands.
+    pub fn follow_commands(&mut self) {
+        imposed::set(&self.model, &self.inputs, &mut self.state);
+        self.forces = None;
+    }
+
+    /// Records the step from the last completed one to here. Returns whether an event is due.
+    pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
+        let Some(from) = self.accepted else { return Ok(false) };
+        let model = &*self.model;
+        let (inputs, state, watched) = (&self.inputs, &mut self.state, &mut self.watched);
+        let mut is_due = false;
+        let h = state.time() - from.time;
+        if h > 0.0 {
+            let mut begin = from.applied_to(state);
+            let before = energy(model, inputs, &begin);
+            imposed::set(model, inputs, &mut begin);
+            // the energy of a jump of imposed speeds is impulsive work of the input
+            state.work += energy(model, inputs, &begin) - before;
+            let outcome = with_equations!(model, state, inputs, |equations| {
+                let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
+                let (_, first) = equations.under(&from.inputs, &InputDerivatives::ZERO).evaluate(&start);
+                let (_, last) = equations.evaluate(&end);
+                // the motion in between is the host's: for stiff teeth no curve through both ends describes it
+                let ledger_rates = [first, first.mean(&last), last];
+                let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
+                let State { work, heat, thermal, torque_means, .. } = state;
+                let outcome = equations.check_deflection(&end).map(drop);
+                if outcome.is_ok() {
+                    let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
+                    equations.record(model, (&step, None), sums);
+                    if sums.thermal.is_to_be_felt() {
+                        sums.thermal.feel();
+                    }
+                }
+                let mut anchors = equations.acting().anchors();
+                equations.drag_anchors(&end, &last, &mut anchors);
+                equations.acting_mut().anchor(&anchors);
+                is_due = equations.is_friction_due(&end, 0.0);
+                state.friction = equations.acting().friction_state;
+                outcome
+            });
+            outcome.map_err(|tooth| StepFailure { time: state.time(), message: tooth.message(model) })?;
+            state.statistics.accepted += 1;
+            state.statistics.evaluations += 2;
+            state.control.last = h;
+            state.wrap(&model.periods, &model.layout);
+        }
+        let jumps = imposed::is_impulse(model, &from.followed, inputs);
+        let commanded = inputs.lock != state.lock || have_brakes_changed(model, inputs, state);
+        let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
+        self.accept(from.followed);
+        Ok(due)
+    }
+
+    /// True if the present time and inputs are those of the last completed step or event.
+    pub fn is_accepted(&self) -> bool {
+        self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
+    }
+
+    /// Time of the next event that is known already [s].
+    pub fn next_event(&self) -> Option<f64> {
+        next_change(&self.model, &self.state)
+    }
+
+    /// Completes the step up to an event: events whose time is known come without a step that is completed.
+    fn complete_step_to_event(&mut self) -> Result<(), StepFailure> {
+        if self.accepted.is_some_and(|from| from.time < self.state.time()) {
+            self.complete_step()?;
+        }
+        Ok(())
+    }
+
+    /// An event: commands, friction and teeth change to what is due.
+    pub fn update(&mut self) -> Result<Update, StepFailure> {
+        self.complete_step_to_event()?;
+        let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
+        let (before, followed) = match &self.accepted {
+            Some(from) => (from.applied_to(state), from.followed),
+            None => (*state, *inputs),
+        };
+        imposed::follow_impulse(model, &followed, inputs, state);
+        imposed::set(model, inputs, state);
+        // the energy of a jump of imposed speeds is impulsive work of the input
+        state.work += energy(model, inputs, state) - energy(model, inputs, &before);
+        apply_changes(model, inputs, state);
+        let friction = state.friction;
+        with_equations!(model, state, inputs, |equations| {
+            if equations.is_friction_due(&state.point(), 0.0) {
+                equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
+                state.friction = equations.acting().friction_state;
+            }
+        });
+        record_holds(&friction, state);
+        break_tooth(model, inputs, state);
+        let next = next_change(model, state);
+        let states_changed = before.q != state.q || before.v != state.v;
+        self.accept(self.inputs);
+        Ok(Update { states_changed, next })
+    }
+}

@@ -1,0 +1,76 @@
+//! The ledger, and statistics of the solver.
+
+use crate::model::dynamics::State;
+use crate::model::effect_kinds::Changes;
+use crate::model::outputs::LedgerReadings;
+use crate::model::run::Simulation;
+use crate::model::run::events::energy;
+use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::setup::STEP_READINGS;
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::thermal::NODES;
+
+impl Simulation {
+    /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
+    pub(in crate::model) fn energy(&self, state: &State) -> f64 {
+        let known = self.accepted.as_ref().map(|accepted| accepted.applied_to(state));
+        energy(&self.model, &self.inputs, known.as_ref().unwrap_or(state))
+    }
+
+    /// Ledger and solver statistics.
+    pub fn ledger(&self) -> LedgerReadings {
+        let s = &self.state.statistics;
+        let (state, watched) = &self.completed();
+        let mut readings = [0.0; STEP_READINGS];
+        if let Some(strength) = self.model.strength() {
+            let (fatigue, planets) = (&watched.fatigue, self.model.ideal.plan.planets);
+            strength.read_damage(fatigue, planets, &mut readings[const { places_of("strength", Changes::ByStep) }]);
+        }
+        if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
+            watched
+                .mesh_history
+                .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+        }
+        let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
+        thermal[..NODES].copy_from_slice(&state.thermal.temperatures());
+        if let Some(network) = &self.model.thermal {
+            thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
+        }
+        // these follow the recorded events: completing the step may switch friction before its event is recorded
+        let held = |range: std::ops::Range<usize>| {
+            let friction = self.state.friction[range].iter();
+            friction.filter(|friction| friction.holds()).count() as f64
+        };
+        LedgerReadings {
+            heat: state.heat,
+            readings,
+            held: [
+                held(0..FRICTION_PLANETS),
+                held(FRICTION_PLANETS..FRICTION_WHEELS),
+                held(FRICTION_WHEELS..FRICTION_BODIES),
+            ],
+            energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),
+            steps: s.accepted as f64,
+            rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,
+            rhs_calls: s.evaluations as f64,
+            step_size: self.state.control.last,
+        }
+    }
+
+    /// One line on the solver's steps and rejections, by cause.
+    pub fn account(&self) -> String {
+        let s = &self.state.statistics;
+        format!(
+            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not finite, {} cut at a switch; \
+             {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+            s.accepted,
+            s.rejected_error,
+            s.rejected_ledger,
+            s.rejected_invalid,
+            s.rejected_switch,
+            s.evaluations,
+            s.jacobians,
+            self.ledger().energy_residual
+        )
+    }
+}

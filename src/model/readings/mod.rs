@@ -1,0 +1,10 @@
+//! What can be read from a simulation under its present inputs, and what a simulation reports once.
+
+mod description;
+mod ledger;
+mod motion_and_forces;
+mod present;
+mod reports;
+
+pub use description::CostClass;
+pub use reports::Reported;

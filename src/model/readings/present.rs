@@ -1,0 +1,65 @@
+//! The simulation as its outputs show it: under the present inputs, which the next step will apply.
+
+use crate::model::dynamics::{State, Watched};
+use crate::model::run::events::{has_brakes, with_brakes};
+use crate::model::run::progress::complete;
+use crate::model::run::{Simulation, imposed};
+use crate::model::scene::Inputs;
+
+impl Simulation {
+    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
+    /// torques, where there are any. The step itself begins with the change, and records its work.
+    pub fn with_inputs_applied(&self) -> Option<Self> {
+        let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
+        // with a solver of the host friction changes at events
+        let may_brake = !self.is_model_exchange() && has_brakes(&self.model);
+        if is_met && !may_brake {
+            return None;
+        }
+        let mut state = self.state;
+        if !is_met {
+            imposed::jump(&self.model, &self.inputs, &mut state);
+        }
+        let braked = if may_brake { with_brakes(&self.model, &self.inputs, &state) } else { None };
+        if is_met && braked.is_none() {
+            return None;
+        }
+        Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
+    }
+
+    /// The simulation with the brakes on that inputs put on if they change from 0 in the direction `change`; `None` if there are none.
+    /// The torque of these brakes is the least positive number. With a solver of the host, brakes are put on only at events.
+    pub fn with_brakes_put_on(&self, change: &Inputs) -> Option<Self> {
+        let mut inputs = self.inputs;
+        for (torque, change) in inputs.brake_torque.iter_mut().zip(change.brake_torque) {
+            if *torque == 0.0 && change != 0.0 {
+                *torque = f64::MIN_POSITIVE;
+            }
+        }
+        if inputs == self.inputs || self.is_model_exchange() || !has_brakes(&self.model) {
+            return None;
+        }
+        let state = with_brakes(&self.model, &inputs, &self.state)?;
+        Some(Self { state, inputs, forces: None, ..self.clone() })
+    }
+
+    /// The simulation as its outputs show it, if it differs: its inputs applied, and means over mesh cycles and temperatures up to the
+    /// present. Friction changes only with completed steps.
+    pub fn shown(&self) -> Option<Self> {
+        let mut shown = self.with_inputs_applied();
+        if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
+            let completed = self.completed().0;
+            let state = &mut shown.get_or_insert_with(|| self.clone()).state;
+            state.torque_means = completed.torque_means;
+            state.thermal.rises = completed.thermal.rises;
+        }
+        shown
+    }
+
+    /// State and what is watched with the step ahead completed up to the present.
+    pub(in crate::model) fn completed(&self) -> (State, Watched) {
+        let (mut state, mut watched) = (self.state, self.watched);
+        complete(&self.model, (&mut state, &mut watched));
+        (state, watched)
+    }
+}

@@ -1,0 +1,219 @@
+//! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
+//! above its limit.
+
+use crate::declaration::units::{RPM, W_PER_MM2};
+use crate::friction::FrictionLaw;
+use crate::model::assembly::Gears;
+use crate::model::dynamics::{IdealEquations, Largest};
+use crate::model::effect_kinds::{FrictionSource, Surface};
+use crate::model::effects::strength::{Fatigue, Stressed};
+use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
+use crate::model::outputs::pv::each_pv;
+use crate::model::run::{Simulation, effort, six_digits};
+use crate::model::scene::MAX_PLANETS;
+use crate::problem::{Problem, told_apart};
+
+/// Limits of p·v, by the effects whose surfaces they are.
+const PV_LIMITS: [(&str, &str); 3] = [
+    ("thrust_friction", "thrust_friction.pv_limit"),
+    ("limited_slip", "limited_slip.pv_limit"),
+    ("wheel_brake", "wheel_brake.pv_limit"),
+];
+
+/// Inputs that change temperatures outside, and what has these temperatures.
+const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "the sump")];
+
+/// Speed beyond which no differential turns [rad/s].
+const HIGHEST_SPEED: f64 = 3e3;
+/// Spin speeds of the planets.
+const SPINS: [&str; MAX_PLANETS] =
+    ["planet[1].spin_speed", "planet[2].spin_speed", "planet[3].spin_speed", "planet[4].spin_speed"];
+
+/// What has been reported in a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reported {
+    friction_law: bool,
+    stress: [bool; Stressed::ALL.len()],
+    pv: [bool; PV_LIMITS.len()],
+    outside: [bool; OUTSIDE.len()],
+    start: bool,
+    rattle: bool,
+    speed: bool,
+}
+
+impl Simulation {
+    /// Warnings about the time up to now that are not in `reported` yet; they are from now on.
+    pub fn unreported(&self, reported: &mut Reported) -> Vec<Problem> {
+        let mut found = Vec::new();
+        if !reported.friction_law
+            && let Some(problem) = self.outside_friction_law()
+        {
+            reported.friction_law = true;
+            found.push(problem);
+        }
+        if self.model.strength().is_some() {
+            for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
+                if let Some(overload) = self.watched.fatigue.overloads.of(what) {
+                    *reported = true;
+                    found.push(overload.warning(what, &self.model.ideal.plan));
+                }
+            }
+        }
+        if !reported.speed
+            && let Some(problem) = self.too_fast()
+        {
+            reported.speed = true;
+            found.push(problem);
+        }
+        if !reported.rattle
+            && let Some(problem) = effort::rattle_warning(&self.model, &self.state)
+        {
+            reported.rattle = true;
+            found.push(problem);
+        }
+        for ((effect, variable), reported) in PV_LIMITS.into_iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
+            if let Some(problem) = self.above_pv_limit(effect, variable) {
+                *reported = true;
+                found.push(problem);
+            }
+        }
+        let outside = OUTSIDE.into_iter().zip(self.temperatures_outside()).zip(&mut reported.outside);
+        for (((variable, what), beyond), reported) in outside.filter(|(_, done)| !**done) {
+            if let Some([commanded, kept]) = beyond {
+                *reported = true;
+                found.push(problem!(
+                    variable,
+                    "with it {what} would be at {commanded:.2} K; it is kept at {kept:.2} K, the end of the range; reported once"
+                ));
+            }
+        }
+        found
+    }
+
+    /// The fastest body, if its speed is beyond that of any differential.
+    fn too_fast(&self) -> Option<Problem> {
+        let layout = &self.model.layout;
+        let turns = |i: &usize| !(layout.has_pins && [layout.seat(0), layout.seat(1)].contains(i));
+        let is_fast = |i: usize| self.state.v[i].abs() > HIGHEST_SPEED;
+        if !(0..layout.count()).filter(turns).any(is_fast) {
+            return None;
+        }
+        let motion = self.motion();
+        let spins = SPINS.into_iter().zip(motion.spin_speed);
+        let wheels = [("left.wheel_speed", motion.wheel_speed[0]), ("right.wheel_speed", motion.wheel_speed[1])];
+        let gears = [
+            ("left.speed", motion.side_speed[0]),
+            ("right.speed", motion.side_speed[1]),
+            ("carrier.speed", motion.carrier_speed),
+        ];
+        // of equal speeds the last is named
+        let all = spins.chain(wheels).chain(gears);
+        let (variable, speed) = all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+        if speed.abs() <= HIGHEST_SPEED {
+            return None;
+        }
+        Some(problem!(
+            variable,
+            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any differential turns: \
+             look at drives and loads; reported once",
+            six_digits(speed),
+            six_digits(RPM.show(speed)),
+            self.state.time(),
+            RPM.show(HIGHEST_SPEED)
+        ))
+    }
+
+    /// Temperatures of ambient and sump that inputs ask for and that are beyond the range, and what they are kept at [K].
+    fn temperatures_outside(&self) -> [Option<[f64; 2]>; 2] {
+        let Some(network) = &self.model.thermal else { return [None; 2] };
+        let changes = self.inputs.changes_outside();
+        let (commanded, kept) = (network.around.commanded(changes), network.around.changed(changes));
+        [(Some(commanded.ambient), Some(kept.ambient)), (commanded.sump, kept.sump)]
+            .map(|(commanded, kept)| Some([commanded?, kept?]).filter(|[commanded, kept]| commanded != kept))
+    }
+
+    /// The surface of `effect` that is the farthest above its limit of p·v, named `variable`, at this instant.
+    #[inline(never)]
+    fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let sources = &model.body_effects().friction;
+        let limit = sources.iter().find(|source| source.effect == effect)?.sliding.pv_limit;
+        if limit == 0.0 {
+            return None;
+        }
+        let mut worst: Option<(Surface, f64)> = None;
+        let mut see = |source: &FrictionSource, surface: Surface, pv: f64| {
+            if source.effect == effect && pv > worst.map_or(limit, |(_, most)| most) {
+                worst = Some((surface, pv));
+            }
+        };
+        match &model.gears {
+            Gears::Teeth(teeth) => each_pv(&Largest::new(teeth, inputs, state), sources, &state.point(), &mut see),
+            Gears::Ideal(ideal) => {
+                each_pv(&IdealEquations::new(ideal, inputs, state), sources, &state.point(), &mut see)
+            }
+        }
+        let (surface, pv) = worst?;
+        let planet = |group: usize| format!("planet[{}]", model.ideal.plan.group(group).planet + 1);
+        let side = |s: usize| ["left", "right"][s];
+        let what = match surface {
+            Surface::Side(s) => format!("the {} side gear", side(s)),
+            Surface::Pin(group) => format!("{} on its pin", planet(group)),
+            Surface::PlanetWasher(group) => format!("{} on its washer", planet(group)),
+            Surface::Wheel(s) => format!("the {} wheel", side(s)),
+        };
+        let [pv, limit] = told_apart([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
+        let time = state.time();
+        Some(problem!(
+            variable,
+            "p v of {what} of {pv} W/mm2 exceeds the limit of {limit} W/mm2 at t = {time:.6} s; reported once"
+        ))
+    }
+
+    /// Where safety and damage include a start that was not in equilibrium: when they were the worst. The same once in a run, at
+    /// its end.
+    pub fn unreported_at_end(&self, reported: &mut Reported) -> Option<Problem> {
+        if reported.start || self.model.strength().is_none() {
+            return None;
+        }
+        let Fatigue { utilisation, has_blow, .. } = self.completed().1.fatigue;
+        if !has_blow || utilisation.root.share == 0.0 {
+            return None;
+        }
+        reported.start = true;
+        let [root, flank] = [utilisation.root, utilisation.flank].map(|of| (of.safety(), of.time));
+        Some(problem!(
+            "strength.rate_from",
+            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
+             t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; let them count from after the run-in, or take scene.start = \
+             equilibrium",
+            root.0,
+            root.1,
+            flank.0,
+            flank.1
+        ))
+    }
+
+    /// What lies outside the range of the friction law at this instant; Coulomb's law has none.
+    fn outside_friction_law(&self) -> Option<Problem> {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let p = &model.parameters;
+        if !p.effects.tooth_friction || p.specs.tooth_friction.law == FrictionLaw::CoulombStribeck {
+            return None;
+        }
+        let Gears::Teeth(teeth) = &model.gears else { return None };
+        let mut found = None;
+        let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        let friction = equations.flank_friction()?;
+        for g in 0..model.ideal.plan.groups().len() {
+            for s in 0..2 {
+                equations.slices(&point, g, s, |slice| {
+                    if found.is_none() {
+                        found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
+                    }
+                });
+            }
+        }
+        found.map(|what| problem!("tooth_friction.law", "{what} at t = {:.6} s; reported once", state.time()))
+    }
+}

@@ -1,0 +1,224 @@
+//! The static equilibrium of loaded teeth: positions at which the meshes carry their loads, and stay.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::carried::Carried;
+use crate::contact::FlankGaps;
+use crate::integrate::Point;
+use crate::model::assembly::{Model, SIGMA};
+use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::run::failure::limit_name;
+use crate::model::run::{LedgerEquations, hints};
+use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
+use crate::problem::Problem;
+
+/// Longest step of the search for an equilibrium [base pitches]: the potential tilts under unequal loads, and a long
+/// step would leave the nearest well.
+const LONGEST_STEP: f64 = 1.0 / 32.0;
+/// Torque balance at equilibrium, relative to the loads.
+const BALANCE: f64 = 1e-11;
+/// Rounds from side to side that press teeth as they are where no minimum is found.
+pub const ROUNDS: usize = 12;
+/// Loads below this are none [N·m].
+const LEAST_LOAD: f64 = 1e-6;
+
+/// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
+pub fn press_sides(
+    model: &Model,
+    equations: &Largest,
+    torque: [f64; 2],
+    point: &mut Point<LARGEST>,
+) -> Result<(), Problem> {
+    press(equations, torque, point, |s, at| equations.torque_of_plain_teeth(s, at)).map_err(|s| {
+        let bent = format!(
+            "tooth deflection exceeds {}; reduce the load or {}",
+            limit_name(model),
+            hints::stiffer_teeth(&model.parameters)
+        );
+        not_carried(torque, s, &bent)
+    })
+}
+
+/// What the start says of a load that bends teeth too far.
+fn not_carried(torque: [f64; 2], s: usize, bent: &str) -> Problem {
+    let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
+    problem!(name, "{:.6} N.m cannot be carried at the start: {bent}", torque[s])
+}
+
+/// Fails where the equilibrium `point` under `torque` lies beyond the deflections for which teeth have a law: softer teeth than
+/// those that were pressed first may lead there.
+pub fn check_settled(
+    model: &Model,
+    equations: &Largest,
+    torque: [f64; 2],
+    point: &Point<LARGEST>,
+) -> Result<(), Problem> {
+    equations.check_deflection(point).map(drop).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
+}
+
+/// [`press_sides`] with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On
+/// failure the side that cannot be pressed.
+fn press(
+    equations: &Largest,
+    torque: [f64; 2],
+    point: &mut Point<LARGEST>,
+    carry: impl Fn(usize, &Point<LARGEST>) -> [f64; 2],
+) -> Result<(), usize> {
+    let teeth = equations.teeth;
+    let largest = (teeth.deflection_limit + teeth.contact.mesh.half_backlash()) / teeth.sin_base[1];
+    for s in 0..2 {
+        point.q[s] = 0.0;
+        if torque[s] == 0.0 {
+            continue;
+        }
+        let (load, against) = (torque[s].abs(), -torque[s].signum());
+        let carry = |angle: f64| {
+            let mut turned = *point;
+            turned.q[s] = against * angle;
+            let [carried, by_angle] = carry(s, &turned);
+            [-against * carried - load, -by_angle]
+        };
+        point.q[s] = against * rising_root(carry, largest, BALANCE * load).ok_or(s)?;
+    }
+    Ok(())
+}
+
+/// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
+///
+/// Pressed like this, teeth with errors may still be apart: no force leads the search on. Bodies of gears may give way
+/// far beyond this point: the search may find none. In both cases it begins from teeth that are pressed as they are.
+pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
+    let is_other = equations.is_open_or_elastic();
+    let touches = || {
+        let sum = equations.statics(pressed).0;
+        (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
+    };
+    let found = if !is_other || touches() { minimum(equations, loads, pressed, false) } else { None };
+    if found.is_some() || !is_other { found } else { settle_as_they_are(equations, loads) }
+}
+
+/// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
+/// the others.
+pub fn settle_as_they_are(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
+    minimum(equations, loads, &pressed_as_they_are(equations, loads, 1)?, true)
+}
+
+/// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies of planets
+/// join both sides.
+pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
+    let mut pressed = Point::ZERO;
+    let carry = |s: usize, at: &Point<LARGEST>| {
+        let (sum, by_position) = equations.statics(at);
+        [sum[s], by_position[s][s]]
+    };
+    for _ in 0..rounds {
+        press(equations, loads.teeth, &mut pressed, carry).ok()?;
+    }
+    Some(pressed)
+}
+
+/// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
+/// tooth pitch, or `along_valley` within a turn of planets whose teeth differ. What accelerates adds its inertial torque to
+/// the loads.
+///
+/// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
+/// under loads that drive forward, at negative ones under the mirrored loads.
+fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_valley: bool) -> Option<Point<LARGEST>> {
+    let (teeth, torque) = (equations.teeth, loads.teeth);
+    let mut against = [0.0; LARGEST];
+    against[..2].copy_from_slice(&torque);
+    for g in 0..equations.groups() {
+        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin_acceleration;
+        if equations.has_pins() {
+            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
+        }
+    }
+    // teeth that are alike all round are in balance in each pitch or in none
+    let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
+    let farthest_spin_angle = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
+    let well = Well { equations, against, point, unknowns: unknowns(equations), farthest_spin_angle };
+    let load = torque[0].abs() + torque[1].abs();
+    let forward = torque[0] + torque[1];
+    let forward = if forward == 0.0 { torque[0] } else { forward };
+    let lean = if forward < 0.0 { -1.0 } else { 1.0 };
+    let is_planet = |i: usize| (0..teeth.layout.groups).any(|g| i == teeth.layout.planet(g));
+    let balance = BALANCE * load.max(LEAST_LOAD);
+    let search = Search {
+        longest: LONGEST_STEP * teeth.base_pitch,
+        balance,
+        rough: balance.max(sqrt(f64::EPSILON) * load),
+        lean: well.unknowns_from(|i| if is_planet(i) { lean } else { 0.0 }),
+        valley: along_valley.then(|| {
+            let ratio = teeth.sin_base[0] / teeth.sin_base[1];
+            well.unknowns_from(|i| if i < 2 { SIGMA[i] * ratio } else { f64::from(is_planet(i)) })
+        }),
+    };
+    Some(well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?))
+}
+
+/// Places of the unknown positions, and how many bodies each stands for.
+fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
+    let teeth = equations.teeth;
+    let layout = &teeth.layout;
+    let mut unknowns = vec![(0, 1.0), (1, 1.0)];
+    for g in 0..equations.groups() {
+        if !teeth.plan.spin_imposed {
+            unknowns.push((layout.planet(g), layout.members[g]));
+        }
+        if equations.has_pins() {
+            unknowns.push((layout.pin(g), layout.members[g]));
+        }
+    }
+    if equations.has_pins() {
+        unknowns.extend([(layout.seat(0), 1.0), (layout.seat(1), 1.0)]);
+    }
+    unknowns
+}
+
+/// The potential V + Σ T_i q_i around `point` as a function of the unknown positions.
+struct Well<'a> {
+    equations: &'a Largest<'a>,
+    /// T, on each body.
+    against: [f64; LARGEST],
+    point: &'a Point<LARGEST>,
+    unknowns: Vec<(usize, f64)>,
+    /// Largest spin angle that a planet may have, either way [rad].
+    farthest_spin_angle: f64,
+}
+
+impl Well<'_> {
+    fn unknowns_from(&self, value: impl Fn(usize) -> f64) -> DVector<f64> {
+        DVector::from_iterator(self.unknowns.len(), self.unknowns.iter().map(|&(i, _)| value(i)))
+    }
+
+    fn at(&self, x: &DVector<f64>) -> Point<LARGEST> {
+        let mut point = *self.point;
+        self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
+        point
+    }
+}
+
+impl Landscape for Well<'_> {
+    fn value(&self, x: &DVector<f64>) -> f64 {
+        let energy = self.equations.stored_energy(&self.at(x), false);
+        self.unknowns.iter().zip(x.iter()).fold(energy, |sum, (&(i, members), q)| sum + members * self.against[i] * q)
+    }
+
+    fn is_near(&self, x: &DVector<f64>) -> bool {
+        let (at, layout) = (self.at(x), &self.equations.teeth.layout);
+        (0..layout.groups).all(|g| at.q[layout.planet(g)].abs() < self.farthest_spin_angle)
+    }
+
+    fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (sum, by_position) = self.equations.statics(&self.at(x));
+        // forces on unknowns, counted by the bodies they stand for, point down the potential
+        let force = |&(i, members): &(usize, f64)| members * (sum[i] - self.against[i]);
+        let n = self.unknowns.len();
+        let gradient = DVector::from_iterator(n, self.unknowns.iter().map(|unknown| -force(unknown)));
+        let hessian = DMatrix::from_fn(n, n, |a, b| {
+            let ((i, members), (j, _)) = (self.unknowns[a], self.unknowns[b]);
+            -members * by_position[i][j]
+        });
+        (gradient, hessian)
+    }
+}

@@ -1,0 +1,124 @@
+//! The first state of a simulation, as `scene.start` defines it.
+
+use std::sync::Arc;
+
+use super::{preload, report};
+use crate::model::assembly::{Gears, Given, Model, SIGMA};
+use crate::model::dynamics::{Largest, State, Watched};
+use crate::model::effects::strength::Fatigue;
+use crate::model::run::events::{apply_changes, break_tooth};
+use crate::model::run::{Simulation, imposed};
+use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
+use crate::model::setup::{HEATS, Parameters};
+use crate::model::thermal::Thermal;
+use crate::problem::Problem;
+
+/// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
+const FIRST_STEP: f64 = 1e-6;
+
+impl Simulation {
+    /// Starts a simulation at `time` [s]; values must be within the ranges of the interface.
+    pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
+        Self::start_with(parameters, inputs, time, &Given::default())
+    }
+
+    /// The same with what is `given` besides.
+    pub fn start_with(
+        parameters: &Parameters,
+        inputs: &Inputs,
+        time: f64,
+        given: &Given,
+    ) -> Result<Self, Vec<Problem>> {
+        let mut simulation =
+            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
+        let (model, state) = (&simulation.model, &mut simulation.state);
+        let oil = parameters.oil.temperature;
+        state.thermal = match &model.thermal {
+            Some(network) => {
+                let sump = network.around.changed(inputs.changes_outside()).sump;
+                Thermal::at(parameters.specs.warm_up.temperatures_at_start(sump.unwrap_or(oil)))
+            }
+            None => Thermal::uniform(oil),
+        };
+        set_speeds(model, inputs, state);
+        // a tooth that is broken from the start on
+        break_tooth(model, inputs, state);
+        let mut preload = None;
+        if parameters.scene.start.is_in_equilibrium() {
+            match &model.gears {
+                Gears::Ideal(ideal) => preload::wind(model, &ideal.body_effects.half_shafts, inputs, state),
+                Gears::Teeth(teeth) => {
+                    let equations = Largest::new(teeth, inputs, state);
+                    let pressed = preload::preload(&equations, model, inputs, state);
+                    preload = Some(pressed.map_err(|problem| vec![problem])?);
+                }
+            }
+        }
+        imposed::jump(&simulation.model, inputs, &mut simulation.state);
+        let events = simulation.state.events;
+        apply_changes(&simulation.model, inputs, &mut simulation.state);
+        // friction that holds from the start on causes no event
+        simulation.state.events = events;
+        let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
+        if let Some(preload) = &preload {
+            let outcome = report::judge(&simulation.model, inputs, &simulation.state, preload);
+            in_equilibrium = outcome.in_equilibrium;
+            Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
+        }
+        if parameters.scene.start == Start::SteadyHeat {
+            simulation.begin_with_steady_heat().map_err(|problem| vec![problem])?;
+        }
+        simulation.state.work = 0.0;
+        simulation.state.heat = [0.0; HEATS];
+        simulation.state.energy_at_start = simulation.energy(&simulation.state);
+        simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
+        Ok(simulation)
+    }
+}
+
+/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from rest.
+fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
+    let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
+    let layout = plan.layout();
+    let rest = model.parameters.scene.start == Start::Rest;
+    let command = model.body_effects().carrier_speed(&state.q, inputs.carrier_speed);
+    let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { command };
+    let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
+    let [left, right] = inputs.side_speed;
+    match plan.side_imposed {
+        [true, true] => (carrier, spin) = (0.5 * (left + right), 0.5 * (left - right) / ratio),
+        [false, false] => {}
+        [imposed_left, _] => {
+            let s = usize::from(!imposed_left);
+            let (speed, sigma) = (inputs.side_speed[s], SIGMA[s]);
+            if plan.spin_imposed {
+                carrier = speed - sigma * ratio * spin;
+            } else {
+                spin = sigma * (speed - carrier) / ratio;
+            }
+        }
+    }
+    let v = &mut state.v;
+    // gears without teeth cannot be at rest against an imposed speed
+    let follow = !rest || plan.contact == GearContact::Ideal;
+    if follow || plan.carrier_imposed {
+        v[CARRIER] = carrier;
+    }
+    for g in (0..layout.groups).filter(|_| follow || plan.spin_imposed) {
+        v[layout.planet(g)] = spin;
+        if layout.has_pins {
+            v[layout.pin(g)] = v[CARRIER];
+        }
+    }
+    for s in 0..2 {
+        if follow {
+            v[s] = carrier + SIGMA[s] * ratio * spin;
+        }
+    }
+    for (i, to) in layout.attached() {
+        v[i] = v[to];
+    }
+    for s in (0..2).filter(|&s| plan.shafts[s] && plan.side_imposed[s]) {
+        v[layout.end(s)] = inputs.side_speed[s];
+    }
+}

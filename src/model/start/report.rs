@@ -1,0 +1,110 @@
+//! What the log says of a start: that it is no equilibrium, or that few planets carry.
+
+use super::preload::Preload;
+use crate::integrate::SecondOrder;
+use crate::model::assembly::{Gears, Model, Teeth};
+use crate::model::dynamics::{Largest, State};
+use crate::model::scene::{CARRIER, Inputs, MAX_DOF, MAX_GROUPS, Plan};
+use crate::problem::Problem;
+
+/// Part of the loads that an equilibrium may leave unbalanced.
+const BALANCED: f64 = 1e-6;
+/// Part of its equal share below which a planet carries so little that the log says so.
+const LITTLE: f64 = 0.5;
+/// Loads below this are none [N·m].
+const LEAST_LOAD: f64 = 1e-6;
+
+/// Accelerations at the start, and the torques of the teeth of one planet of each group on the side gears.
+struct Found {
+    acceleration: [f64; MAX_DOF],
+    torque: [[f64; 2]; MAX_GROUPS],
+}
+
+/// What a start turned out to be.
+pub struct Outcome {
+    /// Whether it is in equilibrium.
+    pub in_equilibrium: bool,
+    /// What is worth a warning.
+    pub warnings: Vec<Problem>,
+}
+
+/// What the start `preload` of `state` turned out to be.
+pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
+    let Gears::Teeth(teeth) = &model.gears else { return Outcome { in_equilibrium: true, warnings: Vec::new() } };
+    let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
+    let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+    found.acceleration.copy_from_slice(&equations.evaluate(&point).0[..MAX_DOF]);
+    for g in 0..teeth.plan.groups().len() {
+        found.torque[g] = equations.planet_torques(&point, g);
+    }
+    let rolls = !preload.settled && preload.carried.spin_acceleration != 0.0;
+    let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
+    let in_equilibrium = balance.is_none();
+    let messages = balance.into_iter().chain(unequal(&teeth.plan, &found));
+    Outcome { in_equilibrium, warnings: messages.map(|message| Problem::new("scene.start", message)).collect() }
+}
+
+/// Planets that begin to roll.
+fn rolling(plan: &Plan, found: &Found) -> String {
+    format!(
+        "this is no equilibrium: the teeth do not hold the planets against the difference of both sides, and they begin to \
+         roll; the gears accelerate as ideal ones do, while their teeth carry {}",
+        found.carried(plan)
+    )
+}
+
+/// A search that found nothing, or torque that is left over where nothing turns against anything else.
+fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) -> Option<String> {
+    let (layout, carried) = (&teeth.layout, &preload.carried);
+    let load = carried.teeth[0].abs() + carried.teeth[1].abs();
+    let planets = (0..layout.groups).map(|g| layout.planet(g));
+    // of planets that spin the torques change all the time
+    let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
+    let sides = (0..2).map(|s| (s, carried.side_acceleration[s]));
+    let left_over = sides
+        .chain(planets.map(|i| (i, carried.spin_acceleration)))
+        .chain([(CARRIER, carried.carrier_acceleration)])
+        // imposed motions have no inverse
+        .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
+        .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
+        .fold(0.0, f64::max);
+    (load > LEAST_LOAD && (!preload.settled || left_over > BALANCED * load)).then(|| {
+        format!(
+            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and what is not balanced accelerates the gears \
+             at once; peaks and ratings of the run contain this",
+            found.carried(&teeth.plan),
+            carried.teeth[0],
+            carried.teeth[1]
+        )
+    })
+}
+
+impl Found {
+    /// What the teeth carry on either side, in words.
+    fn carried(&self, plan: &Plan) -> String {
+        let on =
+            |s: usize| plan.groups().iter().zip(&self.torque).map(|(group, torque)| group.members * torque[s]).sum();
+        let [left, right]: [f64; 2] = [on(0), on(1)];
+        format!("{left:.3} N.m left and {right:.3} N.m right")
+    }
+}
+
+/// Planets that carry very unequal parts of the loads.
+fn unequal(plan: &Plan, found: &Found) -> Option<String> {
+    // planets that errors jam push against the others
+    let total = [0, 1].map(|s| (0..plan.planets).map(|i| found.torque[plan.group_of[i]][s]).sum::<f64>());
+    let part = |planet: usize| {
+        let [left, right] = found.torque[plan.group_of[planet]];
+        left * total[0].signum() + right * total[1].signum()
+    };
+    let parts: Vec<f64> = (0..plan.planets).map(part).collect();
+    let sum: f64 = parts.iter().sum();
+    let equal = sum / plan.planets as f64;
+    (sum > 2.0 * LEAST_LOAD && parts.iter().any(|&part| part < LITTLE * equal)).then(|| {
+        let shares = parts.iter().enumerate().map(|(i, part)| format!("planet[{}] {:.3}", i + 1, part / sum));
+        format!(
+            "the planets carry unequal parts of the load at the start: {} of it",
+            shares.collect::<Vec<_>>().join(", ")
+        )
+    })
+}

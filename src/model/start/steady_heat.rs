@@ -1,0 +1,148 @@
+//! The start in thermal equilibrium: temperatures at which the mean heats of a cycle balance what leaves.
+//!
+//! The cycle is that of the inputs at the start. It is run twice with temperatures that stand still: the first passes what the
+//! start has shaken, the second counts.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use crate::declaration::units::TEMPERATURES;
+use crate::model::run::Simulation;
+use crate::model::setup::HEATS;
+use crate::model::thermal::steady::{Cycle, Steady};
+use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
+use crate::problem::Problem;
+
+/// Temperatures that differ by more are two steady states [K].
+const APART: f64 = 0.1;
+/// The zero of degrees Celsius [K].
+const ZERO: f64 = 273.15;
+/// Attempts at steps that all cycles together may take.
+const MOST_ATTEMPTS: f64 = 3e5;
+/// The variable that asks for such a start.
+const START: &str = "scene.start";
+
+impl Simulation {
+    /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
+    /// Apart, as other starts have no room for its simulations on a small stack.
+    #[inline(never)]
+    pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
+        let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
+        network.around = network.around.changed(self.inputs.changes_outside());
+        let mut still = Box::new(self.clone());
+        let model = Arc::make_mut(&mut still.model);
+        (model.thermal, model.watch) = (None, None);
+        let mut felt = model.body_effects().felt_nodes();
+        // a sump that is given stays as it is
+        felt.retain(|&node| node != OIL || network.around.sump.is_none());
+        let attempts = Cell::new(0.0);
+        let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
+        let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
+        let length = self.model.parameters.specs.warm_up.cycle;
+        let not_periodic = |at: &[f64; NODES]| still.not_periodic(&network, at, length);
+        let found = network.steady(cold, &felt, heats);
+        let temperatures = match found {
+            Ok(Steady::At(temperatures)) => temperatures,
+            Ok(none) => {
+                let change = not_periodic(&[cold; NODES]).map(no_cycle);
+                return Err(problem!(START, "{}", change.unwrap_or_else(|| no_steady_heat(none))));
+            }
+            Err(problem) => {
+                let change = still.runs_away(&network, &[cold; NODES]).map(no_cycle);
+                return Err(change.map_or(problem, |reason| problem!(START, "{reason}")));
+            }
+        };
+        if let Some(change) = not_periodic(&temperatures) {
+            Arc::make_mut(&mut self.model).warnings.push(problem!(
+                START,
+                "the motion is not periodic, so that the run leaves the temperatures of steady_heat, which balance the heat of its \
+                 second cycle only: {change}"
+            ));
+        }
+        if !felt.is_empty() {
+            let from_hot = network.steady(TEMPERATURES.1, &felt, heats)?;
+            Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
+        }
+        self.state.thermal = Thermal::at(temperatures);
+        Ok(())
+    }
+
+    /// Mean heats of a cycle with all nodes at the temperatures `at` [K]; its attempts at steps add to `attempts`.
+    #[inline(never)]
+    fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<Cycle, Problem> {
+        let mut run = Box::new(self.clone());
+        run.state.thermal = Thermal::at(*at);
+        let (begin, length) = (self.time(), self.model.parameters.specs.warm_up.cycle);
+        let [from, to] = [1.0, 2.0].map(|part| -> Result<_, Problem> {
+            let moved = run.advance(begin + part * length);
+            moved.map_err(|failure| problem!(START, "the cycle whose heat is to balance cannot be run: {failure}"))?;
+            Ok((run.ledger(), run.motion().carrier_angle))
+        });
+        let ((from, begun_at), (to, ended_at)) = (from?, to?);
+        attempts.set(attempts.get() + to.steps + to.rejected);
+        if attempts.get() > MOST_ATTEMPTS {
+            return Err(problem!(
+                "warm_up.cycle",
+                "{length} s: the cycles that scene.start = steady_heat runs take more than {MOST_ATTEMPTS:e} steps; shorten it, or \
+                 set scene.start = equilibrium"
+            ));
+        }
+        let entered = [from, to].map(|ledger| network.entering(&ledger.heat));
+        Ok(Cycle {
+            power: std::array::from_fn(|i| (entered[1][i] - entered[0][i]) / length),
+            speed: (ended_at - begun_at).abs() / length,
+        })
+    }
+}
+
+/// Reason why there are no steady temperatures if the motion changes from cycle to cycle as `change` describes.
+fn no_cycle(change: String) -> String {
+    format!(
+        "there are no steady temperatures, because the motion is not periodic: {change}, or set scene.start = equilibrium"
+    )
+}
+
+/// Why there are no steady temperatures.
+fn no_steady_heat(end: Steady) -> String {
+    let Steady::Beyond(node, temperature) = end else {
+        return "no steady temperatures were found; scene.start = equilibrium begins at oil.temperature instead".into();
+    };
+    let (name, path) = match node {
+        GEARS => ("gears", "warm_up.gears_to_oil"),
+        CLUTCH => ("clutch packs", "warm_up.clutch_to_oil"),
+        WASHERS => ("washers", "warm_up.washers_to_oil"),
+        CASE => ("case", "warm_up.case_to_ambient"),
+        _ => ("oil", "warm_up.oil_to_case"),
+    };
+    format!(
+        "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, by \
+         which their heat leaves, or lower the friction",
+        TEMPERATURES.0 - ZERO,
+        TEMPERATURES.1 - ZERO,
+        temperature - ZERO
+    )
+}
+
+/// What is said where the nodes do not cool down from hot to the same temperatures.
+fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
+    let oil = cold[OIL] - ZERO;
+    match hot {
+        Steady::At(hot) => {
+            let apart = cold.iter().zip(&hot).any(|(cold, hot)| (cold - hot).abs() > APART);
+            apart.then(|| {
+                problem!(
+                    START,
+                    "there are several steady states: the oil warms up to {oil:.1} degC from cold, where this run begins, and \
+                     cools down to {:.1} degC from {:.0} degC",
+                    hot[OIL] - ZERO,
+                    TEMPERATURES.1 - ZERO
+                )
+            })
+        }
+        _ => Some(problem!(
+            START,
+            "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not come back to it",
+            TEMPERATURES.1 - ZERO
+        )),
+    }
+}
