@@ -41,7 +41,7 @@ fn the_exponent_is_that_of_the_standard_and_wide_teeth_follow_the_load_closely()
 
 /// A mesh under the linear law whose face is cut.
 fn linear_mesh(pair: &Pair) -> Detailed {
-    let spring = Built::new(pair, Kind::Line, 1.5, UNDAMPED).spring;
+    let spring = Built::new(pair, Kind::Line).spring;
     Detailed::new(pair, spring, UNDAMPED, Face::cut(pair.inner_cone, pair.outer_cone), false, None)
 }
 

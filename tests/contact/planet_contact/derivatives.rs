@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::damping::Damping;
 
-use super::kinds::{Contact, Face, Planet, Teeth};
+use super::kinds::{Contact, Face, Planet, READINGS, Teeth};
 use super::points::{for_each_point, those};
 use crate::mesh_laws::{Kind, PER_FULL_DEPTH, UNDAMPED};
 
@@ -26,7 +26,7 @@ fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
             let limit = if is_summed || contact.is_elastic { 3e-8 } else { 1e-8 };
             for i in coordinates {
                 let force = planet.forces(&at).readings[side][i % 3];
-                let [gradient] = at.difference(i, h[i], |at| [planet.energy(at)]);
+                let [gradient] = at.difference(i, h[i], |to| [planet.energy_gained(&at, to)]);
                 let off = (force + gradient).abs() * planet.unit(i) / scale;
                 assert!(off < limit, "by {i}: {force} {gradient} off {off:e}");
             }
@@ -37,7 +37,7 @@ fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
 }
 
 /// Checks that the stiffness of a contact without damping and friction is symmetric.
-fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; 7]; 2]) {
+fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; READINGS]; 2]) {
     let entry = |i: usize, j: usize| by[i / 3][i % 3][j] * planet.unit(i) * planet.unit(j);
     let largest = (0..36).map(|k| entry(k / 6, k % 6).abs()).fold(0.0, f64::max);
     for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
@@ -89,19 +89,20 @@ fn derivatives_are_those_of_the_forces_and_symmetric_without_dissipation() {
         let Some((h, pattern)) = planet.smooth_steps(at, 1e-4, &coordinates) else { return false };
         pattern.count(&mut counts);
         let limit = slope_limit(contact, pattern.is_partly_loaded());
-        let unit = |row: usize| if row < 2 { 1.0 / planet.mesh.cone } else { 1.0 };
+        let unit = |row: usize| if row < 2 { 1.0 / planet.cone() } else { 1.0 };
         for i in coordinates {
-            let found: [f64; 14] = at.difference(i, h[i], |at| {
+            let found: [f64; 2 * READINGS] = at.difference(i, h[i], |at| {
                 let readings = planet.forces(at).readings;
-                std::array::from_fn(|n| readings[n / 7][n % 7])
+                std::array::from_fn(|n| readings[n / READINGS][n % READINGS])
             });
             for (n, found) in found.into_iter().enumerate() {
-                let (by, row, own) = (&slopes.by[n / 7], n % 7, 3 * (n / 7) + i / 6 * 6);
-                let sizes = (0..21).map(|k| (by[k / 3][own + k % 3] * unit(k / 3) * planet.unit(k)).abs());
+                let (side, row) = (n / READINGS, n % READINGS);
+                let (by, own) = (&slopes.by[side], 3 * side + i / 6 * 6);
+                let sizes = (0..3 * READINGS).map(|k| (by[k / 3][own + k % 3] * unit(k / 3) * planet.unit(k)).abs());
                 let (scale, exact) = (sizes.fold(1e-30, f64::max), by[row][i]);
                 let off = (found - exact).abs() * unit(row) * planet.unit(i) / scale;
                 // a stiff planet has nothing of its other mesh
-                assert!(found == exact || off < limit, "side {} row {row} by {i}: {exact} {found} off {off:e}", n / 7);
+                assert!(found == exact || off < limit, "side {side} row {row} by {i}: {exact} {found} off {off:e}");
             }
         }
         true
@@ -125,7 +126,7 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         // that has its bend on the face to 1e-6
         let limit = match planet.contact {
             Contact { law: Kind::LineWeber, face: Face::Cut, .. } if is_step(&planet.contact) => 1e-6,
-            Contact { law: Kind::LineWeber, teeth: Teeth::Made(_, depth), .. } if depth > 0.0 => 1e-8,
+            Contact { law: Kind::LineWeber, teeth: Teeth::Made(_, [_, depth]), .. } if depth > 0.0 => 1e-8,
             _ => 1e-9,
         };
         let mut next = pattern(0.0);

@@ -6,18 +6,15 @@ use std::sync::{Arc, LazyLock};
 
 use bevel_differential::contact::bodies::{MeshOnBodies, PairCouplings, Support};
 use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::detailed::{
-    Detailed, DetailedLoad, DetailedState, Face as FacePoints, Gaps, MeshTeeth, Opening, PairName, SharedTeeth,
-    SliceLoad,
-};
+use bevel_differential::contact::detailed::{Detailed, Gaps, Opening, PairName, SliceLoad};
 use bevel_differential::contact::errors::{Chip, FaultyGear, ToothErrorSpec, ToothErrors, ToothFaultSpec};
-use bevel_differential::contact::mesh::{Law, Mesh, MeshForce, MeshState};
-use bevel_differential::contact::shared::{SharedForce, SharedMeshes};
+use bevel_differential::contact::planet::{
+    self, AnyContact, LinearisedLoad, MeshLoad, PlanetContact, PlanetState, Pressing, Visit,
+};
 use bevel_differential::contact::stiffness::{Elasticity, PairStiffness, RootSpec};
-use bevel_differential::contact::{Engagement, FlankGaps, Spring, ToothFriction, ToothPair};
+use bevel_differential::contact::{Engagement, Flank, FlankGaps, Mesh, Spring, ToothFriction, ToothLoad, ToothPair};
 use bevel_differential::friction::{FrictionLaw, ToothFrictionSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::numeric::{Dual, Jet};
 
 use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, RESTITUTION, STEP, UNDAMPED};
 use crate::tooth_errors::every_kind;
@@ -39,18 +36,27 @@ pub struct At {
     pub rate: [[f64; 3]; 2],
 }
 
-/// Forces conjugate to q, x, w of each mesh, then its normal force, thrust on planet and side gear, and tangential force, which
-/// are zero under plain kinds; and its heat of contact and of friction.
+impl At {
+    fn state(&self) -> PlanetState {
+        PlanetState { planet: PLANET, position: self.position, rate: self.rate, wrapped: WRAPPED }
+    }
+}
+
+/// Readings of a mesh: forces conjugate to q, x, w, then thrust on planet and side gear, and tangential force, which are zero under
+/// plain kinds.
+pub const READINGS: usize = 6;
+
+/// Readings of each mesh, and its heat of contact and of friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces {
-    pub readings: [[f64; 7]; 2],
+    pub readings: [[f64; READINGS]; 2],
     pub heat: [[f64; 2]; 2],
 }
 
 /// Derivatives of the readings of both meshes with respect to [q, x, w] left and right, then to their rates, and the energy.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slopes {
-    pub by: [[[f64; 12]; 7]; 2],
+    pub by: [[[f64; 12]; READINGS]; 2],
     pub energy: f64,
 }
 
@@ -62,13 +68,15 @@ pub enum Face {
     Cut,
 }
 
-/// Perfect teeth; teeth with errors, and with so much [m] missing of half the face of one; or the same opening at every pair.
+/// Perfect teeth, or teeth with errors of which one is broken: at a fraction of its face from the heel a depth [m] is missing.
 #[derive(Clone, Copy, Debug)]
 pub enum Teeth {
     Perfect,
-    Made(ToothErrorSpec, f64),
-    Alike(Opening),
+    Made(ToothErrorSpec, [f64; 2]),
 }
+
+/// No broken tooth.
+pub const SOUND: [f64; 2] = [0.0; 2];
 
 /// A kind of contact; side gears that are displaced move along their axes.
 #[derive(Clone, Copy, Debug)]
@@ -110,17 +118,18 @@ pub fn kinds() -> Vec<Contact> {
     let spec = ToothErrorSpec::default();
     let teeth = [
         Teeth::Perfect,
-        Teeth::Made(ToothErrorSpec { crowning: 2e-5, ..spec }, 0.0),
-        Teeth::Made(ToothErrorSpec { crowning: 2e-4, side_axial_offset: 2e-5, ..spec }, 0.0),
-        Teeth::Made(ToothErrorSpec { shaft_angle_error: 5e-4, axis_offset: -2e-5, ..spec }, 0.0),
-        Teeth::Made(ToothErrorSpec { accuracy_grade: 8, runout_by_grade: true, seed: 3, ..spec }, 1e-3),
-        Teeth::Made(spec, 1e-3),
-        Teeth::Made(spec, 4e-6),
-        Teeth::Made(every_kind(), 0.0),
-        Teeth::Alike(Opening { even: Jet { v: -5e-5, d: 0.0, dd: 0.0 }, ..Opening::NONE }),
+        Teeth::Made(ToothErrorSpec { crowning: 2e-5, ..spec }, SOUND),
+        Teeth::Made(ToothErrorSpec { crowning: 2e-4, side_axial_offset: 2e-5, ..spec }, SOUND),
+        Teeth::Made(ToothErrorSpec { shaft_angle_error: 5e-4, axis_offset: -2e-5, ..spec }, SOUND),
+        Teeth::Made(ToothErrorSpec { accuracy_grade: 8, runout_by_grade: true, seed: 3, ..spec }, [0.5, 1e-3]),
+        Teeth::Made(spec, [0.5, 1e-3]),
+        Teeth::Made(spec, [0.5, 4e-6]),
+        Teeth::Made(every_kind(), SOUND),
+        // excess material that is the same all over the face
+        Teeth::Made(ToothErrorSpec { side_axial_offset: -2e-4, ..spec }, SOUND),
     ];
     let mut kinds = Vec::new();
-    for law in [Kind::Impact, Kind::DampedImpact, Kind::Line, Kind::LineWeber, Kind::Lumped] {
+    for law in [Kind::Impact, Kind::Line, Kind::LineWeber, Kind::Lumped] {
         let is_of_teeth = OF_TEETH.contains(&law);
         for is_elastic in [false, true].into_iter().filter(|is_elastic| is_of_teeth || !is_elastic) {
             let plain = Contact { law, is_elastic, ..PLAIN };
@@ -136,8 +145,6 @@ pub fn kinds() -> Vec<Contact> {
         }
         kinds.push(Contact { law, has_corners: false, ..PLAIN });
     }
-    // IMPACT has its own damping
-    kinds.retain(|kind| kind.law != Kind::Impact || matches!(kind.damping, Damping::Step { .. }));
     kinds
 }
 
@@ -148,7 +155,7 @@ pub struct Gears {
     teeth: FlankGaps,
     pub stiffness: [PairStiffness; 2],
     pub on_bodies: MeshOnBodies,
-    pub couplings: PairCouplings,
+    pub couplings: Arc<PairCouplings>,
     engagements: [Engagement; 2],
 }
 
@@ -171,7 +178,7 @@ impl Gears {
         let elastic = PairStiffness::of_gears(&pair, &sections, LINE_LOAD, |i, roll| on_bodies.gear(i, roll)).unwrap();
         let stiff = PairStiffness::new(&pair, &RootSpec::default(), STEEL.young, STEEL.poisson, LINE_LOAD).unwrap();
         let phase = (pair.centred_position(), pair.base_pitch);
-        let couplings = PairCouplings::new(&on_bodies, [elastic.path, elastic.range], phase);
+        let couplings = Arc::new(PairCouplings::new(&on_bodies, [elastic.path, elastic.range], phase));
         let engagements = [false, true].map(|corners| Engagement::new(&pair, corners, 0.05));
         let teeth = FlankGaps::perfect(&pair, PLANETS as i32);
         Arc::new(Self { pair, exponent, teeth, stiffness: [stiff, elastic], on_bodies, couplings, engagements })
@@ -182,31 +189,15 @@ impl Gears {
         self.teeth.opposite(PLANET)
     }
 
-    fn gaps(&self, teeth: &Teeth) -> Option<Box<dyn Gaps>> {
-        let (spec, depth) = match *teeth {
-            Teeth::Perfect => return None,
-            Teeth::Alike(opening) => return Some(Box::new(Alike(opening))),
-            Teeth::Made(spec, depth) => (spec, depth),
-        };
+    fn gaps(&self, teeth: &Teeth) -> Option<Arc<FlankGaps>> {
+        let Teeth::Made(spec, [missing_fraction, depth]) = *teeth else { return None };
         let errors = ToothErrors::new(&spec, &self.pair, PLANETS).unwrap();
         let (gear, index, tooth) = (FaultyGear::Planet, PLANET as i32, self.pair.gears[0].teeth - WRAPPED[0] as i32);
-        let fault = ToothFaultSpec { gear, index, tooth, depth, ..Default::default() };
+        let fault = ToothFaultSpec { gear, index, tooth, missing_fraction, depth, ..Default::default() };
         let mut gaps = self.teeth.clone();
         gaps.chip = Chip::new(&fault, &self.pair, PLANETS).unwrap().filter(|_| depth > 0.0);
         (gaps.least, gaps.errors) = (-errors.most_excess(self.pair.outer_cone), Some(errors));
-        Some(Box::new(gaps))
-    }
-}
-
-#[derive(Debug)]
-struct Alike(Opening);
-
-impl Gaps for Alike {
-    fn opening(&self, _: &PairName, _: f64) -> Opening {
-        self.0
-    }
-    fn least(&self) -> f64 {
-        -2e-4
+        Some(Arc::new(gaps))
     }
 }
 
@@ -214,186 +205,145 @@ impl Gaps for Alike {
 pub struct Planet {
     pub contact: Contact,
     pub gears: Arc<Gears>,
-    pub mesh: Mesh,
-    detailed: Detailed,
-    gaps: Option<Box<dyn Gaps>>,
+    pub constants: planet::Contact,
 }
 
-/// Evaluates an expression with `law` bound to a law of elastic teeth.
-macro_rules! of_teeth {
-    ($of:expr, $law:ident => $body:expr) => {
-        match &$of.mesh.law {
-            Law::Line($law) => $body,
-            Law::LineWeber($law) => $body,
-            other => panic!("{other:?} has no elastic bodies"),
+/// Evaluates an expression with `contact` bound to the evaluator of a planet.
+macro_rules! evaluate {
+    ($of:expr, $contact:ident => $body:expr) => {
+        match $of.constants.now(false, None, true) {
+            AnyContact::Plain($contact) => $body,
+            AnyContact::Solid($contact) => $body,
+            AnyContact::OnBodies($contact) => $body,
+            AnyContact::InDetail($contact) => $body,
+            AnyContact::InDetailOnBodies($contact) => $body,
         }
     };
 }
 
-fn plain_forces(of: [MeshForce; 2]) -> Forces {
-    let readings = of.map(|MeshForce { force: [q, x], .. }| [q, x, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    Forces { readings, heat: of.map(|of| [of.heat, 0.0]) }
+fn forces<L: MeshLoad>(loads: &[L; 2]) -> Forces {
+    let readings = loads.each_ref().map(|load| {
+        let ([q, x, w], Pressing { planet_axial, side_axial, tangential }) = (load.force(), load.pressing());
+        [q, x, w, planet_axial, side_axial, tangential]
+    });
+    Forces { readings, heat: loads.each_ref().map(L::heat) }
 }
 
-fn readings<T: Copy>(of: &DetailedLoad<T>) -> [T; 7] {
-    let [q, x, w] = of.force;
-    [q, x, w, of.normal, of.planet_axial, of.side_axial, of.tangential]
+fn written<C: PlanetContact>(contact: &C, at: &PlanetState) -> Forces {
+    let mut loads = [C::Load::none(); 2];
+    contact.write(at, &mut loads);
+    forces(&loads)
 }
 
-fn detailed_forces(of: [DetailedLoad<f64>; 2]) -> Forces {
-    Forces { readings: of.each_ref().map(readings), heat: of.map(|of| of.heat) }
-}
-
-/// Forces and slopes of loads with derivatives by q, x, w and their rates, and by q, x, w of the other mesh if there are more.
-fn detailed_slopes<const N: usize>(of: [DetailedLoad<Dual<N>>; 2]) -> (Forces, Slopes) {
-    let mut slopes = Slopes { energy: of[0].energy + of[1].energy, ..Slopes::default() };
-    for side in 0..2 {
-        for (by, reading) in slopes.by[side].iter_mut().zip(readings(&of[side])) {
-            by[3 * side..][..3].copy_from_slice(&reading.d[..3]);
-            by[6 + 3 * side..][..3].copy_from_slice(&reading.d[3..6]);
-            by[3 - 3 * side..][..N - 6].copy_from_slice(&reading.d[6..]);
+fn linearised<C: PlanetContact>(contact: &C, at: &PlanetState) -> (Forces, Slopes) {
+    let mut loads = [C::Linearised::none(); 2];
+    contact.linearise(at, &mut loads);
+    let mut slopes = Slopes { energy: loads.iter().map(C::Linearised::energy).sum(), ..Slopes::default() };
+    for (side, load) in loads.iter().enumerate() {
+        // with respect to q, x, w, their rates, and q, x, w of the other mesh
+        let blocks = [load.by_position(), load.by_rate(), load.by_other()];
+        let [q, x, w] = [0, 1, 2].map(|row| std::array::from_fn(|i| blocks[i / 3][row][i % 3]));
+        let pressing = load.pressing_slopes();
+        assert!(pressing.force == if C::Linearised::PRESSES { q } else { [0.0; 9] });
+        let rows = [q, x, w, pressing.planet_axial, pressing.side_axial, pressing.tangential];
+        for (by, row) in slopes.by[side].iter_mut().zip(rows) {
+            for (block, to) in row.chunks(3).zip([3 * side, 6 + 3 * side, 3 - 3 * side]) {
+                by[to..][..3].copy_from_slice(block);
+            }
         }
     }
-    (detailed_forces(of.map(|of| of.map(|x| x.v))), slopes)
+    (forces(&loads), slopes)
 }
 
 impl Planet {
     pub fn new(contact: Contact, gears: &Arc<Gears>) -> Self {
         let (pair, stiffness) = (&gears.pair, &gears.stiffness[usize::from(contact.is_elastic)]);
-        let Built { law, spring, whole, cone } =
-            Built::of(pair, stiffness, contact.law, gears.exponent, contact.damping);
-        let mesh = Mesh { law, cone, engagement: gears.engagements[usize::from(contact.has_corners)].clone() };
-        let cut = if contact.law == Kind::Line { FacePoints::cut } else { FacePoints::sliced };
-        let cut = cut(pair.inner_cone, pair.outer_cone);
-        let face = if contact.face == Face::Cut { cut } else { FacePoints::whole(whole) };
+        let Built { spring, whole, face, cut } = Built::of(pair, stiffness, contact.law, gears.exponent);
+        let (damping, is_single) = (contact.damping, contact.law == Kind::Lumped);
+        let engagement = gears.engagements[usize::from(contact.has_corners)].clone();
+        let mesh = Mesh { spring, damping, whole, is_single, engagement };
+        let face = if contact.face == Face::Cut { cut.unwrap() } else { face };
         let friction = contact.friction.map(|spec| ToothFriction { spec, modulus: 0.5 * STEEL.plane_modulus() });
-        let is_single = contact.law == Kind::Lumped;
-        let mut detailed = Detailed::new(pair, spring, contact.damping, face, is_single, friction);
+        let mut detailed = Detailed::new(pair, mesh.spring.clone(), damping, face, is_single, friction);
         detailed.has_seats = contact.is_displaced;
-        if OF_TEETH.contains(&contact.law) {
+        if let Some(cut) = cut {
             detailed.rub_over(cut);
         }
-        Self { gaps: gears.gaps(&contact.teeth), contact, gears: gears.clone(), mesh, detailed }
+        let constants = planet::Contact {
+            mesh,
+            solid: None,
+            bodies: contact.is_elastic.then(|| gears.couplings.clone()),
+            detailed,
+            gaps: [gears.gaps(&contact.teeth), None],
+            perfect: gears.teeth.clone(),
+            in_detail: contact.face != Face::Plain,
+        };
+        Self { contact, gears: gears.clone(), constants }
     }
 
-    fn states(&self, at: &At) -> [DetailedState; 2] {
-        [0, 1].map(|side| DetailedState { position: at.position[side], rate: at.rate[side], wrapped: WRAPPED[side] })
-    }
-
-    fn plain_states(&self, at: &At) -> [MeshState; 2] {
-        self.states(at).map(|DetailedState { position: [q, x, _], rate: [dq, dx, _], .. }| MeshState {
-            position: [q, x],
-            rate: [dq, dx],
-            ..MeshState::default()
-        })
-    }
-
-    fn teeth(&self, side: usize) -> MeshTeeth<'_> {
-        let (engagement, gaps) = (&self.mesh.engagement, self.gaps.as_deref());
-        MeshTeeth { engagement, gaps, viscosity: None, planet: PLANET, side }
-    }
-
-    fn plain_on_bodies(&self) -> SharedMeshes<'_> {
-        let (bodies, opposite) = (&self.gears.couplings, self.gears.opposite());
-        SharedMeshes { mesh: &self.mesh, bodies, opposite, wrapped: WRAPPED }
-    }
-
-    fn on_bodies<R>(&self, act: impl FnOnce(&SharedTeeth) -> R) -> R {
-        let numbers = &|name| self.gears.teeth.unrolled(&name)[0];
-        act(&SharedTeeth { teeth: [self.teeth(0), self.teeth(1)], bodies: &self.gears.couplings, numbers })
+    /// Cone distance at which the resultant of a pair acts [m].
+    pub fn cone(&self) -> f64 {
+        self.constants.mesh.whole.cone
     }
 
     pub fn forces(&self, at: &At) -> Forces {
-        let (states, plain) = (self.states(at), self.plain_states(at));
-        match (self.contact.face, self.contact.is_elastic) {
-            (Face::Plain, false) => plain_forces(plain.map(|state| self.mesh.force(&state))),
-            (Face::Plain, true) => plain_forces(of_teeth!(self, law => self.plain_on_bodies().force(law, &plain))),
-            (_, false) => detailed_forces([0, 1].map(|side| self.detailed.load(&self.teeth(side), &states[side]))),
-            (_, true) => detailed_forces(self.on_bodies(|teeth| self.detailed.load_shared(teeth, &states))),
-        }
+        evaluate!(self, contact => written(&contact, &at.state()))
     }
 
     pub fn linearised(&self, at: &At) -> (Forces, Slopes) {
-        let (states, plain) = (self.states(at), self.plain_states(at));
-        let found = match (self.contact.face, self.contact.is_elastic) {
-            (Face::Plain, true) => of_teeth!(self, law => self.plain_on_bodies().linearise(law, &plain)),
-            (Face::Plain, false) => {
-                let ([left, right], none) = (plain.map(|state| self.mesh.linearise(&state)), [[0.0; 2]; 2]);
-                SharedForce {
-                    force: [left.0, right.0],
-                    by_position: [[left.1.by_position, none], [none, right.1.by_position]],
-                    by_rate: [left.1.by_rate, right.1.by_rate],
-                    energy: left.1.energy + right.1.energy,
-                }
-            }
-            (_, true) => {
-                return detailed_slopes(self.on_bodies(|teeth| self.detailed.linearise_shared(teeth, &states)));
-            }
-            (_, false) => {
-                return detailed_slopes([0, 1].map(|side| self.detailed.linearise(&self.teeth(side), &states[side])));
-            }
-        };
-        let mut slopes = Slopes { energy: found.energy, ..Slopes::default() };
-        for (side, a) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let row = &mut slopes.by[side][a];
-            row[..2].copy_from_slice(&found.by_position[side][0][a]);
-            row[3..5].copy_from_slice(&found.by_position[side][1][a]);
-            row[6 + 3 * side..][..2].copy_from_slice(&found.by_rate[side][a]);
-        }
-        (plain_forces(found.force), slopes)
+        evaluate!(self, contact => linearised(&contact, &at.state()))
     }
 
     pub fn energy(&self, at: &At) -> f64 {
-        let (states, plain) = (self.states(at), self.plain_states(at));
-        match (self.contact.face, self.contact.is_elastic) {
-            (Face::Plain, false) => plain.iter().map(|state| self.mesh.energy(state)).sum(),
-            (Face::Plain, true) => of_teeth!(self, law => self.plain_on_bodies().energy(law, &plain)),
-            (_, false) => (0..2).map(|side| self.detailed.energy(&self.teeth(side), &states[side])).sum(),
-            (_, true) => self.on_bodies(|teeth| self.detailed.energy_shared(teeth, &states)),
-        }
+        evaluate!(self, contact => contact.energy(&at.state()))
     }
 
-    /// Calls `visit` with each loaded point of a face. Those of a plain mesh are taken from the same mesh in detail.
-    pub fn loaded(&self, at: &At, mut visit: impl FnMut(&SliceLoad)) {
-        let states = self.states(at);
-        if self.contact.is_elastic {
-            self.on_bodies(|teeth| self.detailed.look_shared(teeth, &states, &mut visit));
-        } else {
-            (0..2).for_each(|side| _ = self.detailed.look(&self.teeth(side), &states[side], &mut visit));
-        }
+    pub fn energy_gained(&self, from: &At, to: &At) -> f64 {
+        evaluate!(self, contact => contact.energy_gained(&from.state(), &to.state()))
     }
 
-    /// Normal forces of the pairs that a plain kind visits.
-    pub fn plain_normal(&self, at: &At, side: usize) -> f64 {
-        let (states, mut sum) = (self.plain_states(at), 0.0);
-        if self.contact.is_elastic {
-            of_teeth!(self, law => self.plain_on_bodies().loaded(law, &states, side, &mut |_, force| sum += force.total));
-        } else {
-            self.mesh.loaded(&states[side], |_, force| sum += force.total);
-        }
-        sum
+    /// Calls `see` with each loaded pair, and with each loaded point of its face if loads differ over it.
+    pub fn loaded(&self, at: &At, mut see: impl FnMut(&ToothLoad, Option<&SliceLoad>)) {
+        let visit = Visit { sides: 0..2, directions: Some(&self.gears.pair) };
+        evaluate!(self, contact => contact.visit(&at.state(), &visit, &mut see));
+    }
+
+    /// Sum of the normal forces of each mesh.
+    pub fn normals(&self, at: &At) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        self.loaded(at, |load, _| sums[load.side] += load.normal);
+        sums
     }
 
     /// The cone distance of a point of a face, unless it moves with the loaded part, and whether both ends of the face, and the
     /// edge of a broken tooth on both sides, are loaded.
-    pub fn fixed(&self, point: &SliceLoad) -> (Option<f64>, [bool; 4]) {
-        let is_fixed = |cone: f64| cone == self.mesh.cone || self.detailed.face.nodes().iter().any(|n| n.cone == cone);
-        let [inner, outer] = self.detailed.face.ends().unwrap_or([self.mesh.cone; 2]);
-        let (edge, depth) = point.opening.edge.unwrap_or((outer, 0.0));
+    pub fn fixed(&self, load: &ToothLoad, slice: Option<&SliceLoad>) -> (Option<f64>, [bool; 4]) {
+        let Some(slice) = slice else { return (Some(load.cone), [true; 4]) };
+        let face = &self.constants.detailed.face;
+        let is_fixed = |cone: f64| cone == self.cone() || face.nodes().iter().any(|n| n.cone == cone);
+        let [inner, outer] = face.ends().unwrap_or([self.cone(); 2]);
+        let (edge, depth) = slice.opening.edge.unwrap_or((outer, 0.0));
         let ends = [(inner, 0.0), (outer, 0.0), (edge, 0.0), (edge, depth)];
-        let is_loaded = |(end, missing)| point.approach.arc - (point.opening.at(end) + missing) / end > 0.0;
-        (Some(point.cone).filter(|cone| is_fixed(*cone)), ends.map(is_loaded))
+        let is_loaded = |(end, missing)| slice.approach.arc - (slice.opening.at(end) + missing) / end > 0.0;
+        (Some(load.cone).filter(|cone| is_fixed(*cone)), ends.map(is_loaded))
     }
 
     /// Pairs of perfect teeth of the mesh `side` that touch.
     pub fn pairs(&self, at: &At, side: usize) -> Vec<ToothPair> {
         let ([q, x, _], mut pairs) = (at.position[side], Vec::new());
-        self.mesh.engagement.pairs([q, x], |pair| pairs.push(*pair));
+        self.constants.mesh.engagement.pairs([q, x], |pair| pairs.push(*pair));
         pairs
+    }
+
+    /// Opening of the flanks of a pair of the left mesh.
+    pub fn opening(&self, ToothPair { flank, number, s, .. }: &ToothPair) -> Opening {
+        let tooth = if *flank == Flank::Drive { number - WRAPPED[0] } else { -(number + WRAPPED[0]) };
+        let name = PairName { planet: PLANET, side: 0, flank: *flank, tooth };
+        self.constants.gaps(false).map_or(Opening::NONE, |gaps| gaps.opening(&name, *s))
     }
 
     /// Elastic torque per ∫R² dR of teeth at the arc `arc` and the place `s` [rad].
     pub fn torque(&self, arc: f64, s: f64) -> f64 {
-        self.detailed.spring.at(arc, s).torque
+        self.constants.mesh.spring.at(arc, s).torque
     }
 }

@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use bevel_differential::contact::Spot;
-use bevel_differential::contact::detailed::PairName;
+use bevel_differential::contact::{Flank, Spot};
 use fastrand::Rng;
 
-use super::kinds::{At, Contact, GEARS, Planet, Teeth, kinds};
+use super::kinds::{At, Contact, GEARS, Planet, READINGS, Teeth, kinds};
 use crate::mesh_laws::PER_FULL_DEPTH;
 use crate::random::Draws;
 
@@ -75,9 +74,11 @@ impl At {
     }
 }
 
-/// Teeth of a loaded point, kind of contact, cone distance if the point does not move, and whether ends of the face and of a broken
+/// Side, flank and teeth of a pair.
+type Name = (usize, Flank, [usize; 2]);
+/// Pair of a loaded point, kind of contact, cone distance if the point does not move, and whether ends of the face and of a broken
 /// tooth's parts are loaded, flanks are about to part, and damping is full. Where this changes, derivatives jump or bend.
-type Point = (PairName, Spot, Option<f64>, [bool; 4], [bool; 2]);
+type Point = (Name, Spot, Option<f64>, [bool; 4], [bool; 2]);
 
 /// Loaded points of both meshes.
 #[derive(Default)]
@@ -108,7 +109,8 @@ impl Planet {
                 _ => random.between(1e-5, 3e-3),
             };
             let hand = random.pick(&[-1.0, 1.0]);
-            let ends = [self.mesh.engagement.corner[0].end, depth - self.mesh.engagement.corner[1].end];
+            let ends =
+                [self.constants.mesh.engagement.corner[0].end, depth - self.constants.mesh.engagement.corner[1].end];
             let x = match random.below(4) {
                 0 => -hand * (random.pick(&ends) + random.between(-3e-3, 3e-3) - pair.centred_position()),
                 _ => random.between(-2.0, 2.0) * pair.base_pitch,
@@ -144,34 +146,38 @@ impl Planet {
 
     /// Unit of coordinate `i`, and of the reciprocal of its force: w is a length.
     pub fn unit(&self, i: usize) -> f64 {
-        if i % 3 == 2 { self.mesh.cone } else { 1.0 }
+        if i % 3 == 2 { self.cone() } else { 1.0 }
     }
 
-    /// Largest force of both meshes, and largest normal force, as flanks of both sides may cancel, as a torque.
+    /// Largest force of both meshes as a torque. Flanks of both sides may cancel, except for their thrusts.
     pub fn scale(&self, at: &At) -> f64 {
-        let scale = |[q, x, w, normal, ..]: [f64; 7]| q.abs().max(x.abs()).max(w.abs().max(normal) * self.mesh.cone);
+        let scale = |[q, x, w, planet, side, _]: [f64; READINGS]| {
+            q.abs().max(x.abs()).max(w.abs().max(planet.abs()).max(side.abs()) * self.cone())
+        };
         self.forces(at).readings.into_iter().map(scale).fold(0.0, f64::max)
     }
 
     pub fn pattern(&self, at: &At) -> Pattern {
         let mut pattern = Pattern { nearest: [f64::INFINITY; 2], ..Pattern::default() };
-        let mut pairs: Vec<(PairName, f64)> = Vec::new();
-        // others pull teeth together, too, that do not touch then
-        self.loaded(at, |point| {
-            if point.arc > 0.0 {
-                let (name, (cone, ends)) = (point.name, self.fixed(point));
-                let is_full = point.arc * self.mesh.cone * PER_FULL_DEPTH >= 1.0;
-                pattern.points.push((name, point.spot, cone, ends, [point.normal <= 0.0, is_full]));
-                // the table of a corner's gap has ever shorter cells toward the end of the path
-                let past_end = if point.spot == Spot::Path { f64::INFINITY } else { point.place };
-                pattern.nearest[name.side] = pattern.nearest[name.side].min(past_end);
-                match pairs.iter_mut().find(|(pair, _)| *pair == name) {
-                    Some((_, arc)) => *arc = arc.max(point.arc),
-                    None => pairs.push((name, point.arc)),
-                }
+        let mut pairs: Vec<(Name, f64)> = Vec::new();
+        self.loaded(at, |load, slice| {
+            let arc = load.depth / load.cone;
+            // others pull teeth together, too, that do not touch then
+            if arc <= 0.0 {
+                return;
+            }
+            let (name, (cone, ends)) = ((load.side, load.flank, load.teeth), self.fixed(load, slice));
+            let is_full = arc * self.cone() * PER_FULL_DEPTH >= 1.0;
+            pattern.points.push((name, load.spot, cone, ends, [load.normal <= 0.0, is_full]));
+            // the table of a corner's gap has ever shorter cells toward the end of the path
+            let past_end = if load.spot == Spot::Path { f64::INFINITY } else { load.place };
+            pattern.nearest[load.side] = pattern.nearest[load.side].min(past_end);
+            match pairs.iter_mut().find(|(pair, _)| *pair == name) {
+                Some((_, deepest)) => *deepest = deepest.max(arc),
+                None => pairs.push((name, arc)),
             }
         });
-        for (PairName { side, .. }, arc) in pairs {
+        for ((side, ..), arc) in pairs {
             pattern.nearest[side] = pattern.nearest[side].min(arc);
             pattern.deepest[side] = pattern.deepest[side].max(arc);
         }

@@ -6,7 +6,7 @@ use bevel_differential::contact::{Flank, Spot};
 use bevel_differential::geometry::action::LineOfAction;
 use nalgebra::Vector3;
 
-use super::kinds::{At, Contact, Face, Forces, Planet, Teeth};
+use super::kinds::{At, Contact, Face, Forces, Planet, READINGS, Teeth};
 use super::points::{for_each_point, those};
 use crate::mesh_laws::{Kind, impact};
 
@@ -25,7 +25,7 @@ fn largest(values: &[f64]) -> f64 {
 
 /// Checks that two contacts have the same energy, heat and `rows` of readings, and the same derivatives of these with respect to the
 /// first `coordinates`, within `limit` of the largest. `sign` is that of a row and of a coordinate.
-fn compare([a, b]: [(&Planet, At); 2], (rows, coordinates): (Range<usize>, usize), sign: [f64; 7], limit: f64) {
+fn compare([a, b]: [(&Planet, At); 2], (rows, coordinates): (Range<usize>, usize), sign: [f64; READINGS], limit: f64) {
     let resting = a.0.scale(&a.1.at_rest());
     let [(a, da), (b, db)] = [a, b].map(|(planet, at)| planet.linearised(&at));
     same(da.energy, db.energy, limit * da.energy);
@@ -55,7 +55,7 @@ fn coasting_is_the_mirror_image_of_driving() {
             Contact { is_elastic: true, .. } => (mirror.moved(4, planet.off_opposite()), 1e-10),
             Contact { is_displaced, .. } => (mirror, if is_displaced { 1e-12 } else { 0.0 }),
         };
-        compare([(planet, at), (planet, mirror)], (0..7, 3), [-1.0, -1.0, 1.0, 1.0, 1.0, 1.0, -1.0], limit);
+        compare([(planet, at), (planet, mirror)], (0..READINGS, 3), [-1.0, -1.0, 1.0, 1.0, 1.0, -1.0], limit);
         true
     });
 }
@@ -89,11 +89,11 @@ fn without_corner_contact_each_pair_on_the_path_carries_the_whole_approach() {
         let approach = (q.abs() - pair.normal_backlash / 2.0).max(0.0);
         // teeth on the path, counted one by one: s = γ_p sinδ_bp ± x + k p_b
         let start = pair.centred_position() - q.signum() * x;
-        let [high, low] = [0, 1].map(|i| planet.mesh.engagement.corner[i].end);
+        let [high, low] = [0, 1].map(|i| planet.constants.mesh.engagement.corner[i].end);
         let on_path = |k: &i32| (-low..=high).contains(&(start + f64::from(*k) * pair.base_pitch));
         let count = (-20..=20).filter(on_path).count() as f64;
         let e = planet.gears.exponent;
-        let expected = count * impact(e, 0.0).stiffness * (pair.mean_cone * approach).powf(e + 1.0) / (e + 1.0);
+        let expected = count * impact(e).stiffness * (pair.mean_cone * approach).powf(e + 1.0) / (e + 1.0);
         same(planet.energy(&at), expected, 1e-12 * expected);
         // straight along the path: no force by x
         assert_eq!(planet.forces(&at).readings[0][1], 0.0);
@@ -110,19 +110,19 @@ fn kinds_without_effects_are_the_plain_mesh() {
         (0..2).for_each(|side| (at.position[side][2], at.rate[side][2]) = (0.0, 0.0));
         let plain = Planet::new(Contact { face: Face::Plain, is_displaced: false, ..planet.contact }, &planet.gears);
         let whole = Planet::new(Contact { face: Face::Whole, ..planet.contact }, &planet.gears);
-        planet.loaded(&at, |point| {
+        planet.loaded(&at, |point, _| {
             spots[point.spot as usize] += 1;
-            coast += usize::from(point.name.flank == Flank::Coast);
+            coast += usize::from(point.flank == Flank::Coast);
         });
         // own arcs on elastic bodies are solved, not summed
         let limit = if planet.contact.is_elastic { 1e-10 } else { 1e-12 };
-        compare([(planet, at), (&plain, at)], (0..2, 2), [1.0; 7], limit);
+        compare([(planet, at), (&plain, at)], (0..2, 2), [1.0; READINGS], limit);
         // thrusts and the force on side gears have one resultant
-        compare([(planet, at), (&whole, at)], (2..7, 2), [1.0; 7], limit);
-        let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest())) / plain.mesh.cone;
-        let forces = planet.forces(&at);
-        (0..2).for_each(|side| same(plain.plain_normal(&at, side), forces.readings[side][3], scale));
-        assert_eq!(forces.heat.map(|[_, friction]| friction), [0.0; 2]);
+        compare([(planet, at), (&whole, at)], (2..READINGS, 2), [1.0; READINGS], limit);
+        let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest())) / plain.cone();
+        let [a, b] = [planet, &plain].map(|planet| planet.normals(&at));
+        (0..2).for_each(|side| same(a[side], b[side], scale));
+        assert_eq!(planet.forces(&at).heat.map(|[_, friction]| friction), [0.0; 2]);
         true
     });
     assert!(spots.iter().all(|&n| n > 500) && coast > 500, "[path, planet tip, side tip]: {spots:?}, coast {coast}");
@@ -136,7 +136,7 @@ fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
         let action = LineOfAction::new(&planet.gears.pair);
         let shaft_angle = planet.gears.pair.shaft_angle;
         let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
-        planet.loaded(at, |point| {
+        planet.loaded(at, |point, _| {
             // the first cell of a corner's table of gaps has their slope to 2e-8
             if point.spot != Spot::Path && point.place < 1e-6 {
                 return;

@@ -1,6 +1,6 @@
 //! Tests of the least energy that the balance of a step resolves.
 
-use super::sizes::with_equations;
+use super::with_equations;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
 use crate::model::assembly::{Given, Model};
 use crate::model::scene::{CarrierDrive, GearContact, Inputs, Start};
