@@ -7,7 +7,7 @@ use bevel_differential::contact::detailed::{Face, Slice};
 use bevel_differential::contact::spring::{ImpactSpring, Resultant};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::contact::{AnySpring, ContactSpec, Impact};
-use bevel_differential::geometry::{GearSpec, Pair};
+use bevel_differential::geometry::Pair;
 
 /// 1/d_max [1/m].
 pub const PER_FULL_DEPTH: f64 = 1e4;
@@ -15,11 +15,6 @@ pub const PER_FULL_DEPTH: f64 = 1e4;
 pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: PER_FULL_DEPTH };
 pub const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: PER_FULL_DEPTH };
 pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
-
-/// Gears with these teeth of planet and side gear, exponent of the law, and backlash.
-pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
-    Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
-}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {

@@ -52,7 +52,7 @@ fn level(even: f64, turn: f64) -> Opening {
 
 #[test]
 fn a_displaced_gear_leans_the_load_as_its_closed_form_says() {
-    let pair = crate::mesh_laws::gears((10, 16, 1.5, 1e-4));
+    let pair = Pair::new(&GearSpec { backlash: 1e-4, ..GearSpec::default() });
     let (inner, outer) = (pair.inner_cone, pair.outer_cone);
     let mesh = linear_mesh(&pair);
     let centroid = 2.0 / 3.0 * (outer.powi(3) - inner.powi(3)) / (outer.powi(2) - inner.powi(2));

@@ -308,11 +308,11 @@ impl Planet {
         evaluate!(self, contact => contact.visit(&at.state(), &visit, &mut see));
     }
 
-    /// Sum of the normal forces of each mesh.
-    pub fn normals(&self, at: &At) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        self.loaded(at, |load, _| sums[load.side] += load.normal);
-        sums
+    /// Sum of the normal forces of the `wanted` loads.
+    pub fn normal(&self, at: &At, wanted: impl Fn(&ToothLoad) -> bool) -> f64 {
+        let mut sum = 0.0;
+        self.loaded(at, |load, _| sum += if wanted(load) { load.normal } else { 0.0 });
+        sum
     }
 
     /// The cone distance of a point of a face, unless it moves with the loaded part, and whether both ends of the face, and the
