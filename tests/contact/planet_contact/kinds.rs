@@ -27,18 +27,19 @@ pub const OF_TEETH: [Kind; 2] = [Kind::Line, Kind::LineWeber];
 /// The planet of the tests, the number of planets, and pairs by which its position was wrapped, in the sense of x of each mesh.
 const PLANET: usize = 1;
 const PLANETS: usize = 2;
-const WRAPPED: [i64; 2] = [3, -3];
+pub const WRAPPED: [i64; 2] = [3, -3];
 
-/// Position [q, x, w] and rates of the left and the right mesh.
+/// Position [q, x, w] and rates of the left and the right mesh, and pairs by which x was wrapped.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
     pub position: [[f64; 3]; 2],
     pub rate: [[f64; 3]; 2],
+    pub wrapped: [i64; 2],
 }
 
 impl At {
     fn state(&self) -> PlanetState {
-        PlanetState { planet: PLANET, position: self.position, rate: self.rate, wrapped: WRAPPED }
+        PlanetState { planet: PLANET, position: self.position, rate: self.rate, wrapped: self.wrapped }
     }
 }
 

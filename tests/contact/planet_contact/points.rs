@@ -5,7 +5,7 @@ use std::ops::Range;
 use bevel_differential::contact::{Flank, Spot};
 use fastrand::Rng;
 
-use super::kinds::{At, Contact, GEARS, Planet, READINGS, Teeth, kinds};
+use super::kinds::{At, Contact, GEARS, Planet, READINGS, Teeth, WRAPPED, kinds};
 use crate::mesh_laws::PER_FULL_DEPTH;
 use crate::random::Draws;
 
@@ -48,7 +48,7 @@ pub fn for_each_point(seed: u64, count: usize, of: Vec<Contact>, mut test: impl 
 
 impl At {
     /// Both meshes in the middle of their lash.
-    pub const FREE: Self = Self { position: [[0.0; 3]; 2], rate: [[0.0; 3]; 2] };
+    pub const FREE: Self = Self { position: [[0.0; 3]; 2], rate: [[0.0; 3]; 2], wrapped: WRAPPED };
 
     pub fn at_rest(self) -> Self {
         Self { rate: [[0.0; 3]; 2], ..self }

@@ -49,7 +49,7 @@ fn coasting_is_the_mirror_image_of_driving() {
         // teeth of one body, which an elastic planet needs, and side gears that are displaced outward stay so
         let at = if planet.contact.is_elastic { planet.joined(*at) } else { *at };
         let turned = |values: [[f64; 3]; 2]| values.map(|[q, x, w]| [-q, -x, w]);
-        let mirror = At { position: turned(at.position), rate: turned(at.rate) };
+        let mirror = At { position: turned(at.position), rate: turned(at.rate), ..at };
         // pairs on both flanks, which displaced gears and elastic bodies press, are summed in another order
         let (mirror, limit) = match planet.contact {
             // the teeth at both meshes' lines are not opposite
@@ -67,6 +67,24 @@ fn contact_is_the_same_a_base_pitch_further() {
         // the planet turns up the path on the left, down on the right
         let pitch = planet.gears.pair.base_pitch;
         let next = at.moved(1, pitch).moved(4, -pitch);
+        same(planet.energy(at), planet.energy(&next), 1e-11 * planet.energy(at));
+        true
+    });
+}
+
+#[test]
+fn contact_is_the_same_where_the_position_is_wrapped_by_another_number_of_pairs() {
+    // one spring has no teeth
+    for_each_point(13, 40, those(|of| of.law != Kind::Lumped), |planet, at| {
+        let further = 2.0 * planet.gears.pair.base_pitch;
+        let mut next = at.moved(1, further).moved(4, -further);
+        next.wrapped = [at.wrapped[0] - 2, at.wrapped[1] + 2];
+        let loads = |at| {
+            let mut loads = Vec::new();
+            planet.loaded(at, |load, _| loads.push((load.side, load.flank, load.teeth, load.spot)));
+            loads
+        };
+        assert_eq!(loads(at), loads(&next));
         same(planet.energy(at), planet.energy(&next), 1e-11 * planet.energy(at));
         true
     });
