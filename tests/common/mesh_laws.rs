@@ -1,17 +1,13 @@
-//! Contact laws built as a scene builds them, in both forms: for a plain mesh, and for a mesh in detail.
+//! Contact laws as a scene builds them.
 
 #![allow(dead_code)] // each test binary uses its own part
 
-use bevel_differential::contact::ContactSpec;
 use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::detailed::Slice;
-use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::law::{DampedImpact, FaceLaw, Lumped};
-use bevel_differential::contact::laws::AnySpring;
-use bevel_differential::contact::mesh::{Law, Mesh};
-use bevel_differential::contact::spring;
+use bevel_differential::contact::detailed::{Face, Slice};
+use bevel_differential::contact::spring::{ImpactSpring, Resultant};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
-use bevel_differential::geometry::{GearSpec, Pair};
+use bevel_differential::contact::{AnySpring, ContactSpec, Impact};
+use bevel_differential::geometry::Pair;
 
 /// 1/d_max [1/m].
 pub const PER_FULL_DEPTH: f64 = 1e4;
@@ -20,108 +16,57 @@ pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 
 pub const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: PER_FULL_DEPTH };
 pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
 
-/// Teeth of planet and side gear, exponent of the law, and backlash.
-pub const GEARS: [(i32, i32, f64, f64); 3] = [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 0.0), (11, 15, 2.2, 5e-5)];
-
-pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
-    Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Impact,
-    DampedImpact,
     Line,
     LineWeber,
     Lumped,
 }
 
-impl Kind {
-    /// Whether the law acts on tooth pairs.
-    pub fn has_pairs(self) -> bool {
-        self != Kind::Lumped
-    }
-    /// Whether the law holds for every slice of the face.
-    pub fn can_be_sliced(self) -> bool {
-        matches!(self, Kind::Line | Kind::LineWeber)
-    }
+pub fn impact(exponent: f64) -> Impact {
+    Impact { stiffness: 1.8e10, exponent, damping: 0.0, per_full_depth: PER_FULL_DEPTH }
 }
 
-pub fn impact(exponent: f64, damping: f64) -> Impact {
-    Impact { stiffness: 1.8e10, exponent, damping, per_full_depth: PER_FULL_DEPTH }
-}
-
-/// One law in both forms.
+/// An elastic law, and the face that it acts on.
 pub struct Built {
-    pub law: Law,
     pub spring: AnySpring,
-    /// The face as one slice.
-    pub whole: Slice,
-    pub cone: f64,
+    /// Where the resultant of a pair acts.
+    pub whole: Resultant,
+    /// The face in one point.
+    pub face: Face,
+    /// The face in many points, if the law is valid at every cone distance.
+    pub cut: Option<Face>,
 }
 
 impl Built {
-    pub fn new(pair: &Pair, kind: Kind, exponent: f64, damping: Damping) -> Self {
+    /// The law `kind` on teeth of steel.
+    pub fn new(pair: &Pair, kind: Kind) -> Self {
         let line_load = ContactSpec::default().line_load;
         let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, line_load).unwrap();
+        Self::of(pair, &stiffness, kind, 1.5)
+    }
+
+    /// The law `kind` on teeth of known stiffness, with the exponent of IMPACT.
+    pub fn of(pair: &Pair, stiffness: &PairStiffness, kind: Kind, exponent: f64) -> Self {
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
         let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));
-        let per_cone = 1.0 / centroid;
-        let elastic = impact(exponent, 0.0);
-        let (law, spring, cone, weight) = match kind {
+        let (spring, cone, weight, cut) = match kind {
             Kind::Impact => {
-                let Damping::Step { coefficient, .. } = damping else { panic!("IMPACT has its own damping") };
-                let law = Law::Impact(impact(exponent, coefficient));
-                (
-                    law,
-                    AnySpring::Impact(spring::ImpactSpring { law: elastic, cone: pair.mean_cone }),
-                    pair.mean_cone,
-                    1.0,
-                )
+                let cone = pair.mean_cone;
+                (AnySpring::Impact(ImpactSpring { law: impact(exponent), cone }), cone, 1.0, None)
             }
-            Kind::DampedImpact => {
-                let law = Law::DampedImpact(DampedImpact { elastic, damping });
-                (
-                    law,
-                    AnySpring::Impact(spring::ImpactSpring { law: elastic, cone: pair.mean_cone }),
-                    pair.mean_cone,
-                    1.0,
-                )
-            }
-            Kind::Line => {
-                let specific = stiffness.line();
-                let spring = AnySpring::Line(specific.clone());
-                (Law::Line(FaceLaw { specific, moment, per_cone, damping }), spring, centroid, moment)
-            }
+            Kind::Line => (AnySpring::Line(stiffness.line()), centroid, moment, Some(Face::cut(inner, outer))),
             Kind::LineWeber => {
-                let specific = stiffness.line_weber();
-                let spring = AnySpring::LineWeber(specific.clone());
-                (Law::LineWeber(FaceLaw { specific, moment, per_cone, damping }), spring, centroid, moment)
+                (AnySpring::LineWeber(stiffness.line_weber()), centroid, moment, Some(Face::sliced(inner, outer)))
             }
             Kind::Lumped => {
                 let k = stiffness.mesh_mean() * moment / (centroid * centroid);
-                (
-                    Law::Lumped(Lumped { stiffness: k, damping }),
-                    AnySpring::Impact(spring::ImpactSpring::linear(k, centroid)),
-                    centroid,
-                    1.0,
-                )
+                (AnySpring::Impact(ImpactSpring::linear(k, centroid)), centroid, 1.0, None)
             }
         };
-        let width = (pair.outer_cone - pair.inner_cone) * pair.mean_cone / cone;
-        Self { law, spring, whole: Slice { cone, weight, width }, cone }
+        let width = (outer - inner) * pair.mean_cone / cone;
+        Self { spring, whole: Resultant::new(cone, weight), face: Face::whole(Slice { cone, weight, width }), cut }
     }
-}
-
-/// Meshes of the three pairs under a law.
-pub fn meshes(kind: Kind, damping: Damping, corner_contact: bool) -> Vec<(Mesh, Pair)> {
-    GEARS
-        .into_iter()
-        .map(|of| {
-            let pair = gears(of);
-            let Built { law, cone, .. } = Built::new(&pair, kind, of.2, damping);
-            (Mesh::new(&pair, law, cone, corner_contact, 0.05), pair)
-        })
-        .collect()
 }

@@ -9,13 +9,11 @@ mod golden_pairs;
 mod impact;
 mod kinks;
 mod mesh_conjugacy;
-mod mesh_detailed;
 mod mesh_explicit;
 #[path = "../common/mesh_laws.rs"]
 mod mesh_laws;
-mod mesh_potential;
 mod mesh_rotated_flanks;
-mod mesh_shared;
+mod planet_contact;
 mod profiles;
 #[path = "../common/random.rs"]
 mod random;

@@ -6,9 +6,8 @@
 
 use crate::mesh_explicit::{Differential, Toothed, Touch, gears, pitch_angles, random_spec, roll_at, rolled};
 use crate::random::Draws;
-use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::mesh::{Law, Mesh};
-use bevel_differential::contact::pairs::{Flank, Spot, ToothPair};
+use bevel_differential::contact::spring::{ImpactSpring, Resultant};
+use bevel_differential::contact::{AnySpring, Damping, Flank, Impact, Mesh, Spot, ToothPair};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, assembly};
 use fastrand::Rng;
 use std::f64::consts::TAU;
@@ -128,7 +127,8 @@ fn for_each_flank(spec: &GearSpec, spins: usize, random: &mut Rng, check: &mut i
     let [planet, side] = cut_at_base_circle(gears(spec, addenda(spec)), spec);
     let explicit = Differential::new(planet, side, n);
     let pair = Pair::new(spec);
-    let mesh = Mesh::new(&pair, Law::Impact(LAW), pair.mean_cone, true, 2.0 * REACH);
+    let spring = AnySpring::Impact(ImpactSpring { law: LAW, cone: pair.mean_cone });
+    let mesh = Mesh::new(&pair, (spring, Damping::NONE), Resultant::new(pair.mean_cone, 1.0), true, 2.0 * REACH);
     for i in 0..n {
         for (sigma, push) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
             for _ in 0..spins {

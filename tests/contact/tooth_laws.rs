@@ -3,8 +3,7 @@
 use crate::stiffness_pairs::{
     LINE_LOAD, PER_MM_UM, STEEL, buildable, default, golden, golden_spec, random_pairs, stiffness,
 };
-use bevel_differential::contact::laws::AnySpring;
-use bevel_differential::contact::spring::{Elastic, Spring};
+use bevel_differential::contact::spring::{AnySpring, Elastic, Spring};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 

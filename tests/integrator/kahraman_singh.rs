@@ -14,9 +14,9 @@
 
 use std::f64::consts::TAU;
 
-use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::law::Lumped;
-use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
+use bevel_differential::contact::mesh::{Mesh, MeshState};
+use bevel_differential::contact::spring::{ImpactSpring, Resultant};
+use bevel_differential::contact::{AnySpring, Damping};
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::integrate::{
     AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
@@ -42,8 +42,10 @@ impl Oscillator {
         let pair = Pair::new(&GearSpec::default());
         // a stiffness of 1 N·m/rad against an inertia of 1 kg·m²: ω_n = 1/s
         let stiffness = 1.0 / (pair.mean_cone * pair.mean_cone);
-        let spring = Lumped { stiffness, damping: Damping::Step { coefficient: 0.0, per_full_depth: 1.0 } };
-        Self { mesh: Mesh::new(&pair, Law::Lumped(spring), pair.mean_cone, true, 0.05), frequency: 0.0, kinks }
+        let spring = AnySpring::Impact(ImpactSpring::linear(stiffness, pair.mean_cone));
+        let whole = Resultant::new(pair.mean_cone, 1.0);
+        let mesh = Mesh { is_single: true, ..Mesh::new(&pair, (spring, Damping::NONE), whole, true, 0.05) };
+        Self { mesh, frequency: 0.0, kinks }
     }
 
     /// Load on the drive flanks, which carry at negative positions, with its derivative by the phase [N·m].

@@ -1,8 +1,8 @@
 //! Statics: preload, sharing of load, the cogging well of free planets and its threshold.
 
-use bevel_differential::contact::ContactLaw;
-use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
+use bevel_differential::contact::mesh::{Mesh, MeshState};
+use bevel_differential::contact::spring::{ImpactSpring, Resultant};
+use bevel_differential::contact::{AnySpring, ContactLaw, Damping, Impact};
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{Forces, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start, readings};
 
@@ -69,7 +69,9 @@ impl Statics {
     fn new() -> Self {
         let pair = Pair::new(&GearSpec::default());
         let law = Impact { stiffness: 5.77e5 * 1e3f64.powf(1.5), exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
-        Self { mesh: Mesh::new(&pair, Law::Impact(law), pair.mean_cone, true, 0.1), sin_base: pair.sin_base() }
+        let spring = AnySpring::Impact(ImpactSpring { law, cone: pair.mean_cone });
+        let whole = Resultant::new(pair.mean_cone, 1.0);
+        Self { mesh: Mesh::new(&pair, (spring, Damping::NONE), whole, true, 0.1), sin_base: pair.sin_base() }
     }
 
     /// Both planets alike: energy of the loaded mesh and torque on one planet, for side σ, spin ψ and load `torque`,

@@ -41,7 +41,7 @@ fn the_exponent_is_that_of_the_standard_and_wide_teeth_follow_the_load_closely()
 
 /// A mesh under the linear law whose face is cut.
 fn linear_mesh(pair: &Pair) -> Detailed {
-    let spring = Built::new(pair, Kind::Line, 1.5, UNDAMPED).spring;
+    let spring = Built::new(pair, Kind::Line).spring;
     Detailed::new(pair, spring, UNDAMPED, Face::cut(pair.inner_cone, pair.outer_cone), false, None)
 }
 
@@ -52,7 +52,7 @@ fn level(even: f64, turn: f64) -> Opening {
 
 #[test]
 fn a_displaced_gear_leans_the_load_as_its_closed_form_says() {
-    let pair = crate::mesh_laws::gears((10, 16, 1.5, 1e-4));
+    let pair = Pair::new(&GearSpec { backlash: 1e-4, ..GearSpec::default() });
     let (inner, outer) = (pair.inner_cone, pair.outer_cone);
     let mesh = linear_mesh(&pair);
     let centroid = 2.0 / 3.0 * (outer.powi(3) - inner.powi(3)) / (outer.powi(2) - inner.powi(2));

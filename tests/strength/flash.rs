@@ -1,9 +1,9 @@
 //! Flash temperature over the whole face of rolling teeth, against Blok's formula applied apart from the program.
 
 use crate::loads::{TORQUE, close, loads, pairs_of, reading};
-use crate::mesh_laws::{Built, Kind, UNDAMPED};
+use crate::mesh_laws::{Built, Kind};
+use bevel_differential::contact::AnySpring;
 use bevel_differential::contact::errors::ToothErrorSpec;
-use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::spring::Spring;
 use bevel_differential::contact::{ContactLaw, Spot, ToothLoad};
 use bevel_differential::friction::FrictionLaw;
@@ -135,7 +135,7 @@ fn flanks_flash_where_a_fine_search_over_the_face_says_inside_it_and_at_both_end
     ];
     let (mut inside, mut at_the_end) = (false, false);
     for (law, kind) in [(ContactLaw::Line, Kind::Line), (ContactLaw::LineWeber, Kind::LineWeber)] {
-        let spring = Built::new(&pair, kind, 1.5, UNDAMPED).spring;
+        let spring = Built::new(&pair, kind).spring;
         for (name, errors) in &cases {
             let mut simulation = rolling(law, Some(errors), |p| p.contact.damping = 0.0);
             simulation.advance(3.7e-3).expect("a step");

@@ -2,10 +2,10 @@
 //! formulas of the theory, and slices of which the program knows nothing, balanced with the torque of the mesh.
 
 use crate::loads::{TORQUE, close, loads, middles, pairs_of, reading, standing};
-use crate::mesh_laws::{Built, Kind, UNDAMPED};
+use crate::mesh_laws::{Built, Kind};
+use bevel_differential::contact::AnySpring;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::errors::ToothErrorSpec;
-use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::pairs::Flank;
 use bevel_differential::contact::spring::Spring;
 use bevel_differential::geometry::{GearSpec, Pair};
@@ -88,7 +88,7 @@ fn root_stress_and_pressure_rise_as_64_slices_made_apart_say() {
     let pair = Pair::new(&GearSpec::default());
     let mut largest = 0.0f64;
     for (law, kind) in [(ContactLaw::Line, Kind::Line), (ContactLaw::LineWeber, Kind::LineWeber)] {
-        let spring = Built::new(&pair, kind, 1.5, UNDAMPED).spring;
+        let spring = Built::new(&pair, kind).spring;
         let even = reading(&mut standing(law, &none), "stress.root_planet_max");
         for (name, errors) in &cases {
             let mut simulation = standing(law, errors);
