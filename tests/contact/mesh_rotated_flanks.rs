@@ -89,12 +89,12 @@ impl Seen {
     fn first(&self, wanted: impl Fn(&Self, &ToothPair, f64) -> bool) -> Option<(f64, Spot)> {
         let loaded = |alpha: f64| {
             let mut spot = None;
-            self.mesh.engagement.pairs(self.position(alpha), |p| {
+            for p in self.mesh.engagement.pairs(self.position(alpha)) {
                 let forward = p.flank == Flank::Drive;
-                if p.depth > 0.0 && forward == (self.push > 0.0) && wanted(self, p, alpha) {
+                if p.depth > 0.0 && forward == (self.push > 0.0) && wanted(self, &p, alpha) {
                     spot = Some(p.spot);
                 }
-            });
+            }
             spot
         };
         let reach = self.pair.normal_backlash / 2.0 + REACH;
@@ -249,11 +249,11 @@ fn the_program_sees_no_pair_that_the_teeth_do_not_have() {
     for_each_mesh(1e-4, 2, |seen, touches, name| {
         let alpha = seen.free - seen.push * (REACH + seen.pair.normal_backlash / 2.0) / seen.pair.sin_base()[1];
         let mut visited = Vec::new();
-        seen.mesh.engagement.pairs(seen.position(alpha), |p| {
+        for p in seen.mesh.engagement.pairs(seen.position(alpha)) {
             if p.depth > 0.0 {
-                visited.push((seen.place(p, alpha), *p));
+                visited.push((seen.place(&p, alpha), p));
             }
-        });
+        }
         for (s, p) in visited {
             let touch = touches.iter().find(|t| (path_position(seen, t) - s).abs() < 1e-11);
             let touch = touch.unwrap_or_else(|| panic!("{name}: no tooth at {s}: {p:?}"));

@@ -60,14 +60,14 @@ fn worst_depth(pair: &Pair, mesh: &SolidMesh, flank: Flank) -> f64 {
     let mut worst = 0.0f64;
     for position in sweep(pair, flank, DEPTH, 60) {
         let solid = loads(mesh, position);
-        engagement.pairs(position, |p| {
+        for p in engagement.pairs(position) {
             // below the base circle a flank is a meridian, which the gap of tip corners does not contain
             if p.spot == Spot::Path {
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
                 assert!(solid.iter().all(|l| l.flank == flank));
                 worst = worst.max((depth - p.depth).abs() * pair.mean_cone);
             }
-        });
+        }
     }
     worst
 }
@@ -97,12 +97,12 @@ fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
     for flank in [Flank::Drive, Flank::Coast] {
         for position in sweep(&pair, flank, DEPTH, 200) {
             let solid = loads(&mesh, position);
-            engagement.pairs(position, |p| {
+            for p in engagement.pairs(position) {
                 let which = match p.spot {
-                    Spot::Path => return,
+                    Spot::Path => continue,
                     Spot::PlanetTip => 0,
                     // where the planet's flank has become a meridian, the closed form continues along the involute
-                    Spot::SideTip if p.s < -pair.pitch_arc[0] + 0.005 => return,
+                    Spot::SideTip if p.s < -pair.pitch_arc[0] + 0.005 => continue,
                     Spot::SideTip => 1,
                 };
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
@@ -110,7 +110,7 @@ fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
                 // the patch at a corner lies on one side of it alone
                 assert!(off.abs() < 0.2e-6, "{:?} {} off by {off} m of {}", p.spot, p.place, p.depth * pair.mean_cone);
                 corners[which] += 1;
-            });
+            }
         }
     }
     assert!(corners.iter().all(|&n| n > 10), "{corners:?}");

@@ -331,9 +331,8 @@ impl Planet {
 
     /// Pairs of perfect teeth of the mesh `side` that touch.
     pub fn pairs(&self, at: &At, side: usize) -> Vec<ToothPair> {
-        let ([q, x, _], mut pairs) = (at.position[side], Vec::new());
-        self.constants.mesh.engagement.pairs([q, x], |pair| pairs.push(*pair));
-        pairs
+        let [q, x, _] = at.position[side];
+        self.constants.mesh.engagement.pairs([q, x]).collect()
     }
 
     /// Opening of the flanks of a pair of the left mesh.
