@@ -1,8 +1,8 @@
 //! Bodies and meshes: the coordinates of a mesh from the motion of its bodies, and forces and derivatives of meshes on the bodies.
 //!
 //! q = sinδ_bs α − σ sinδ_bp ψ, x = σ sinδ_bp ψ + h, and the displacement w of the side gear along its axis; σ = +1 left, −1 right.
-//! A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the planet with σ sinδ_bp (F_x − F_q), on the seat with F_w, and
-//! its reaction on the carrier, or on the pin where pins move.
+//! A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the planet with σ sinδ_bp (F_x − F_q), and on the seat with
+//! F_w. Its reaction acts on the carrier, or on the pin where pins move.
 
 use super::Equations;
 use super::shape::Shape;
@@ -75,7 +75,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of the mesh of side `s` by the coordinates of that of side `other`, from ∂(F_q, F_x, F_w)/∂(q, x, w).
+    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of the mesh of side `s` by the coordinates of the mesh of side `other`, from
+    /// ∂(F_q, F_x, F_w)/∂(q, x, w).
     #[inline]
     fn on_bodies(&self, s: usize, other: usize, by: &Block) -> Block {
         let [planet, side] = self.teeth.sin_base;
