@@ -58,6 +58,9 @@ struct Pairs<P> {
     count: usize,
 }
 
+/// Called with each pair, the approach of its flanks [rad], and its share of the load.
+type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
+
 /// What the elastic part of a face carries at an own arc, over J.
 #[derive(Clone, Copy, Default)]
 struct Carried {
@@ -151,7 +154,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
+        see: &mut See<S::Place>,
     ) {
         let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
         self.gather::<S, OPEN>(spring, shared, states, lookout, &mut pairs);
@@ -189,7 +192,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
+        see: &mut See<S::Place>,
     ) {
         if self.may_open(shared) {
             self.share::<S, true, false>(spring, shared, states, lookout, see);

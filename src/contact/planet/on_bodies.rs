@@ -1,10 +1,10 @@
 //! Flanks that fit, on elastic gear bodies: the pairs of both meshes move each other.
 
-use super::load::{Block, LinearisedLoad, MeshLoad, without_displacement};
+use super::load::{Block, LinearisedForce, LinearisedLoad, MeshLoad, without_displacement};
 use super::{COORDINATES, Contact, PlanetContact, PlanetState, Visit, Visitor, first, plain};
 use crate::contact::AnySpring;
 use crate::contact::bodies::PairCouplings;
-use crate::contact::mesh::MeshForce;
+use crate::contact::mesh::{MeshForce, MeshJacobian};
 use crate::contact::shared::{OpeningByOthers, SharedForce, SharedMeshes};
 
 /// A planet on elastic bodies.
@@ -19,44 +19,34 @@ pub struct OnBodies<'a> {
 /// Load of a mesh with its derivatives, those by the planet's other mesh among them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CoupledForce {
-    force: MeshForce,
-    by_position: [[f64; 2]; 2],
-    by_rate: [[f64; 2]; 2],
+    own: LinearisedForce,
     by_other: [[f64; 2]; 2],
-    energy: f64,
 }
 
 impl MeshLoad for CoupledForce {
     const PRESSES: bool = false;
-    #[inline(always)]
     fn none() -> Self {
         Self::default()
     }
-    #[inline(always)]
     fn force(&self) -> [f64; COORDINATES] {
-        self.force.force()
+        self.own.force()
     }
-    #[inline(always)]
     fn heat(&self) -> [f64; 2] {
-        self.force.heat()
+        self.own.heat()
     }
 }
 
 impl LinearisedLoad for CoupledForce {
     const COUPLED: bool = true;
-    #[inline(always)]
     fn energy(&self) -> f64 {
-        self.energy
+        self.own.energy()
     }
-    #[inline(always)]
     fn by_position(&self) -> Block {
-        without_displacement(&self.by_position)
+        self.own.by_position()
     }
-    #[inline(always)]
     fn by_rate(&self) -> Block {
-        without_displacement(&self.by_rate)
+        self.own.by_rate()
     }
-    #[inline(always)]
     fn by_other(&self) -> Block {
         without_displacement(&self.by_other)
     }
@@ -95,14 +85,11 @@ impl PlanetContact for OnBodies<'_> {
         let states = &[at.mesh(0), at.mesh(1)];
         let both = with_teeth!(self, spring => self.meshes(at).linearise(spring, states), SharedForce::default());
         for s in 0..2 {
-            to[s] = CoupledForce {
-                force: both.force[s],
-                by_position: both.by_position[s][s],
-                by_rate: both.by_rate[s],
-                by_other: both.by_position[s][1 - s],
-                // that of both meshes, which is theirs together
-                energy: if s == 0 { both.energy } else { 0.0 },
-            };
+            // the energy of both meshes is theirs together
+            let energy = if s == 0 { both.energy } else { 0.0 };
+            let by = MeshJacobian { by_position: both.by_position[s][s], by_rate: both.by_rate[s], energy };
+            let own = LinearisedForce { force: both.force[s], by };
+            to[s] = CoupledForce { own, by_other: both.by_position[s][1 - s] };
         }
     }
 

@@ -51,6 +51,9 @@ struct Pairs<P> {
     count: usize,
 }
 
+/// Called with each pair, the approach of its flanks [rad], and its share of the load.
+type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
+
 impl SharedMeshes<'_> {
     /// Number of the planet's tooth of a pair.
     #[inline(always)]
@@ -113,7 +116,7 @@ impl SharedMeshes<'_> {
         spring: &S,
         states: &[MeshState; 2],
         lookout: f64,
-        see: &mut dyn FnMut(&Near<S::Place>, f64, &Share),
+        see: &mut See<S::Place>,
     ) {
         let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
         self.gather(spring, states, lookout, &mut pairs);
