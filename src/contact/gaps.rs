@@ -3,7 +3,7 @@
 use std::num::NonZero;
 
 use super::Flank;
-use super::detailed::{Gaps, Opening, PairName};
+use super::detailed::{Opening, PairName};
 use super::errors::{Chip, MeshId, PairId, ToothErrors};
 use crate::geometry::Pair;
 
@@ -121,15 +121,10 @@ impl FlankGaps {
         let (_, pair) = self.ids(&name);
         [pair.planet_tooth, pair.side_tooth]
     }
-}
 
-impl Gaps for FlankGaps {
-    fn opening(&self, name: &PairName, s: f64) -> Opening {
+    /// Opening of a pair at place `s` [rad].
+    pub fn opening(&self, name: &PairName, s: f64) -> Opening {
         let (mesh, pair) = self.ids(name);
         self.of(mesh, pair, s)
-    }
-
-    fn least(&self) -> f64 {
-        self.least
     }
 }

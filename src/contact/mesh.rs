@@ -28,10 +28,11 @@ pub struct Mesh {
 /// spring has one pair, at s = 0.
 macro_rules! with_pairs {
     ($of:expr, $position:expr, ($spring:ident, $pairs:ident) => $body:expr) => {
-        match &$of.spring {
-            AnySpring::Impact($spring) if $of.is_single => with_pairs!(@ $of.single($position), $pairs, $body),
-            any => with_spring!(any, $spring => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body)),
-        }
+        with_spring!(
+            &$of.spring,
+            $spring => with_pairs!(@ $of.engagement.pairs($position), $pairs, $body),
+            if $of.is_single => with_pairs!(@ $of.single($position), $pairs, $body)
+        )
     };
     (@ $found:expr, $pairs:ident, $body:expr) => {{
         let $pairs = $found.into_iter();

@@ -180,10 +180,18 @@ pub enum AnySpring {
     LineWeber(LineWeber),
 }
 
-/// Evaluates an expression with `law` bound to the elastic law in use.
+/// Evaluates an expression with `law` bound to the elastic law in use, or another one where one spring is a whole mesh.
 macro_rules! with_spring {
     ($of:expr, $law:ident => $body:expr) => {
         match $of {
+            $crate::contact::spring::AnySpring::Impact($law) => $body,
+            $crate::contact::spring::AnySpring::Line($law) => $body,
+            $crate::contact::spring::AnySpring::LineWeber($law) => $body,
+        }
+    };
+    ($of:expr, $law:ident => $body:expr, if $is_single:expr => $single:expr) => {
+        match $of {
+            $crate::contact::spring::AnySpring::Impact($law) if $is_single => $single,
             $crate::contact::spring::AnySpring::Impact($law) => $body,
             $crate::contact::spring::AnySpring::Line($law) => $body,
             $crate::contact::spring::AnySpring::LineWeber($law) => $body,

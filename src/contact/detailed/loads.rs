@@ -20,9 +20,8 @@ pub struct DetailedState {
 pub struct DetailedLoad<T> {
     /// Forces conjugate to q, x [N·m] and w [N].
     pub force: [T; 3],
-    /// Sum of normal forces [N]; it and the three below are summed only where something rubs under them.
-    pub normal: T,
-    /// Thrust on the planet along its axis away from the apex [N].
+    /// Thrust on the planet along its axis away from the apex [N]; it and the two below are summed only where something rubs
+    /// under them.
     pub planet_axial: T,
     /// Thrust on the side gear along its axis away from the apex [N].
     pub side_axial: T,
@@ -40,7 +39,6 @@ impl<T> DetailedLoad<T> {
     pub fn map<U>(self, f: impl Fn(T) -> U) -> DetailedLoad<U> {
         DetailedLoad {
             force: self.force.map(&f),
-            normal: f(self.normal),
             planet_axial: f(self.planet_axial),
             side_axial: f(self.side_axial),
             tangential: f(self.tangential),
@@ -54,15 +52,7 @@ impl<T: Scalar> DetailedLoad<T> {
     /// No load.
     pub fn zero() -> Self {
         let zero = T::constant(0.0);
-        Self {
-            force: [zero; 3],
-            normal: zero,
-            planet_axial: zero,
-            side_axial: zero,
-            tangential: zero,
-            heat: [0.0; 2],
-            energy: 0.0,
-        }
+        Self { force: [zero; 3], planet_axial: zero, side_axial: zero, tangential: zero, heat: [0.0; 2], energy: 0.0 }
     }
 }
 
@@ -150,14 +140,6 @@ impl Opening {
     }
 }
 
-/// How tooth errors open the flanks of a pair.
-pub trait Gaps: Send + Sync + std::fmt::Debug {
-    /// Opening of a pair at place `s` [rad].
-    fn opening(&self, pair: &PairName, s: f64) -> Opening;
-    /// Lower bound of all gaps (zero or negative) [m].
-    fn least(&self) -> f64;
-}
-
 /// Which teeth, of the unrolled sequence, meet in which mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PairName {
@@ -169,4 +151,18 @@ pub struct PairName {
     pub flank: Flank,
     /// Number of the planet's tooth, counted from the mesh's own line at the start and in the sense of x.
     pub tooth: i64,
+}
+
+impl PairName {
+    /// The pair `number` of `flank` of the mesh of `planet` with side gear `side`, of a planet whose position was wrapped by `wrapped`
+    /// pairs, in the sense of x.
+    #[inline(always)]
+    pub fn new((planet, side): (usize, usize), flank: Flank, number: i64, wrapped: i64) -> Self {
+        let tooth = if flank == Flank::Drive {
+            number.wrapping_sub(wrapped)
+        } else {
+            number.wrapping_add(wrapped).wrapping_neg()
+        };
+        Self { planet, side, flank, tooth }
+    }
 }

@@ -3,9 +3,10 @@
 use super::super::spring::with_spring;
 use super::directions::{Arcs, Directions};
 use super::face::{Cut, Face, Part};
+use super::totals::SUMS;
 use super::touching::Touching;
-use super::{DetailedLoad, DetailedState, Gaps, LOCAL, Node, Opening, PairMotion, PairName, SliceLoad, Totals};
-use crate::contact::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothFriction, ToothPair};
+use super::{DetailedLoad, DetailedState, LOCAL, Node, Opening, PairMotion, PairName, SliceLoad, Totals};
+use crate::contact::{AnySpring, Damping, Engagement, Flank, FlankGaps, Spot, Spring, ToothFriction, ToothPair};
 use crate::geometry::Pair;
 use crate::numeric::Dual;
 
@@ -44,7 +45,7 @@ pub struct MeshTeeth<'a> {
     /// Tooth pairs.
     pub engagement: &'a Engagement,
     /// Errors of the teeth.
-    pub gaps: Option<&'a dyn Gaps>,
+    pub gaps: Option<&'a FlankGaps>,
     /// Viscosity of the oil at its temperature [Pa·s], for a law of friction that takes it from the oil; none: that of the law.
     pub viscosity: Option<f64>,
     /// Planet.
@@ -57,8 +58,7 @@ impl MeshTeeth<'_> {
     /// The pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
     #[inline(always)]
     fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
-        let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
-        PairName { planet: self.planet, side: self.side, flank, tooth }
+        PairName::new((self.planet, self.side), flank, number, wrapped)
     }
 }
 
@@ -111,7 +111,7 @@ impl Detailed {
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
     pub fn linearise(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
-        let mut totals = Totals::<7, LOCAL>::default();
+        let mut totals = Totals::<SUMS, LOCAL>::default();
         with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
         totals.linearised()
     }
@@ -210,7 +210,7 @@ impl Detailed {
     ) {
         let [q, x, w] = state.position;
         // errors and axial displacement bring flanks nearer than error-free ones by so much at most [m], then [rad]
-        let slack = teeth.gaps.map_or(0.0, |g| -g.least()) + (-w).max(0.0);
+        let slack = teeth.gaps.map_or(0.0, |g| -g.least) + (-w).max(0.0);
         let slack = slack / self.face.inner();
         for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
             let excess = slack + margin;

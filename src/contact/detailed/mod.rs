@@ -27,7 +27,7 @@ mod touching;
 pub use directions::Arms;
 pub use face::Face;
 pub use face_load::KnownSlice;
-pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
+pub use loads::{DetailedLoad, DetailedState, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, MeshTeeth};
 pub use on_bodies::SharedTeeth;
 pub use pair::PairMotion;

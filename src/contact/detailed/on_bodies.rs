@@ -9,6 +9,7 @@ use super::directions::Arcs;
 use super::face::{Cut, Part};
 use super::loads::Look;
 use super::sums::{Approach, Sums};
+use super::totals::SUMS;
 use super::touching::Touching;
 use super::{
     Detailed, DetailedLoad, DetailedState, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER,
@@ -113,7 +114,7 @@ impl Detailed {
     ) {
         // excess material presses before flanks that fit do
         let excess = [0, 1].map(|side| {
-            let gaps = shared.teeth[side].gaps.map_or(0.0, |gaps| -gaps.least());
+            let gaps = shared.teeth[side].gaps.map_or(0.0, |gaps| -gaps.least);
             (gaps + (-states[side].position[2]).max(0.0)) / self.face.inner()
         });
         let depth = [0, 1].map(|side| {
@@ -232,11 +233,11 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
     ) -> [DetailedLoad<Dual<WITH_OTHER>>; 2] {
-        let mut totals = [Totals::<7, WITH_OTHER>::default(); 2];
+        let mut totals = [Totals::<SUMS, WITH_OTHER>::default(); 2];
         with_teeth!(&self.spring, spring => if self.may_open(shared) {
-            self.sum_shared::<_, 7, true, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
+            self.sum_shared::<_, SUMS, true, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
         } else {
-            self.sum_shared::<_, 7, false, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
+            self.sum_shared::<_, SUMS, false, true>(spring, &mut totals, shared, states, self.needs_thrust, None);
         }, ());
         totals.map(|totals| totals.linearised())
     }

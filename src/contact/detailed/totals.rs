@@ -10,15 +10,16 @@ use crate::numeric::Dual;
 const Q: usize = 0;
 const X: usize = 1;
 const W: usize = 2;
-const NORMAL: usize = 3;
-const PLANET: usize = 4;
-const SIDE: usize = 5;
-const TANGENTIAL: usize = 6;
+const PLANET: usize = 3;
+const SIDE: usize = 4;
+const TANGENTIAL: usize = 5;
+/// Number of sums.
+pub const SUMS: usize = 6;
 
 /// Sums over tooth pairs; `ROWS` of them have derivatives by `WIDE` variables, all or none.
 #[derive(Clone, Copy, Debug)]
 pub struct Totals<const ROWS: usize, const WIDE: usize> {
-    value: [f64; 7],
+    value: [f64; SUMS],
     slopes: [[f64; WIDE]; ROWS],
     heat: [f64; 2],
     energy: f64,
@@ -26,7 +27,7 @@ pub struct Totals<const ROWS: usize, const WIDE: usize> {
 
 impl<const ROWS: usize, const WIDE: usize> Default for Totals<ROWS, WIDE> {
     fn default() -> Self {
-        Self { value: [0.0; 7], slopes: [[0.0; WIDE]; ROWS], heat: [0.0; 2], energy: 0.0 }
+        Self { value: [0.0; SUMS], slopes: [[0.0; WIDE]; ROWS], heat: [0.0; 2], energy: 0.0 }
     }
 }
 
@@ -115,7 +116,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         spot: Spot,
     ) {
         let [planet, side, forward] = normal.parts;
-        let parts = [(NORMAL, 1.0), (PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
+        let parts = [(PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
         for (i, part) in parts {
             self.value[i] += sums.normal * part;
         }
@@ -157,7 +158,6 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
     fn of<T: Copy>(&self, sum: impl Fn(usize) -> T) -> DetailedLoad<T> {
         DetailedLoad {
             force: [sum(Q), sum(X), sum(W)],
-            normal: sum(NORMAL),
             planet_axial: sum(PLANET),
             side_axial: sum(SIDE),
             tangential: sum(TANGENTIAL),
@@ -167,7 +167,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
     }
 }
 
-impl<const WIDE: usize> Totals<7, WIDE> {
+impl<const WIDE: usize> Totals<SUMS, WIDE> {
     /// The loads with their derivatives.
     pub fn linearised(&self) -> DetailedLoad<Dual<WIDE>> {
         self.of(|i| Dual { v: self.value[i], d: self.slopes[i] })

@@ -34,8 +34,13 @@ impl<'a> InDetail<'a> {
     /// Teeth of the mesh of side `side` of planet `planet`.
     #[inline(always)]
     fn mesh_teeth(&self, planet: usize, side: usize) -> MeshTeeth<'a> {
-        let gaps = self.gaps.map(|gaps| gaps as _);
-        MeshTeeth { engagement: &self.contact.mesh.engagement, gaps, viscosity: self.viscosity, planet, side }
+        MeshTeeth {
+            engagement: &self.contact.mesh.engagement,
+            gaps: self.gaps,
+            viscosity: self.viscosity,
+            planet,
+            side,
+        }
     }
 
     /// Where the force of the mesh of side `s` has its first kink, with pairs that others move apart by `moved`.
@@ -69,7 +74,7 @@ impl<'a> InDetail<'a> {
             flank,
             spot: slice.spot,
             place: slice.place,
-            teeth: self.contact.perfect.teeth(at.name(side, flank, slice.pair.number)),
+            teeth: self.contact.perfect.teeth(slice.name),
             s: slice.s,
             cone: slice.cone,
             share: slice.share,

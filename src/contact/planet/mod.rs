@@ -65,13 +65,7 @@ impl PlanetState {
 
     /// Name of the pair `number` of `flank` of side `s`.
     fn name(&self, s: usize, flank: Flank, number: i64) -> PairName {
-        let wrapped = self.wrapped[s];
-        let tooth = if flank == Flank::Drive {
-            number.wrapping_sub(wrapped)
-        } else {
-            number.wrapping_add(wrapped).wrapping_neg()
-        };
-        PairName { planet: self.planet, side: s, flank, tooth }
+        PairName::new((self.planet, s), flank, number, self.wrapped[s])
     }
 }
 

@@ -5,6 +5,7 @@
 use super::couplings::{MOST_PAIRS, place_for};
 use super::{COORDINATES, Change, OpeningByOthers, Share, Sharing};
 use crate::contact::bodies::{PairCouplings, PairPlace};
+use crate::contact::detailed::PairName;
 use crate::contact::impact::Force;
 use crate::contact::mesh::{MeshForce, MeshState};
 use crate::contact::spring::Response;
@@ -58,12 +59,7 @@ impl SharedMeshes<'_> {
     /// Number of the planet's tooth of a pair.
     #[inline(always)]
     fn tooth(&self, side: usize, flank: Flank, number: i64) -> i64 {
-        let wrapped = self.wrapped[side];
-        let tooth = if flank == Flank::Drive {
-            number.wrapping_sub(wrapped)
-        } else {
-            number.wrapping_add(wrapped).wrapping_neg()
-        };
+        let PairName { tooth, .. } = PairName::new((0, side), flank, number, self.wrapped[side]);
         if side == 0 { tooth } else { self.opposite.wrapping_sub(tooth) }
     }
 

@@ -87,7 +87,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         ledger_rates: &mut LedgerRates,
     ) -> [f64; 2] {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.loads(at, |state, to| contact.write(state, to));
+            let loads = self.loads(&contact, at);
             if S::MAY_ACT {
                 self.add_loads_and_friction(&loads, at, sum, ledger_rates)
             } else {
@@ -97,14 +97,27 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Loads of both meshes of each group of planets, as `write` finds them.
+    /// Loads of both meshes of each group of planets.
     #[inline(always)]
-    fn loads<L: MeshLoad>(&self, at: &Point<N>, write: impl Fn(&PlanetState, &mut [L; 2])) -> S::ByGroup<[L; 2]> {
-        let mut loads = S::ByGroup::filled([L::none(); 2]);
+    fn loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Load; 2]> {
+        let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
         for g in 0..self.groups() {
-            match self.twin_under::<L>(at, g) {
+            match self.twin_under::<C::Load>(at, g) {
                 Some(twin) => loads[g] = loads[twin],
-                None => write(&self.planet_state(at, g), &mut loads[g]),
+                None => contact.write(&self.planet_state(at, g), &mut loads[g]),
+            }
+        }
+        loads
+    }
+
+    /// The same with derivatives.
+    #[inline(always)]
+    fn linearised_loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Linearised; 2]> {
+        let mut loads = S::ByGroup::filled([C::Linearised::none(); 2]);
+        for g in 0..self.groups() {
+            match self.twin_under::<C::Linearised>(at, g) {
+                Some(twin) => loads[g] = loads[twin],
+                None => contact.linearise(&self.planet_state(at, g), &mut loads[g]),
             }
         }
         loads
@@ -151,7 +164,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         j: &mut Jacobian<'_, N>,
     ) -> f64 {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.loads(at, |state, to| contact.linearise(state, to));
+            let loads = self.linearised_loads(&contact, at);
             if S::MAY_ACT {
                 self.add_linearised_apart(&loads, at, sum, ledger_rates, j)
             } else {
@@ -198,7 +211,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(super) fn static_contact(&self, at: &Point<N>, sum: &mut [f64; N], by_position: &mut Matrix<N>) {
         let still = &Point { q: at.q, v: [0.0; N] };
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.loads(still, |state, to| contact.linearise(state, to));
+            let loads = self.linearised_loads(&contact, still);
             self.add_loads(&loads, sum, &mut LedgerRates::default());
             self.add_slopes(&loads, [by_position, &mut [[0.0; N]; N]]);
         });
@@ -237,7 +250,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         let still = &Point { q: at.q, v: [0.0; N] };
         let arm = self.teeth.sin_base[1];
         with_contact!(false, self.teeth.contact.without_effects(false), contact => {
-            let loads = self.loads(still, |state, to| contact.linearise(state, to));
+            let loads = self.linearised_loads(&contact, still);
             let force = self.sum(|g| self.members(g) * arm * loads[g][s].force()[Q]);
             [force, self.sum(|g| self.members(g) * arm * arm * loads[g][s].by_position()[Q][Q])]
         })
@@ -273,7 +286,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if !C::Load::PRESSES {
             return None;
         }
-        Some(self.mesh_surface_loads(at, &self.loads(at, |state, to| contact.write(state, to))))
+        Some(self.mesh_surface_loads(at, &self.loads(contact, at)))
     }
 
     /// Elastic energy of all meshes [J].

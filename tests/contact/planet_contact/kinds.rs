@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 
 use bevel_differential::contact::bodies::{MeshOnBodies, PairCouplings, Support};
 use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::detailed::{Detailed, Gaps, Opening, PairName, SliceLoad};
+use bevel_differential::contact::detailed::{Detailed, Opening, PairName, SliceLoad};
 use bevel_differential::contact::errors::{Chip, FaultyGear, ToothErrorSpec, ToothErrors, ToothFaultSpec};
 use bevel_differential::contact::planet::{
     self, AnyContact, LinearisedLoad, MeshLoad, PlanetContact, PlanetState, Pressing, Visit,
