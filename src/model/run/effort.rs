@@ -7,7 +7,9 @@ use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Acted, State};
 use crate::model::effect_kinds::Mode;
-use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout};
+use crate::model::scene::{
+    ATTACHED, CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout,
+};
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
@@ -92,8 +94,9 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
 
 /// Name of the body of degree of freedom `i`, and the unit of its position.
 fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
-    if let Some((_, to)) = layout.attached().find(|&(body, _)| body == i) {
-        return (format!("the {} wheel", SIDES[to]), "rad");
+    let attached = ATTACHED.iter().enumerate().find(|&(k, _)| layout.attached[k] && layout.body(k) == i);
+    if let Some((_, attached)) = attached {
+        return (attached.name.into(), "rad");
     }
     let planets = layout.planet(0)..layout.planet(0) + layout.groups;
     let name = match i {

@@ -29,6 +29,8 @@ pub const PLANET: usize = 3;
 pub struct Attached {
     /// The degree of freedom it turns against.
     pub to: usize,
+    /// Its name in messages.
+    pub name: &'static str,
     /// What it is, in the interface.
     pub what: &'static str,
     /// What its states belong to, by name.
@@ -44,6 +46,7 @@ pub const ENDS: usize = 2;
 pub const ATTACHED: [Attached; ENDS] = [
     Attached {
         to: LEFT,
+        name: "the left wheel",
         what: "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. \
                Its position is the twist, side gear ahead",
         of: "left",
@@ -51,6 +54,7 @@ pub const ATTACHED: [Attached; ENDS] = [
     },
     Attached {
         to: LEFT + 1,
+        name: "the right wheel",
         what: "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. \
                Its position is the twist, side gear ahead",
         of: "right",
