@@ -200,6 +200,19 @@ macro_rules! with_spring {
 }
 pub(crate) use with_spring;
 
+/// Evaluates an expression with `law` bound to the law of teeth in use, or `none`. Gear bodies are elastic only under laws whose compliance
+/// is that of the teeth.
+macro_rules! with_teeth {
+    ($of:expr, $law:ident => $body:expr, $none:expr) => {
+        match $of {
+            $crate::contact::spring::AnySpring::Line($law) => $body,
+            $crate::contact::spring::AnySpring::LineWeber($law) => $body,
+            $crate::contact::spring::AnySpring::Impact(_) => $none,
+        }
+    };
+}
+pub(super) use with_teeth;
+
 /// Whether a law depends on the place of a pair.
 pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
     S::PLACED

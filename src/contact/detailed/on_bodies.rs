@@ -14,19 +14,9 @@ use super::touching::Touching;
 use super::{
     Detailed, DetailedLoad, DetailedState, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER,
 };
-use crate::contact::{AnySpring, Damping, Flank, Spring, ToothPair};
+use crate::contact::spring::with_teeth;
+use crate::contact::{Damping, Flank, Spring, ToothPair};
 use crate::numeric::Dual;
-
-/// Evaluates an expression with `law` bound to the law of teeth in use, or another one: bodies are elastic under no other law.
-macro_rules! with_teeth {
-    ($of:expr, $law:ident => $body:expr, $none:expr) => {
-        match $of {
-            AnySpring::Line($law) => $body,
-            AnySpring::LineWeber($law) => $body,
-            _ => $none,
-        }
-    };
-}
 
 /// Teeth of both meshes of a planet on bodies that they share.
 #[derive(Clone, Copy)]

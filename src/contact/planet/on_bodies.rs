@@ -6,6 +6,7 @@ use crate::contact::AnySpring;
 use crate::contact::bodies::PairCouplings;
 use crate::contact::mesh::{MeshForce, MeshJacobian};
 use crate::contact::shared::{OpeningByOthers, SharedForce, SharedMeshes};
+use crate::contact::spring::with_teeth;
 
 /// A planet on elastic bodies.
 #[derive(Clone, Copy)]
@@ -52,18 +53,11 @@ impl LinearisedLoad for CoupledForce {
     }
 }
 
-/// Evaluates an expression with `spring` bound to the law of teeth in use; bodies are elastic under no other.
-macro_rules! with_teeth {
-    ($of:expr, $spring:ident => $body:expr, $none:expr) => {
-        match &$of.contact.mesh.spring {
-            AnySpring::Line($spring) => $body,
-            AnySpring::LineWeber($spring) => $body,
-            _ => $none,
-        }
-    };
-}
-
 impl OnBodies<'_> {
+    fn spring(&self) -> &AnySpring {
+        &self.contact.mesh.spring
+    }
+
     fn meshes(&self, at: &PlanetState) -> SharedMeshes<'_> {
         let Contact { mesh, perfect, .. } = self.contact;
         SharedMeshes { mesh, bodies: self.bodies, opposite: perfect.opposite(at.planet), wrapped: at.wrapped }
@@ -77,13 +71,14 @@ impl PlanetContact for OnBodies<'_> {
     #[inline(never)]
     fn write(&self, at: &PlanetState, to: &mut [MeshForce; 2]) {
         let states = &[at.mesh(0), at.mesh(1)];
-        *to = with_teeth!(self, spring => self.meshes(at).force(spring, states), Default::default());
+        *to = with_teeth!(self.spring(), spring => self.meshes(at).force(spring, states), Default::default());
     }
 
     #[inline(never)]
     fn linearise(&self, at: &PlanetState, to: &mut [CoupledForce; 2]) {
         let states = &[at.mesh(0), at.mesh(1)];
-        let both = with_teeth!(self, spring => self.meshes(at).linearise(spring, states), SharedForce::default());
+        let both =
+            with_teeth!(self.spring(), spring => self.meshes(at).linearise(spring, states), SharedForce::default());
         for s in 0..2 {
             // the energy of both meshes is theirs together
             let energy = if s == 0 { both.energy } else { 0.0 };
@@ -94,14 +89,17 @@ impl PlanetContact for OnBodies<'_> {
     }
 
     fn energy(&self, at: &PlanetState) -> f64 {
-        with_teeth!(self, spring => self.meshes(at).energy(spring, &[at.mesh(0), at.mesh(1)]), 0.0)
+        with_teeth!(self.spring(), spring => self.meshes(at).energy(spring, &[at.mesh(0), at.mesh(1)]), 0.0)
     }
 
     #[inline(never)]
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64> {
         let states = [at.mesh(0), at.mesh(1)];
-        let openings =
-            with_teeth!(self, spring => self.meshes(at).opening_by_others(spring, &states), OpeningByOthers::default());
+        let openings = with_teeth!(
+            self.spring(),
+            spring => self.meshes(at).opening_by_others(spring, &states),
+            OpeningByOthers::default()
+        );
         let kink =
             |s: usize| self.contact.mesh.kink_of_open(&states[s], h, |flank, number, _| openings.of(s, flank, number));
         first(kink(0), kink(1))
@@ -111,7 +109,7 @@ impl PlanetContact for OnBodies<'_> {
         let states = &[at.mesh(0), at.mesh(1)];
         for s in visit.sides.clone() {
             let mut see = |pair: &_, force: &_| see(&plain::load(self.contact, (at, s), (pair, force), visit), None);
-            with_teeth!(self, spring => self.meshes(at).loaded(spring, states, s, &mut see), ());
+            with_teeth!(self.spring(), spring => self.meshes(at).loaded(spring, states, s, &mut see), ());
         }
     }
 }
