@@ -9,6 +9,13 @@ choices! {
     }
 }
 
+impl ContactLaw {
+    /// True if the law has the stiffness of the teeth, valid at every cone distance. Other laws have one resultant for the whole face.
+    pub const fn is_of_teeth(self) -> bool {
+        matches!(self, Self::Line | Self::LineWeber)
+    }
+}
+
 choices! {
     /// Damping of a tooth pair.
     pub enum DampingModel: "DampingModel" {

@@ -218,13 +218,6 @@ pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
     S::PLACED
 }
 
-impl AnySpring {
-    /// Whether loads are spread over the face, growing with the cone distance.
-    pub fn is_over_face(&self) -> bool {
-        with_spring!(self, law => is_placed(law))
-    }
-}
-
 /// What follows from the place alone, for any law.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyPlace {

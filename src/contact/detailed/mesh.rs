@@ -92,6 +92,11 @@ impl Detailed {
         }
     }
 
+    /// True if the law is valid at every cone distance, so that the load of aligned teeth grows with it.
+    pub fn is_over_face(&self) -> bool {
+        self.rubbed.is_some()
+    }
+
     /// Lets flanks that fit rub at every point of the face `rubbed`, over which the law is valid.
     pub fn rub_over(&mut self, rubbed: Face) {
         self.rubbed = Some(rubbed);

@@ -3,7 +3,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::ContactLaw;
 use crate::contact::bodies::Support;
 use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::{Declare, Effect, Needs, Setting, ToothEffects};
@@ -65,11 +64,13 @@ impl Effect for BodyComplianceSpec {
     }
 
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
-        if setting.contact.law == ContactLaw::Impact {
-            found.push(Problem::new(
+        let law = setting.contact.law;
+        if !law.is_of_teeth() {
+            found.push(problem!(
                 "effects.body_compliance",
-                "does not work with contact.law = impact, whose stiffness is not that of the teeth; it needs \
+                "does not work with contact.law = {}, whose stiffness is not that of the teeth; it needs \
                  contact.law = line or line_weber",
+                law.literal()
             ));
         }
     }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::contact::FlankGaps;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
-use crate::contact::{ContactLaw, FlankGaps};
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{Declare, Effect, InputField, Needs, Setting, ToothEffects};
@@ -59,12 +59,14 @@ impl Effect for ToothFaultSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
         let planets = usize::try_from(setting.geometry.planet_count).unwrap_or(0);
         found.extend(self.check(setting.pair.gears.map(|g| g.teeth), planets).err());
-        if setting.contact.law == ContactLaw::Impact && self.missing_fraction <= 0.5 {
+        let law = setting.contact.law;
+        if !law.is_of_teeth() && self.missing_fraction <= 0.5 {
             found.push(problem!(
                 "tooth_fault.missing_fraction",
-                "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
+                "{}: contact.law = {} acts at the middle of the face alone and sees only a piece of more than \
                  0.5 of it; choose line or line_weber, or a larger piece",
-                self.missing_fraction
+                self.missing_fraction,
+                law.literal()
             ));
         }
     }

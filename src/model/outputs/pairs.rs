@@ -171,7 +171,7 @@ pub fn pair_lines(
         let force = |own: &Option<Gathered>| own.as_ref().map_or(0.0, |own| own.force);
         force(b).total_cmp(&force(a))
     });
-    let grows = mesh.spring.is_over_face();
+    let grows = equations.teeth.contact.detailed.is_over_face();
     let mut count = 0;
     for (line, own) in lines.iter_mut().zip(gathered.iter().flatten()) {
         *line = own.line(contact, grows);

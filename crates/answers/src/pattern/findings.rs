@@ -1,7 +1,6 @@
 //! What a pattern shows, in numbers.
 
 use anyhow::{Context, Result};
-use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::GearContact;
 
 use crate::scene::Scene;
@@ -93,9 +92,7 @@ impl PatternFindings {
 fn teeth(scene: &Scene) -> &'static str {
     match (scene.parameters.scene.gear_contact, scene.parameters.contact.law) {
         (GearContact::Solid, _) => "solid",
-        (_, ContactLaw::Impact) => "impact",
-        (_, ContactLaw::Line) => "line",
-        (_, ContactLaw::LineWeber) => "line_weber",
+        (_, law) => law.literal(),
     }
 }
 

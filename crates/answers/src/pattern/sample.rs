@@ -10,7 +10,6 @@
 use std::collections::HashMap;
 
 use anyhow::{Result, bail};
-use bevel_differential::contact::ContactLaw;
 use bevel_differential::geometry::Pair;
 use bevel_differential::model::{GearContact, Parameters};
 use bevel_differential::variables::{Variable, named};
@@ -67,11 +66,13 @@ impl Engagement {
                 )));
             }
         };
-        if !solid && p.contact.law == ContactLaw::Impact {
+        let law = p.contact.law;
+        if !solid && !law.is_of_teeth() {
             progress.warn([format!(
-                "contact.law: scene {}: impact has one resultant for the whole face, so that the pattern is even over the face \
+                "contact.law: scene {}: {} has one resultant for the whole face, so that the pattern is even over the face \
                  whatever the errors; line and line_weber have a load at each cone distance",
-                scene.name
+                scene.name,
+                law.literal()
             )]);
         }
         let step = coarser * if solid { scene.step } else { step(scene, progress)? };
@@ -171,7 +172,7 @@ impl Engagement {
 
 /// True if the load of an aligned pair grows with the cone distance.
 fn grows(p: &Parameters) -> bool {
-    p.contact.law != ContactLaw::Impact
+    p.contact.law.is_of_teeth()
 }
 
 /// Step of `scene` [s], or a shorter one in which the teeth move by no more than a pitch over `INSTANTS`.
