@@ -11,6 +11,9 @@ use crate::model::scene::{ATTACHED_COUNT, Layout, PLANET, Plan};
 /// Most degrees of freedom, with ends of half-shafts, rounded up to whole vectors of any width.
 pub const MOST: usize = 8;
 
+// planets are one group, without pins
+const _: () = assert!(PLANET + 1 + ATTACHED_COUNT <= MOST);
+
 /// Motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
 

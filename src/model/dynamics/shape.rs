@@ -5,7 +5,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::model::scene::{ENDS, Layout, MAX_GROUPS, PLANET};
+use crate::model::scene::{ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
 /// Degrees of freedom of plain teeth with planets that are alike.
 pub const LEAST: usize = 4;
@@ -15,6 +15,9 @@ pub const DIFFERENT: usize = 5;
 pub const WITH_ENDS: usize = 6;
 /// Degrees of freedom that every scene fits in, a whole number of vectors of any width.
 pub const LARGEST: usize = 16;
+
+// another attached body may need a larger number, which no scene would report
+const _: () = assert!(MAX_DOF <= LARGEST);
 
 /// A value of each group of planets.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {
