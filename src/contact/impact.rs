@@ -53,7 +53,7 @@ impl Impact {
         self.damped_by(&damping, d, rate)
     }
 
-    /// The same with another damping.
+    /// Force with another damping than the law's own.
     #[inline(always)]
     pub fn damped_by(&self, damping: &Damping, d: f64, rate: f64) -> Force {
         // F_el/d

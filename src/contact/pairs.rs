@@ -205,7 +205,7 @@ impl Engagement {
         }
     }
 
-    /// The same pairs, one after the other.
+    /// Iterator over the pairs that [`Self::near`] visits.
     #[inline(always)]
     fn near_pairs(&self, flank: Flank, x: f64, approach: f64, slack: f64) -> NearPairs<'_> {
         // sign = ∂a/∂q = −∂s/∂x

@@ -176,7 +176,7 @@ pub enum AnySpring {
     Impact(ImpactSpring),
     /// Stiffness of the teeth, per unit of ∫R² dR.
     Line(Line),
-    /// The same with the Hertz part by load.
+    /// Stiffness of the teeth with the Hertz part by load.
     LineWeber(LineWeber),
 }
 
@@ -218,7 +218,7 @@ pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
     S::PLACED
 }
 
-/// What follows from the place alone, for any law.
+/// Part of any law that follows from the place on the path.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyPlace {
     /// Nothing.

@@ -52,7 +52,7 @@ struct Pairs<P> {
 /// Called with each pair, the approach of its flanks [rad], and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
-/// What the elastic part of a face carries at an own arc, over J.
+/// Load of the elastic part of a face at an own arc, over J, with its derivatives.
 #[derive(Clone, Copy, Default)]
 struct Carried {
     load: f64,
@@ -63,7 +63,7 @@ struct Carried {
 }
 
 impl Detailed {
-    /// What the elastic part of a pair carries.
+    /// Load of the elastic part of a pair at its own arc `arc` [rad].
     #[inline(always)]
     fn carried<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> Carried {
         if !OPEN {
@@ -85,7 +85,7 @@ impl Detailed {
         Carried { load, by_arc, by_opening, by_place, energy }
     }
 
-    /// The load of it, and its slope by the arc: what iterations ask for.
+    /// Load and its slope by the arc, for the iterations that find own arcs.
     #[inline(never)]
     fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> [f64; 2] {
         let Carried { load, by_arc, .. } = self.carried::<S, OPEN>(spring, near, arc);

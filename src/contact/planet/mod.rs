@@ -227,7 +227,7 @@ impl Contact {
         Some(viscosity.map_or(friction, |viscosity| friction.with_viscosity(viscosity)))
     }
 
-    /// Work of all meshes of `groups` planets in that of a plain mesh, at least 1. A solid flank has so many `facets`.
+    /// Work of all meshes of `groups` planets in that of a plain mesh, at least 1. `facets` is the number of facets of a solid flank.
     pub fn work(&self, facets: usize, groups: usize) -> usize {
         // few facets have many neighbours, many facets are many
         if let Some(solid) = &self.solid {

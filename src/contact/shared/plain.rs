@@ -143,7 +143,7 @@ impl SharedMeshes<'_> {
         });
     }
 
-    /// The same with pairs that carry alone.
+    /// [`Self::share`] without the pairs that carry nothing.
     fn carrying<S: Spring, const SLOPES: bool>(
         &self,
         spring: &S,

@@ -38,7 +38,7 @@ pub struct Share<'a> {
     pub slopes: Option<[&'a [f64; COORDINATES]; 2]>,
 }
 
-/// How the approach A_k of a pair changes with the coordinates, and what else of it does.
+/// Derivatives of the approach A_k of a pair by the coordinates, and its other changes.
 pub type Changes = ([f64; COORDINATES], Change);
 
 impl Sharing<'_> {

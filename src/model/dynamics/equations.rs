@@ -134,7 +134,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         S::MAY_ACT && self.acting.driven
     }
 
-    /// The same equations in the shape of any scene.
+    /// These equations in the shape that fits any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
         let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
         Largest { teeth, acting, is_tooth_broken, offset, wrapped, shape: PhantomData }

@@ -71,7 +71,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// The same for loads `L`: teeth of two planets that are summed in detail may differ.
+    /// Twin of group `g` under loads `L`; none in detail, where teeth of two planets may differ.
     #[inline(always)]
     fn twin_under<L: MeshLoad>(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if L::PRESSES { None } else { self.twin(at, g) }
@@ -110,7 +110,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads
     }
 
-    /// The same with derivatives.
+    /// Loads of both meshes of each group of planets, with their derivatives.
     #[inline(always)]
     fn linearised_loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Linearised; 2]> {
         let mut loads = S::ByGroup::filled([C::Linearised::none(); 2]);
@@ -154,7 +154,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// The same with the derivatives of all forces; returns the elastic energy of all meshes [J].
+    /// Adds the forces of all meshes and the dry friction under them, both with their derivatives; sets their heat. Returns the elastic
+    /// energy of all meshes [J].
     #[inline]
     pub(super) fn linearise_contact(
         &self,

@@ -21,7 +21,7 @@ const _: () = assert!(MAX_DOF <= LARGEST);
 
 /// A value of each group of planets.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {
-    /// The same value for all groups.
+    /// `value` for each group.
     fn filled(value: T) -> Self;
 }
 

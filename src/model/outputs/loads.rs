@@ -15,8 +15,8 @@ impl Largest<'_> {
         self.visit_loads(at, g, &Visit { sides: s..s + 1, directions: Some(pair) }, &mut |load, _| visit(load));
     }
 
-    /// The same without directions, with the load per width [N/m] of the pair at any cone distance [m] where it differs over
-    /// the face.
+    /// Visits every loaded tooth pair without directions, with its load per width [N/m] at any cone distance [m] where this differs
+    /// over the face.
     pub fn loads_over_the_face(
         &self,
         at: &Point<LARGEST>,

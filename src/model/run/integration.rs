@@ -90,7 +90,7 @@ pub fn integrate_teeth(
     }
 }
 
-/// What to integrate with which equations.
+/// Constants, state, stretch of time and budget of an integration.
 type Arguments<'a, 'b> = (&'a Teeth, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
 
 /// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each shape.
@@ -126,7 +126,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         expected: clock.expected,
         ..Course::new(state.point(), clock.time, clock.end)
     };
-    // the step that leads beyond the present goes on
+    // resume the step that leads beyond the present
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut course);
         course.end_at(clock.end);
