@@ -229,7 +229,7 @@ impl Engagement {
     }
 }
 
-/// Tooth pairs that may touch. An iterator, so that whoever sums over them is compiled into the loop.
+/// Tooth pairs that may touch. As an iterator they let the compiler put a sum over them into the loop.
 struct NearPairs<'a> {
     engagement: &'a Engagement,
     flank: Flank,

@@ -65,7 +65,7 @@ impl Resultant {
 pub trait Spring {
     /// Whether the torque is proportional to the penetration, or zero.
     const LINEAR: bool = false;
-    /// Whether the law depends on the place on the path.
+    /// True if the law depends on the place on the path.
     const PLACED: bool = true;
 
     /// What of it follows from the place alone: the same at every cone distance.
@@ -213,7 +213,7 @@ macro_rules! with_teeth {
 }
 pub(super) use with_teeth;
 
-/// Whether a law depends on the place of a pair.
+/// True if a law depends on the place of a pair.
 pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
     S::PLACED
 }
@@ -223,9 +223,9 @@ pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
 pub enum AnyPlace {
     /// Nothing.
     Anywhere,
-    /// What [`Line`] has there.
+    /// Place of [`Line`].
     Line(<Line as Spring>::Place),
-    /// What [`LineWeber`] has there.
+    /// Place of [`LineWeber`].
     LineWeber(<LineWeber as Spring>::Place),
 }
 

@@ -112,7 +112,7 @@ impl Face {
         }
     }
 
-    /// Whether any of it carries at the approach `arc` [rad].
+    /// True if a part of the face carries at the approach `arc` [rad].
     #[inline(always)]
     pub fn is_loaded(&self, arc: f64, opening: &Opening) -> bool {
         let (a, even) = (arc - opening.turn, opening.even.v);

@@ -4,7 +4,7 @@
 //! from the elastic torque over the face, ω = M/J.
 
 use super::super::bodies::{PairCouplings, PairPlace};
-use super::super::shared::{COORDINATES, Change, MOST_PAIRS, OpeningByOthers, Share, Sharing, place_for};
+use super::super::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use super::directions::Arcs;
 use super::face::{Cut, Part};
 use super::loads::Look;
@@ -39,14 +39,6 @@ struct Near<P> {
     arcs: Arcs,
     pair_place: PairPlace,
     place: P,
-}
-
-/// All of them.
-struct Pairs<P> {
-    near: [Option<Near<P>>; MOST_PAIRS],
-    /// Approaches of their flanks [rad].
-    arc: [f64; MOST_PAIRS],
-    count: usize,
 }
 
 /// Called with each pair, the approach of its flanks [rad], and its share of the load.
@@ -100,7 +92,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        Pairs { near, arc, count }: &mut Pairs<S::Place>,
+        pairs: &mut Pairs<Near<S::Place>>,
     ) {
         // excess material presses before flanks that fit do
         let excess = [0, 1].map(|side| {
@@ -127,13 +119,12 @@ impl Detailed {
                 if is_clear {
                     return;
                 }
-                if let Some(to) = place_for(pair.depth, count, |k| arc[k]) {
+                pairs.add(pair.depth, || {
                     let tooth = if side == 0 { name.tooth } else { shared.opposite.wrapping_sub(name.tooth) };
                     let pair_place = PairPlace { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
                     let place = spring.place(pair.s);
-                    near[to] = Some(Near { name: *name, pair: *pair, opening, axial, arcs, pair_place, place });
-                    arc[to] = pair.depth;
-                }
+                    Near { name: *name, pair: *pair, opening, axial, arcs, pair_place, place }
+                });
             });
         }
     }
@@ -147,10 +138,9 @@ impl Detailed {
         lookout: f64,
         see: &mut See<S::Place>,
     ) {
-        let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
+        let mut pairs = Pairs::none();
         self.gather::<S, OPEN>(spring, shared, states, lookout, &mut pairs);
-        let Pairs { near, arc, count } = &pairs;
-        let near_of = |k: usize| near.get(k).and_then(Option::as_ref);
+        let near_of = |k: usize| pairs.get(k);
         // flanks that excess material presses carry at arcs below 0, so that every arc is asked
         let law = |k: usize, arc: f64| near_of(k).map_or([0.0; 2], |near| self.load_of::<S, OPEN>(spring, near, arc));
         let changes = |k: usize, own: f64| {
@@ -166,11 +156,11 @@ impl Detailed {
             (by, change)
         };
         let place = |k: usize| near_of(k).map(|near| &near.pair_place);
-        let arcs = &arc[..*count];
+        let arcs = pairs.arcs();
         let sharing = Sharing { bodies: shared.bodies, arcs, place: &place, law: &law, is_linear: S::LINEAR && !OPEN };
         sharing.solve(if SLOPES { Some(&changes) } else { None }, &mut |k, share| {
             if let Some(near) = near_of(k) {
-                see(near, arc[k], share);
+                see(near, pairs.arcs()[k], share);
             }
         });
     }
@@ -217,7 +207,7 @@ impl Detailed {
         totals.map(|totals| totals.load())
     }
 
-    /// The same with their exact derivatives by q, x, w and their rates of the own mesh, and by q, x, w of the other.
+    /// Loads of both meshes with their exact derivatives: by q, x, w and their rates of the own mesh, and by q, x, w of the other.
     pub fn linearise_shared(
         &self,
         shared: &SharedTeeth,

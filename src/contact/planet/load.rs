@@ -41,7 +41,7 @@ impl PressingSlopes {
 
 /// Load of a mesh.
 pub trait MeshLoad: Copy {
-    /// Whether the kind of contact knows the loads under which gears rub.
+    /// True if the kind of contact gives the loads under which gears rub.
     const PRESSES: bool;
     /// No load.
     fn none() -> Self;
@@ -57,7 +57,7 @@ pub trait MeshLoad: Copy {
 
 /// Load of a mesh with its derivatives.
 pub trait LinearisedLoad: MeshLoad {
-    /// Whether a mesh depends on the coordinates of the planet's other mesh.
+    /// True if a mesh depends on the coordinates of the planet's other mesh.
     const COUPLED: bool;
     /// Elastic energy [J].
     fn energy(&self) -> f64;
@@ -140,7 +140,7 @@ impl LinearisedLoad for LinearisedForce {
 
 /// Numbers with derivatives by the variables of one mesh, or by those of both.
 pub trait Slopes: Scalar {
-    /// Whether they have derivatives by the coordinates of the planet's other mesh.
+    /// True for numbers with derivatives by the coordinates of the planet's other mesh.
     const COUPLED: bool;
     /// All derivatives.
     fn slopes(&self) -> [f64; WITH_OTHER];

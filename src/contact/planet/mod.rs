@@ -170,7 +170,7 @@ pub struct Contact {
     pub gaps: [Option<Arc<FlankGaps>>; 2],
     /// Teeth without errors, which give each tooth its number.
     pub perfect: FlankGaps,
-    /// Whether an effect needs sums over the face even while no tooth is broken.
+    /// True if an effect needs sums over the face even while no tooth is broken.
     pub in_detail: bool,
 }
 
@@ -181,7 +181,7 @@ const LEAST_SOLID: usize = 40;
 const ON_BODIES: usize = 16;
 
 impl Contact {
-    /// Contact as it is now: with the viscosity `viscosity` of the oil [Pa·s], where friction follows it.
+    /// Present contact. `viscosity` is the viscosity of the oil [Pa·s], if friction follows it.
     #[inline]
     pub fn now(&self, is_tooth_broken: bool, viscosity: Option<f64>, is_part_of_steps: bool) -> AnyContact<'_> {
         let contact = self;

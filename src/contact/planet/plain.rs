@@ -17,7 +17,7 @@ use crate::numeric::{cos, sin, sqrt};
 pub struct Plain<'a> {
     /// Constants.
     pub contact: &'a Contact,
-    /// Whether forces are compiled as part of the steps, and not as one function for all others.
+    /// True if forces are compiled as part of the steps; otherwise one function serves all callers.
     pub is_part_of_steps: bool,
 }
 

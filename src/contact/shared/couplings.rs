@@ -6,16 +6,47 @@ use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
 /// mesh of a dozen teeth and up to eighteen of two hundred; at a tenth of it, six. Of more than these the deepest count.
 pub const MOST_PAIRS: usize = 16;
 
-/// Where a pair goes that is `depth` deep among `count` others: next to them, or where there is no room in place of the shallowest,
-/// if that is not as deep.
-#[inline(always)]
-pub fn place_for(depth: f64, count: &mut usize, depth_of: impl Fn(usize) -> f64) -> Option<usize> {
-    if *count < MOST_PAIRS {
-        *count += 1;
-        return Some(*count - 1);
+/// Room for the pairs of a planet's two meshes, each with the approach of its flanks. It is large, and filled where it stays.
+pub struct Pairs<T> {
+    pairs: [Option<T>; MOST_PAIRS],
+    arc: [f64; MOST_PAIRS],
+    count: usize,
+}
+
+impl<T> Pairs<T> {
+    /// No pairs.
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { pairs: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 }
     }
-    let shallowest = (0..MOST_PAIRS).min_by(|&k, &l| depth_of(k).total_cmp(&depth_of(l)))?;
-    (depth_of(shallowest) < depth).then_some(shallowest)
+
+    /// Adds a pair whose flanks approach by `arc` [rad]: next to the others, or where there is no room in place of the shallowest, if
+    /// that is not as deep.
+    #[inline(always)]
+    pub fn add(&mut self, arc: f64, pair: impl FnOnce() -> T) {
+        let mut place = self.count;
+        if self.count < MOST_PAIRS {
+            self.count += 1;
+        } else {
+            let shallowest = (0..MOST_PAIRS).min_by(|&k, &l| self.arc[k].total_cmp(&self.arc[l]));
+            place = shallowest.filter(|&k| self.arc[k] < arc).unwrap_or(MOST_PAIRS);
+        }
+        if let (Some(to), Some(depth)) = (self.pairs.get_mut(place), self.arc.get_mut(place)) {
+            (*to, *depth) = (Some(pair()), arc);
+        }
+    }
+
+    /// Pair `k`.
+    #[inline(always)]
+    pub fn get(&self, k: usize) -> Option<&T> {
+        self.pairs.get(k).and_then(Option::as_ref)
+    }
+
+    /// Approaches of the flanks of all pairs [rad].
+    #[inline(always)]
+    pub fn arcs(&self) -> &[f64] {
+        &self.arc[..self.count]
+    }
 }
 
 /// Couplings t_kl of up to `K` pairs, with their derivatives by the places.

@@ -2,8 +2,7 @@
 //!
 //! One point has the load of a face whose flanks fit, and the side gears stay on their axes.
 
-use super::couplings::{MOST_PAIRS, place_for};
-use super::{COORDINATES, Change, OpeningByOthers, Share, Sharing};
+use super::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use crate::contact::bodies::{PairCouplings, PairPlace};
 use crate::contact::detailed::PairName;
 use crate::contact::impact::Force;
@@ -44,14 +43,6 @@ struct Near<P> {
     place: P,
 }
 
-/// All of them.
-struct Pairs<P> {
-    near: [Option<Near<P>>; MOST_PAIRS],
-    /// Approaches of their flanks [rad].
-    arc: [f64; MOST_PAIRS],
-    count: usize,
-}
-
 /// Called with each pair, the approach of its flanks [rad], and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
@@ -66,13 +57,7 @@ impl SharedMeshes<'_> {
     /// Gathers the pairs that are pressed, that others may pull together, or that are within `lookout` of the deepest approach of
     /// flanks.
     #[inline(always)]
-    fn gather<S: Spring>(
-        &self,
-        spring: &S,
-        states: &[MeshState; 2],
-        lookout: f64,
-        Pairs { near, arc, count }: &mut Pairs<S::Place>,
-    ) {
+    fn gather<S: Spring>(&self, spring: &S, states: &[MeshState; 2], lookout: f64, pairs: &mut Pairs<Near<S::Place>>) {
         let half = self.mesh.half_backlash();
         // approaches of drive and coast flanks, left and right
         let depth = states.each_ref().map(|state| [-state.position[0] - half, state.position[0] - half]);
@@ -88,12 +73,11 @@ impl SharedMeshes<'_> {
                     if pair.depth + margin <= 0.0 {
                         return;
                     }
-                    if let Some(place) = place_for(pair.depth, count, |k| arc[k]) {
+                    pairs.add(pair.depth, || {
                         let tooth = self.tooth(side, flank, pair.number);
                         let pair_place = PairPlace { side, flank, number: pair.number, tooth, s: pair.s };
-                        near[place] = Some(Near { pair: *pair, pair_place, place: spring.place(pair.s) });
-                        arc[place] = pair.depth;
-                    }
+                        Near { pair: *pair, pair_place, place: spring.place(pair.s) }
+                    });
                 });
             }
         }
@@ -114,10 +98,9 @@ impl SharedMeshes<'_> {
         lookout: f64,
         see: &mut See<S::Place>,
     ) {
-        let mut pairs = Pairs { near: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 };
+        let mut pairs = Pairs::none();
         self.gather(spring, states, lookout, &mut pairs);
-        let Pairs { near, arc, count } = &pairs;
-        let near_of = |k: usize| near.get(k).and_then(Option::as_ref);
+        let near_of = |k: usize| pairs.get(k);
         let load = |k: usize, arc: f64| {
             let (Some(near), false) = (near_of(k), arc <= 0.0) else { return [0.0; 2] };
             let elastic = spring.respond(&near.place, arc);
@@ -135,10 +118,10 @@ impl SharedMeshes<'_> {
         };
         let place = |k: usize| near_of(k).map(|near| &near.pair_place);
         let sharing =
-            Sharing { bodies: self.bodies, arcs: &arc[..*count], place: &place, law: &load, is_linear: S::LINEAR };
+            Sharing { bodies: self.bodies, arcs: pairs.arcs(), place: &place, law: &load, is_linear: S::LINEAR };
         sharing.solve(if SLOPES { Some(&changes) } else { None }, &mut |k, share| {
             if let Some(near) = near_of(k) {
-                see(near, arc[k], share);
+                see(near, pairs.arcs()[k], share);
             }
         });
     }

@@ -22,7 +22,7 @@ pub struct Sharing<'a> {
     pub place: &'a dyn Fn(usize) -> Option<&'a PairPlace>,
     /// Load ω of a pair at its own arc a [N/m²], and ∂ω/∂a.
     pub law: &'a dyn Fn(usize, f64) -> [f64; 2],
-    /// Whether ω is proportional to a, where a is positive.
+    /// True if ω is proportional to a where a is positive.
     pub is_linear: bool,
 }
 

@@ -17,19 +17,19 @@ use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::{lanes, sqrt};
 
 impl Teeth {
-    /// Whether the meshes are summed in detail in `state`: where an effect needs it, and once a tooth is broken.
+    /// True if the meshes are summed in detail in `state`: an effect needs it, or a tooth is broken.
     pub fn are_in_detail(&self, state: &State) -> bool {
         self.contact.in_detail || state.is_tooth_broken
     }
 
-    /// Whether teeth carry a load mesh by mesh: no pairs move each other, and no slices of the face carry by themselves.
+    /// True if each mesh carries its load independently: no pairs move each other, and nothing is summed over the face.
     pub fn carry_mesh_by_mesh(&self, state: &State) -> bool {
         !self.are_in_detail(state) && self.contact.bodies.is_none() && !self.layout.has_pins
     }
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// Contact as it is now.
+    /// Present contact.
     #[inline]
     pub(super) fn contact(&self) -> AnyContact<'_> {
         if S::MAY_ACT {
@@ -45,18 +45,18 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.teeth.contact.gaps(self.is_tooth_broken)
     }
 
-    /// Whether flanks may not fit, or bodies give way.
+    /// True if flanks may not fit, or if bodies give way.
     pub(in crate::model) fn is_open_or_elastic(&self) -> bool {
         self.gaps().is_some() || self.teeth.contact.bodies.is_some()
     }
 
-    /// Friction along the flanks, with the viscosity of the oil as it is now.
+    /// Friction along the flanks at the present viscosity of the oil.
     pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
         self.teeth.contact.friction(self.acting.oil_viscosity.map(|oil| oil.dynamic))
     }
 
-    /// A group before `g` whose meshes are in the same state to the last bit: what its teeth do, those of `g` do too. Planets that are
-    /// simulated one by one move together until something tells them apart, such as a tooth that breaks.
+    /// A group before `g` whose meshes are in the same state to the last bit, so that its loads are those of `g`. Planets that are
+    /// simulated one by one move together until an event such as a broken tooth makes one of them differ.
     #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if self.groups() == 1 || self.teeth.contact.solid.is_some() {
@@ -87,7 +87,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         ledger_rates: &mut LedgerRates,
     ) -> [f64; 2] {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.loads(&contact, at);
+            let loads = self.loads(at, |state, to| contact.write(state, to));
             if S::MAY_ACT {
                 self.add_loads_and_friction(&loads, at, sum, ledger_rates)
             } else {
@@ -97,27 +97,14 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Loads of both meshes of each group of planets.
+    /// Loads of both meshes of each group of planets, as `write` finds them.
     #[inline(always)]
-    fn loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Load; 2]> {
-        let mut loads = S::ByGroup::filled([C::Load::none(); 2]);
+    fn loads<L: MeshLoad>(&self, at: &Point<N>, write: impl Fn(&PlanetState, &mut [L; 2])) -> S::ByGroup<[L; 2]> {
+        let mut loads = S::ByGroup::filled([L::none(); 2]);
         for g in 0..self.groups() {
-            match self.twin_under::<C::Load>(at, g) {
+            match self.twin_under::<L>(at, g) {
                 Some(twin) => loads[g] = loads[twin],
-                None => contact.write(&self.planet_state(at, g), &mut loads[g]),
-            }
-        }
-        loads
-    }
-
-    /// Loads of both meshes of each group of planets, with their derivatives.
-    #[inline(always)]
-    fn linearised_loads<C: PlanetContact>(&self, contact: &C, at: &Point<N>) -> S::ByGroup<[C::Linearised; 2]> {
-        let mut loads = S::ByGroup::filled([C::Linearised::none(); 2]);
-        for g in 0..self.groups() {
-            match self.twin_under::<C::Linearised>(at, g) {
-                Some(twin) => loads[g] = loads[twin],
-                None => contact.linearise(&self.planet_state(at, g), &mut loads[g]),
+                None => write(&self.planet_state(at, g), &mut loads[g]),
             }
         }
         loads
@@ -165,7 +152,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         j: &mut Jacobian<'_, N>,
     ) -> f64 {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.linearised_loads(&contact, at);
+            let loads = self.loads(at, |state, to| contact.linearise(state, to));
             if S::MAY_ACT {
                 self.add_linearised_apart(&loads, at, sum, ledger_rates, j)
             } else {
@@ -197,7 +184,11 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         j: &mut Jacobian<'_, N>,
     ) -> f64 {
         self.add_loads(loads, sum, ledger_rates);
-        self.add_slopes(loads, [j.by_position, j.by_rate]);
+        self.add_block::<false>(|g, s| loads[g][s].by_position(), j.by_position);
+        self.add_block::<false>(|g, s| loads[g][s].by_rate(), j.by_rate);
+        if L::COUPLED {
+            self.add_block::<true>(|g, s| loads[g][s].by_other(), j.by_position);
+        }
         let surfaces = (L::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, loads));
         self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
         if let Some(surfaces) = &surfaces {
@@ -212,38 +203,11 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(super) fn static_contact(&self, at: &Point<N>, sum: &mut [f64; N], by_position: &mut Matrix<N>) {
         let still = &Point { q: at.q, v: [0.0; N] };
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let loads = self.linearised_loads(&contact, still);
+            let loads = self.loads(still, |state, to| contact.linearise(state, to));
             self.add_loads(&loads, sum, &mut LedgerRates::default());
-            self.add_slopes(&loads, [by_position, &mut [[0.0; N]; N]]);
-        });
-    }
-
-    /// Adds the derivatives of the forces of `loads` by positions and rates.
-    #[inline(always)]
-    fn add_slopes<L: LinearisedLoad>(&self, loads: &S::ByGroup<[L; 2]>, [by_position, by_rate]: [&mut Matrix<N>; 2]) {
-        if S::MAY_ACT {
-            return self.add_slopes_apart(loads, [by_position, by_rate]);
-        }
-        self.add_slopes_here(loads, [by_position, by_rate]);
-    }
-
-    /// [`Self::add_slopes_here`], compiled once for each type of load.
-    #[inline(never)]
-    fn add_slopes_apart<L: LinearisedLoad>(&self, loads: &S::ByGroup<[L; 2]>, by: [&mut Matrix<N>; 2]) {
-        self.add_slopes_here(loads, by);
-    }
-
-    #[inline(always)]
-    fn add_slopes_here<L: LinearisedLoad>(
-        &self,
-        loads: &S::ByGroup<[L; 2]>,
-        [by_position, by_rate]: [&mut Matrix<N>; 2],
-    ) {
-        self.add_block::<false>(|g, s| loads[g][s].by_position(), by_position);
-        self.add_block::<false>(|g, s| loads[g][s].by_rate(), by_rate);
-        if L::COUPLED {
+            self.add_block::<false>(|g, s| loads[g][s].by_position(), by_position);
             self.add_block::<true>(|g, s| loads[g][s].by_other(), by_position);
-        }
+        });
     }
 
     /// Torque that teeth on which no effect acts put on the gear of side `s` at rest, and its derivative by the gear's angle.
@@ -251,7 +215,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         let still = &Point { q: at.q, v: [0.0; N] };
         let arm = self.teeth.sin_base[1];
         with_contact!(false, self.teeth.contact.without_effects(false), contact => {
-            let loads = self.linearised_loads(&contact, still);
+            let loads = self.loads(still, |state, to| contact.linearise(state, to));
             let force = self.sum(|g| self.members(g) * arm * loads[g][s].force()[Q]);
             [force, self.sum(|g| self.members(g) * arm * arm * loads[g][s].by_position()[Q][Q])]
         })
@@ -287,7 +251,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if !C::Load::PRESSES {
             return None;
         }
-        Some(self.mesh_surface_loads(at, &self.loads(contact, at)))
+        Some(self.mesh_surface_loads(at, &self.loads(at, |state, to| contact.write(state, to))))
     }
 
     /// Elastic energy of all meshes [J].
@@ -347,8 +311,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Calls `see` with each loaded tooth pair of the planets of group `g`, or with each loaded slice of it. Compiled once, for whoever
-    /// looks.
+    /// Calls `see` with each loaded tooth pair of the planets of group `g`, or with each loaded slice of it. Compiled once for
+    /// all callers.
     #[inline(never)]
     pub fn visit_loads(&self, at: &Point<N>, g: usize, visit: &Visit, see: &mut Visitor) {
         let state = &self.planet_state(at, g);
@@ -361,7 +325,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         with_contact!(S::MAY_ACT, self.contact(), contact => contact.face_load_factor(state, slice, pair))
     }
 
-    /// Whether loads differ over the face, and are summed over it.
+    /// True if loads differ over the face and are summed over it.
     pub(in crate::model) fn is_sliced(&self) -> bool {
         S::MAY_ACT
             && (self.teeth.contact.in_detail || self.is_tooth_broken)

@@ -36,13 +36,13 @@ impl<T: Copy, const G: usize> ByGroup<T> for [T; G] {
 pub trait Shape<const N: usize>: Copy {
     /// Values of the groups of planets.
     type ByGroup<T: Copy>: ByGroup<T>;
-    /// Whether effects may act.
+    /// True if effects may act.
     const MAY_ACT: bool;
-    /// Whether the steps are compiled for just this shape, so that meshes are compiled as part of them.
+    /// True if the steps are compiled for this shape, with the meshes as a part of them.
     const HAS_OWN_STEPS: bool;
-    /// Whether steps of fixed size are compiled.
+    /// True if steps of fixed size are compiled.
     const HAS_FIXED_STEPS: bool;
-    /// Whether the method `radau` is compiled.
+    /// True if the method `radau` is compiled.
     const HAS_RADAU: bool;
 
     /// Degrees of freedom.
@@ -51,13 +51,13 @@ pub trait Shape<const N: usize>: Copy {
     fn groups(layout: &Layout) -> usize;
     /// Index of the planets of group `g`.
     fn planet(layout: &Layout, g: usize) -> usize;
-    /// Whether pins and axial seats move.
+    /// True if pins and axial seats move.
     fn has_pins(layout: &Layout) -> bool;
-    /// Whether half-shafts have ends.
+    /// True if half-shafts have ends.
     fn has_ends(layout: &Layout) -> bool;
     /// Index of the end of the half-shaft of side `s`.
     fn end(layout: &Layout, s: usize) -> usize;
-    /// Whether any body is attached.
+    /// True if a body is attached.
     fn is_attached(layout: &Layout) -> bool;
     /// Sets the rates of the twists of attached bodies from the velocities `v`.
     fn set_twist_rates(layout: &Layout, v: &[f64; N], rates: &mut [f64; N]);
