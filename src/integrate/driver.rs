@@ -1,45 +1,11 @@
-//! Adaptive stepping to a given time: error control, step-size prediction, statistics by cause.
-//!
-//! The step size follows Gustafsson's predictive controller (Hairer & Wanner, section IV.8). A step cut short by the end
-//! of the interval does not shrink the prediction.
+//! Adaptive stepping to a given time: error control and statistics by cause. A step cut short by the end of the interval does not shrink
+//! the prediction of its size.
 
-use serde::{Deserialize, Serialize};
-
+use super::control::{Control, SAFETY};
 use super::{
     Attempt, Course, ErrorNorm, Extension, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder,
     Statistics, Trial,
 };
-use crate::numeric::{Finite, finite};
-
-/// State of the step-size controller between calls.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Control {
-    /// Predicted size of the next step [s].
-    pub next: f64,
-    /// Size of the last accepted step [s]; 0 before the first.
-    pub last: f64,
-    /// Error of the last accepted step, as a fraction of the tolerance.
-    pub last_error: f64,
-    /// Whether the last accepted step ended on a kink.
-    pub on_kink: bool,
-    /// Size of step [s] that was right after the last kink: motion after a kink is faster than before.
-    pub after_kink: f64,
-}
-
-finite!(Control { next, last, last_error; on_kink, after_kink });
-
-impl Control {
-    /// A controller whose first step is tried with `first` [s].
-    pub fn new(first: f64) -> Self {
-        Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX }
-    }
-
-    /// True if all numbers are finite and no step size is negative; those of steps to come are positive. The size after a kink may be
-    /// without bound.
-    pub fn is_valid(&self) -> bool {
-        self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
-    }
-}
 
 /// A completed step, as passed to the observer.
 pub struct Step<'a, const N: usize, P> {
@@ -80,28 +46,21 @@ pub enum Failure<E> {
     Refused(E),
 }
 
-const SAFETY: f64 = 0.9;
 /// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
 const LONGEST_FIT: f64 = 1.1;
 /// Steps before the end of an interval that are made equal.
 const LAST_STEPS: f64 = 3.0;
-const LARGEST_GROWTH: f64 = 6.0;
-/// Growth of the step that is tried after kinks, from one kink to the next.
-const AFTER_KINK_GROWTH: f64 = 4.0;
 /// Number of attempts to find a switch by a straight line through the distances at both ends of a step. The line does not find
 /// the switch if the distance jumps, as it does for a held body whose speed reverses. Further attempts bisect the step.
 const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
-const LARGEST_SHRINK: f64 = 5.0;
+pub(super) const LARGEST_SHRINK: f64 = 5.0;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
 /// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
 /// Number of consecutive attempts whose ledger does not close after which the step is taken at the size of the first of them: an
 /// imbalance that remains does not depend on the size.
 const UNBALANCED: u32 = 8;
-/// Least error remembered: a smaller one would make the predictive controller too cautious.
-const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
-
 /// Tolerance, step-size control, counters and work budget of an integration.
 pub struct SolverContext<'a> {
     /// Relative tolerance of the local error.
@@ -150,6 +109,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let resolution = course.resolution;
     let ends = until + resolution >= course.end;
     let mut after_rejection = false;
+    // whether an attempt from here was rejected, so that its size decides on the next one
+    let mut retries = false;
     // consecutive attempts whose ledger did not close, and the size of the first of them
     let (mut unbalanced, mut whole) = (0, 0.0);
     let (mut in_a_row, mut cuts) = (0, 0);
@@ -202,18 +163,18 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 unbalanced = pending.attempt.unbalanced + 1;
                 // the error of the whole step allows a longer one after it
-                after_rejection = unbalanced < UNBALANCED;
+                (after_rejection, retries) = (unbalanced < UNBALANCED, true);
                 whole = if unbalanced == 1 { h } else { pending.attempt.whole };
                 statistics.rejected_ledger += 1;
-                control.next = if unbalanced < UNBALANCED {
+                control.reject(if unbalanced < UNBALANCED {
                     h / (method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
                 } else {
                     whole
-                };
+                });
                 (course.pending, begin) = (None, None);
                 continue;
             }
-            (unbalanced, after_rejection) = (0, false);
+            (unbalanced, after_rejection, retries) = (0, false, false);
             control.accept(method, size, cut, error, pending.attempt.after_rejection);
             control.on_kink = to_kink && pending.part == 1.0;
             statistics.accepted += 1;
@@ -233,7 +194,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
             linearise(system, (point, course.time), &mut lin, counts)
         });
-        let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
+        let wanted = control.wanted(retries);
         let remaining = course.remaining();
         let (mut h, mut cut) = fit(wanted.min(course.longest).max(resolution), remaining);
         let mut to_kink = false;
@@ -267,9 +228,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 continue;
             }
         }
-        after_rejection = true;
+        (after_rejection, retries) = (true, true);
         switch_at = f64::INFINITY;
-        control.next = h / if error.is_finite() {
+        let shrink = if error.is_finite() {
             statistics.rejected_error += 1;
             in_a_row += 1;
             let least = (0..in_a_row).fold(1.0, |least, _| LEAST_SHRINK * least).min(LARGEST_SHRINK);
@@ -278,6 +239,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             statistics.rejected_invalid += 1;
             LARGEST_SHRINK
         };
+        control.reject(h / shrink);
         if control.next <= resolution {
             return Err(Failure::StepTooSmall { size: control.next });
         }
@@ -325,26 +287,4 @@ fn linearise<const N: usize, S: SecondOrder<N> + ?Sized>(
         statistics.jacobians += 1;
     }
     system.linearise_with_energy(point, time, lin)
-}
-
-impl Control {
-    /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
-    #[inline(never)]
-    fn accept(&mut self, method: &impl Method, h: f64, cut: bool, error: f64, just_rejected: bool) {
-        let mut factor = method.root(error) / SAFETY;
-        if self.last > 0.0 && !self.on_kink && !just_rejected {
-            let predictive = (self.last / h) * method.root(error * error / self.last_error) / SAFETY;
-            factor = factor.max(predictive);
-        }
-        let mut next = h / factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);
-        if just_rejected {
-            next = next.min(h);
-        }
-        if self.on_kink {
-            self.after_kink = if cut { next.max(self.after_kink) } else { h.max(next.min(h * AFTER_KINK_GROWTH)) };
-        }
-        self.next = if cut { next.max(self.next) } else { next };
-        self.last = h;
-        self.last_error = error.max(LEAST_REMEMBERED_ERROR);
-    }
 }

@@ -162,7 +162,7 @@ fn combine_in_parts<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f6
 
 /// x^(1/5) to a per mille.
 #[inline(never)]
-fn fifth_root(x: f64) -> f64 {
+pub(super) fn fifth_root(x: f64) -> f64 {
     // a fifth of the exponent is near; Newton's method on y⁵ = x does the rest
     const BIAS: u64 = 1023 << 52;
     let x = x.clamp(1e-30, 1e30);

@@ -5,6 +5,7 @@
 
 mod block;
 mod complex;
+mod control;
 mod course;
 mod curve;
 mod driver;
@@ -16,9 +17,10 @@ mod rodas5p;
 mod statistics;
 mod system;
 
+pub use control::Control;
 pub use course::{Attempt, Course, Extension, Pending, extended};
 pub use curve::Curve;
-pub use driver::{AfterStep, Control, Failure, SolverContext, Step, advance, proceed};
+pub use driver::{AfterStep, Failure, SolverContext, Step, advance, proceed};
 pub use fixed::advance_fixed;
 pub use method::{ErrorNorm, Method, Trial};
 pub use radau::Radau;

@@ -43,6 +43,21 @@ pub fn imposed_speeds<'a>(
     ends.chain(carrier).chain(planets)
 }
 
+/// Jump of the accelerations where inputs change from `before` to `inputs` [rad/s²]; `None` if more than torques change.
+pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
+    let torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..*before };
+    if torques != *inputs {
+        return None;
+    }
+    let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
+    let of_side = |s: usize| {
+        let wheel = if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
+        (inputs.load_torque[s] - before.load_torque[s]).abs() / wheel
+    };
+    let of_carrier = (inputs.carrier_torque - before.carrier_torque).abs() / inertia.carrier;
+    Some(of_side(0).max(of_side(1)).max(of_carrier))
+}
+
 /// Whether all imposed speeds equal their commands.
 pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let (plan, layout) = (&model.ideal.plan, &model.layout);

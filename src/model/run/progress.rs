@@ -16,7 +16,11 @@ use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.
 pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
+    let before = state.pending_step.as_ref().map(|step| step.inputs).or(state.pause.map(|pause| pause.inputs));
     complete(model, (state, watched));
+    if let Some(before) = before {
+        state.control.jump(imposed::jump_of_accelerations(model, &before, inputs));
+    }
     state.pause = None;
     imposed::jump(model, inputs, state);
     apply_changes(model, inputs, state);
