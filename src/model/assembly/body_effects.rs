@@ -50,6 +50,11 @@ impl BodyEffects {
         self.forces.iter().fold(command, |speed, effect| effect.carrier_speed(q, speed))
     }
 
+    /// Whether an effect scales the speed or the torque that the carrier is given.
+    pub fn scale_carrier_inputs(&self) -> bool {
+        self.forces.iter().any(|effect| effect.scales_carrier_inputs())
+    }
+
     /// Friction on all bodies with the lock at `lock` and all nodes at `temperatures` [K].
     pub fn friction(
         &self,

@@ -50,6 +50,7 @@ impl Acting {
         let (input_derivatives, driven) =
             (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
         let friction = body_effects
+            .filter(|effects| effects.may_rub_in(state))
             .map(|effects| effects.friction((state.lock, &state.thermal.felt), &inputs, &input_derivatives));
         let rubs = friction.as_ref().is_some_and(Friction::is_any);
         let oil_viscosity = body_effects.and_then(|effects| effects.oil_viscosity(&state.thermal.felt));

@@ -15,6 +15,7 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
+use super::driven::Driven;
 use super::ledger_rates::LedgerRates;
 use super::shape::{Any, ByGroup, LARGEST, Shape};
 use super::{Acted, Acting, Jacobian, State};
@@ -30,6 +31,8 @@ pub struct Equations<'a, S, const N: usize> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) acting: Acting,
+    /// What inputs add while they change.
+    pub(super) driven: Driven<N>,
     pub(in crate::model) is_tooth_broken: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     pub(super) offset: [[f64; 2]; MAX_GROUPS],
@@ -54,7 +57,13 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
             }
         }
         let acting = Acting::new(S::MAY_ACT.then_some(&teeth.effect_terms.body_effects), inputs, state);
-        Self { teeth, acting, is_tooth_broken: state.is_tooth_broken, offset, wrapped, shape: PhantomData }
+        let is_tooth_broken = state.is_tooth_broken;
+        let mut these =
+            Self { teeth, acting, driven: Driven::No, is_tooth_broken, offset, wrapped, shape: PhantomData };
+        if let Some(derivatives) = &state.input_derivatives {
+            these.driven = these.addition(derivatives);
+        }
+        these
     }
 
     /// Groups of planets.
@@ -128,16 +137,11 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         first..first + self.groups() + pins
     }
 
-    /// Whether inputs change while they act.
-    #[inline]
-    pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
-        S::MAY_ACT && self.acting.driven
-    }
-
     /// These equations in the shape that fits any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
         let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
-        Largest { teeth, acting, is_tooth_broken, offset, wrapped, shape: PhantomData }
+        let driven = if acting.driven { Driven::Scales } else { Driven::No };
+        Largest { teeth, acting, driven, is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 
     /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
@@ -243,7 +247,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         if S::MAY_ACT && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
         }
-        if self.is_driven_by_inputs() {
+        if S::MAY_ACT && self.acting.driven {
             for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
                 sum[self.planet(g)] = rates.planet_spin;
             }

@@ -8,6 +8,7 @@
 
 pub mod acting;
 mod bodies;
+mod driven;
 mod dry_friction;
 mod energy_floor;
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::driven::Driven;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{LARGEST, Shape};
@@ -77,31 +78,49 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn is_driven(&self) -> bool {
-        self.is_driven_by_inputs()
+        !matches!(self.driven, Driven::No)
     }
 
     #[inline]
     fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], LedgerRates) {
-        if self.is_driven_by_inputs() { self.later(time).evaluate(at) } else { self.evaluate(at) }
+        match &self.driven {
+            Driven::No => self.evaluate(at),
+            Driven::Adds(by_order) => {
+                let (mut accelerations, mut ledger_rates) = self.evaluate(at);
+                ledger_rates.input += self.add_parabola(by_order, (at, time), &mut accelerations);
+                (accelerations, ledger_rates)
+            }
+            Driven::Scales => self.later(time).evaluate(at),
+        }
     }
 
     #[inline]
     fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, LedgerRates> {
-        if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
+        let mut lin = Linearisation::default();
+        self.linearise_with_energy(at, time, &mut lin);
+        lin
     }
 
     #[inline]
     fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         let ledger_rates = &mut LedgerRates::default();
-        if self.is_driven_by_inputs() {
-            self.later(time).accelerate(at, ledger_rates)
-        } else {
-            self.accelerate(at, ledger_rates)
+        match &self.driven {
+            Driven::No => self.accelerate(at, ledger_rates),
+            Driven::Adds(by_order) => {
+                let mut accelerations = self.accelerate(at, ledger_rates);
+                self.add_parabola(by_order, (at, time), &mut accelerations);
+                accelerations
+            }
+            Driven::Scales => self.later(time).accelerate(at, ledger_rates),
         }
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        self.drift_at(at, time)
+        match &self.driven {
+            Driven::No => [0.0; N],
+            Driven::Adds(by_order) => Self::slope_of_parabola(by_order, time),
+            Driven::Scales => self.drift_at(at, time),
+        }
     }
 
     #[inline]
@@ -142,10 +161,14 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, LedgerRates>) -> [f64; 2] {
-        let teeth = if self.is_driven_by_inputs() {
-            self.later(time).linearise_and_store(at, lin)
-        } else {
-            self.linearise_and_store(at, lin)
+        let teeth = match &self.driven {
+            Driven::No => self.linearise_and_store(at, lin),
+            Driven::Adds(by_order) => {
+                let energy = self.linearise_and_store(at, lin);
+                lin.ledger_rates.input += self.add_parabola(by_order, (at, time), &mut lin.acceleration);
+                energy
+            }
+            Driven::Scales => self.later(time).linearise_and_store(at, lin),
         };
         [self.kinetic_energy(at), teeth + self.stored_energy_of_bodies(at, true)]
     }

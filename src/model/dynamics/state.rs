@@ -262,12 +262,15 @@ impl State {
 
 impl BodyEffects {
     /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
-    /// holds, derivatives of inputs.
+    /// holds.
     pub fn act_in(&self, state: &State) -> bool {
-        self.has_effects
-            || state.is_tooth_broken
-            || state.input_derivatives.is_some()
-            || state.lock > 0.0
+        self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
+    }
+
+    /// Whether dry friction may act in `state`: the scene has some, or a lock is commanded or still holds.
+    pub fn may_rub_in(&self, state: &State) -> bool {
+        state.lock > 0.0
+            || self.friction.iter().any(|source| !source.by_lock)
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
 }

@@ -83,6 +83,10 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn is_structure(&self) -> bool {
         false
     }
+    /// Whether it scales the speed or the torque that the carrier is given.
+    fn scales_carrier_inputs(&self) -> bool {
+        false
+    }
     /// Energy it stores [J].
     fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0

@@ -73,6 +73,10 @@ impl BodyEffect for Excitation {
         }
     }
 
+    fn scales_carrier_inputs(&self) -> bool {
+        self.amplitude != 0.0
+    }
+
     fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
         if self.imposed { command * (1.0 + self.amplitude * cos(self.teeth * q[CARRIER])) } else { command }
     }
