@@ -10,10 +10,10 @@ from .batches import Batches
 from .extras import require
 from .fmu import Fmu
 from .inputs import Inputs, Signals
-from .instance import DISCARD, Closing, Instance
+from .instance import Closing, Instance
 from .plot import plot
 from .points import TimeValue, duration, span
-from .values import DifferentialError, FileName, Number, Value, Variable
+from .values import DISCARD, DifferentialError, FileName, Number, Value, Variable
 from .warned import warn
 
 if TYPE_CHECKING:

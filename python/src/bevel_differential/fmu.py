@@ -129,6 +129,13 @@ class Fmu:
         except KeyError:
             raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, self.variables)}") from None
 
+    def settable(self, name: str) -> Variable:
+        """The parameter or input `name`."""
+        variable = self.variable(name)
+        if variable.causality not in ("parameter", "input"):
+            raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
+        return variable
+
     def find(self, *words: str, acting: Any = None) -> list[Variable]:
         """The variables with all `words` in name or description, in small letters or capitals. `acting`: a scene file, the name of a
         shipped scene or a `Scene`; only variables that take effect in it are listed."""
@@ -147,13 +154,8 @@ class Fmu:
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
         for name, value in {**(values or {}), **named}.items():
-            variable = self.variable(name)
-            if variable.causality not in ("parameter", "input"):
-                raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
-            number = variable.number(value)
-            if variable.has_unit(value):
-                # the FMU's own message guesses at the unit that was meant
-                variable.check_range(number, value)
+            variable = self.settable(name)
+            number = variable.checked(value)
             if any(variable is known for known, _ in pairs):
                 raise DifferentialError(f"{variable.name}: it is given twice, once by its former name; leave one of them out")
             pairs.append((variable, number))

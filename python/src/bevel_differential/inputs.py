@@ -5,9 +5,8 @@ from typing import Any, Self, TypeAlias
 
 import numpy as np
 
-from .fmu import Fmu
 from .library import schedule
-from .values import DifferentialError, Number, Value, Variable
+from .values import DifferentialError, Number, Value, Variable, Variables
 
 # times, s, and values at them, shape (points,)
 Times: TypeAlias = Sequence[float] | np.ndarray
@@ -82,7 +81,7 @@ class Signals:
         return steps
 
     @classmethod
-    def of(cls, fmu: Fmu, inputs: Inputs | None, slopes: bool = True) -> Self:
+    def of(cls, fmu: Variables, inputs: Inputs | None, slopes: bool = True) -> Self:
         """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
         structured array with a field "time", as fmpy takes it. Names are those of inputs and tunable parameters."""
         constants, tables = [], []
@@ -101,7 +100,7 @@ class Signals:
         return self.constants + [(table.variable, value) for table, value in zip(self.tables, steps["values"][0].tolist())]
 
 
-def input_variable(fmu: Fmu, name: str) -> Variable:
+def input_variable(fmu: Variables, name: str) -> Variable:
     """The input `name`."""
     variable = fmu.variable(name)
     if variable.causality != "input":
@@ -110,7 +109,7 @@ def input_variable(fmu: Fmu, name: str) -> Variable:
     return variable
 
 
-def changing_variable(fmu: Fmu, name: str) -> Variable:
+def changing_variable(fmu: Variables, name: str) -> Variable:
     """The input or tunable parameter `name`."""
     variable = fmu.variable(name)
     if variable.causality == "parameter" and variable.variability == "fixed":

@@ -11,7 +11,8 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFuncti
 
 from . import machine
 from .batches import CALLS, Batches
-from .values import DifferentialError, Number, Value, Variable
+from .port import Port
+from .values import DISCARD, DifferentialError, Number, Value, Variable
 
 # what the log is to have
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
@@ -19,8 +20,6 @@ LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
 UNFELT = " changes nothing in this scene: "
 # beginning of the line that lists values which act and which nobody set
 NOBODY_SET = "values of the study that nobody set act in this scene: "
-# statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
-DISCARD = 2
 # what a log for hosts has around the words of an error: the call that failed before it, and calls that help after it
 _CALLS = re.compile(r"^fmi[23]\w+: (?:initialisation failed:\s*)?|; continue with fmi[23]\w+ or fmi[23]\w+$")
 # beginnings of refusals that are about the call, not about a value
@@ -213,6 +212,12 @@ class Instance(Closing):
         status = self._do_step(self._component, time, size, 1)
         if status >= DISCARD:
             self.check(status, f"the step from {time:g} s", "failed")
+
+    def port(self, inputs: Iterable[str], outputs: Iterable[str]) -> Port:
+        """The fastest way to exchange values at every step: `port.step(values, size)` sets the inputs, steps and returns the outputs.
+
+        `inputs`: names of Real inputs and tunable parameters; `outputs`: names of Real variables."""
+        return Port(self, inputs, outputs)
 
     def save(self) -> tuple[float, bytes]:
         """The state as (time, bytes), for this or another instance of the same FMU, in any process."""

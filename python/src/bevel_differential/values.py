@@ -19,6 +19,8 @@ Number: TypeAlias = float | int | bool
 # as a user writes it: SI, text with a unit or a literal's name, or a pair (number, unit), without a unit SI
 Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
 FileName: TypeAlias = str | os.PathLike[str]
+# statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
+DISCARD = 2
 
 _Shown = TypeVar("_Shown", float, np.ndarray)
 
@@ -119,6 +121,14 @@ class Variable:
         if isinstance(value, str):
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
+
+    def checked(self, value: Value) -> Number:
+        """`value` as the FMU takes it. A value with a unit must be within the range, as the FMU's own message guesses at the unit that
+        was meant."""
+        number = self.number(value)
+        if self.has_unit(value):
+            self.check_range(number, value)
+        return number
 
     def differences(self) -> Self:
         """A variable for differences between values of this one: without the offsets of units, and without a range. They are
@@ -225,7 +235,7 @@ class Variable:
 
     def _float(self, value, written):
         try:
-            if isinstance(value, bool) or type(value).__name__ == "bool_":
+            if isinstance(value, (bool, np.bool_)):
                 raise TypeError
             number = float(value)
         except (TypeError, ValueError):

@@ -159,21 +159,25 @@ class _Run:
     """One run: the differential takes lines of torque from step to step, the parts take lines of speed."""
 
     def __init__(self, instance: Instance, motion: Motion, names: list[str]):
-        self.instance, self.motion, self.names = instance, motion, names
+        real = [name for name in names if instance.fmu.variable(name).kind == "Real"]
+        self.instance, self.motion, self.names = instance, motion, real
+        self.port = instance.port(LOADS, [*SPEEDS, *real])
+        # variables of other kinds are fixed parameters
+        self.fixed: dict[str, Number] = {name: 0 for name in names if name not in real}
         self.speeds: list[list[float]] = []
-        self.read: list[Number] = []
+        self.read: list[float] = []
 
     def start(self, values, stop):
         at = values["carrier.speed_command"]
         self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
-        self._look()
+        self.fixed = dict(zip(self.fixed, self.instance.read(self.fixed)))
+        self._keep(self.port.read())
 
-    def _look(self):
-        *speeds, = self.instance.read((*SPEEDS, *self.names))
-        self.speeds, self.read = [*self.speeds[-1:], speeds[:3]], speeds[3:]
+    def _keep(self, outputs):
+        self.speeds, self.read = [*self.speeds[-1:], outputs[:3]], outputs[3:]
 
     def values(self, steer):
-        return dict(zip(self.names, self.read)) | self.motion.outputs(self.speeds[-1], steer)
+        return self.fixed | dict(zip(self.names, self.read)) | self.motion.outputs(self.speeds[-1], steer)
 
     def step(self, time, size, asked):
         """The parts go first, along the line through the last two speeds; the differential then knows the torques at both ends."""
@@ -189,10 +193,7 @@ class _Run:
         if not all(map(math.isfinite, end)):
             raise DifferentialError(f"at {time:g} s: the tyres' loads are no numbers; take shorter steps, or look at the parameters",
                                     kind="failed")
-        self.instance.set(dict(zip(LOADS, begin)))
-        self.instance.set_slopes({name: (b - a) / size for name, a, b in zip(LOADS, begin, end)})
-        self.instance.do_step(time, size)
-        self._look()
+        self._keep(self.port.do_step(begin, time, size, [(b - a) / size for a, b in zip(begin, end)]))
 
 
 class _Names:

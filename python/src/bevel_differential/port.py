@@ -1,0 +1,107 @@
+"""Exchange of values between a coupled script and an instance: inputs, one step, outputs."""
+
+import ctypes
+from array import array
+from collections.abc import Callable, Iterable, Sequence
+from math import isfinite
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from .inputs import changing_variable
+from .values import DISCARD, DifferentialError, Value, Variable
+
+# one value for each input; for one input also the value itself
+Given: TypeAlias = Value | Sequence[Value] | np.ndarray
+
+
+class Port:
+    """Inputs and outputs that a coupled script exchanges at every communication point; `Instance.port` creates it.
+
+    Names are resolved once and buffers are reused. Results and errors are the same as with `set`, `set_slopes`, `step` and `read`. A
+    port stays valid after `initialise`, `reset` and `restore`."""
+
+    def __init__(self, instance: Any, inputs: Iterable[str], outputs: Iterable[str]):
+        driven, shown = instance.fmu.named(inputs), instance.fmu.named(outputs)
+        for variable in driven:
+            instance.fmu.settable(variable.name)
+            changing_variable(instance.fmu, variable.name)
+            if driven.count(variable) > 1:
+                raise DifferentialError(f"{variable.name}: it is given twice; name each input once")
+        for variable in (*driven, *shown):
+            if variable.kind != "Real":
+                raise DifferentialError(f"{variable.name}: it is of the kind {variable.kind}, and a port exchanges Real variables; "
+                                        "use `set` and `read`")
+        self._instance, self._inputs = instance, driven
+        self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance.derivatives_setter()
+        self._values, self._rates, self._outputs = (array("d", [0.0] * len(each)) for each in (driven, driven, shown))
+        # arguments of the three functions after the component; the arrays behind the addresses live as long as the port
+        self._kept = [array("I", [variable.reference for variable in each]) for each in (driven, shown)]
+        self._kept.append(array("i", [1] * len(driven)))
+        inputs_at, outputs_at, orders_at = map(_address, self._kept)
+        self._setting = inputs_at, len(driven), _address(self._values)
+        self._sloping = inputs_at, len(driven), orders_at, _address(self._rates)
+        self._getting = outputs_at, len(shown), _address(self._outputs)
+
+    def step(self, values: Given, size: float, rates: Given | None = None) -> list[float]:
+        """Sets the inputs, takes a step of `size` (s) from the time of the instance on, and returns the outputs in SI, as a new list.
+
+        `values`: one for each input, in their order, written as in `set`; one input also takes its value without a list. `rates`: the
+        change of each input in a second during this step, SI units; without them inputs are held."""
+        self._write(values, rates)
+        self._instance.step(size)
+        return self.read()
+
+    def do_step(self, values: Given, time: float, size: float, rates: Given | None = None) -> list[float]:
+        """Exchanges values as `step` does, but from a time that the caller keeps, s."""
+        self._write(values, rates)
+        self._instance.do_step(time, size)
+        return self.read()
+
+    def read(self) -> list[float]:
+        """Present values of the outputs, as a new list."""
+        instance = self._instance
+        status = self._get(instance._component, *self._getting)
+        if status >= DISCARD:
+            instance.check(status, "getting Real variables")
+        return self._outputs.tolist()
+
+    def _write(self, values, rates):
+        self._fill(self._values, values, "values", Variable.checked)
+        if rates is not None:
+            self._fill(self._rates, rates, "rates", _rate)
+        instance = self._instance
+        status = self._set(instance._component, *self._setting)
+        if status >= DISCARD:
+            instance.check(status, "setting Real variables")
+        if rates is not None:
+            status = self._set_rates(instance._component, *self._sloping)
+            if status >= DISCARD:
+                instance.check(status, "setting slopes of inputs")
+
+    def _fill(self, buffer: array, given: Any, what: str, number: Callable[[Variable, Any], Any]) -> None:
+        """Writes numbers into a buffer. `number` converts or refuses each item that is not a finite float."""
+        if not isinstance(given, (list, tuple)):
+            # arrays become lists, and single values remain
+            given = given if isinstance(given, float) else np.asarray(given).tolist()
+            given = given if isinstance(given, list) else (given,)
+        if len(given) != len(buffer):
+            names = ", ".join(variable.name for variable in self._inputs) or "a port without inputs"
+            raise DifferentialError(f"{names}: the number of {what} is {len(given)}, and that of inputs is {len(buffer)}; give one for "
+                                    "each input, in this order")
+        for place, item in enumerate(given):
+            buffer[place] = item if isinstance(item, float) and isfinite(item) else number(self._inputs[place], item)
+
+
+def _address(buffer):
+    return ctypes.c_void_p(buffer.buffer_info()[0])
+
+
+def _rate(variable, given):
+    try:
+        rate = float(given)
+    except (TypeError, ValueError):
+        rate = float("nan")
+    if isinstance(given, (bool, np.bool_)) or not isfinite(rate):
+        raise DifferentialError(f"{variable.name}: its rate is {given!r}, which is not a finite number")
+    return rate
