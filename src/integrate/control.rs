@@ -38,7 +38,7 @@ pub struct Control {
     pub after_jump: AfterJump,
 }
 
-finite!(Control { next, last, last_error, after_jump; on_kink, after_kink });
+finite!(Control { next, last, last_error; on_kink, after_kink, after_jump });
 
 /// Memory of the steps after jumps of the inputs. Such a jump starts fast motion that decays within a few steps, and hosts that hold
 /// inputs make a jump at every communication point. So the k-th step after a jump is tried with the size that was right for the k-th
@@ -67,7 +67,8 @@ impl AfterJump {
     const NONE: Self =
         Self { step: STEPS_AFTER_JUMP as u32, decides: false, root: 1.0, before: 0.0, sizes: [0.0; STEPS_AFTER_JUMP] };
 
-    fn is_valid(&self) -> bool {
+    /// True if all numbers are finite and in their ranges.
+    pub fn is_valid(&self) -> bool {
         self.is_finite() && self.root > 0.0 && self.before >= 0.0 && self.sizes.iter().all(|&size| size >= 0.0)
     }
 
@@ -113,9 +114,9 @@ impl Control {
     }
 
     /// True if all numbers are finite and no step size is negative; those of steps to come are positive. The size after a kink may be
-    /// without bound.
+    /// without bound. What was learned of jumps is checked apart.
     pub fn is_valid(&self) -> bool {
-        self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0 && self.after_jump.is_valid()
+        self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 
     /// Inputs jump: accelerations change at once by `jump` [rad/s²], if that is known.

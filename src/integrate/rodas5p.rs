@@ -10,7 +10,7 @@
 //!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
 //!
 //! where the last stage starts from the embedded solution. A driven system is the autonomous one with ṫ = 1 as one more
-//! equation, whose U_i are h g_i with g_i = γ (1 + Σ c_ij g_j) for any system. Stages are at t₀ + h Σ a_ij g_j, and
+//! equation, whose U_i are h g_i with constants g_i = γ (1 + Σ c_ij g_j). Stages are at t₀ + h Σ a_ij g_j, and
 //! h g_i ∂f/∂t is added to the right-hand side.
 
 use super::block::Block;
@@ -42,7 +42,6 @@ impl Method for Rodas5P {
         block.fill((system, shape), lin, h * GAMMA)?;
         let per_h = 1.0 / h;
         let drift = system.is_driven().then(|| system.drift(start, time));
-        let mut g = [0.0; STAGES];
         let mut u = [Point::ZERO; STAGES];
         let mut y = *start;
         let mut acceleration = lin.acceleration;
@@ -54,17 +53,15 @@ impl Method for Rodas5P {
                 } else {
                     combine(&mut y, &[1.0], 1.0, &u[row..]);
                 }
-                let later = if drift.is_some() { h * place(row, &g) } else { 0.0 };
-                acceleration = system.accelerate_at(&y, time + later);
+                acceleration = system.accelerate_at(&y, time + h * PLACES[stage]);
             }
             let mut r = Point { q: system.rates(&y.v), v: acceleration };
             if let Some(row) = stage.checked_sub(1) {
                 combine(&mut r, C[row], per_h, &u);
             }
             if let Some(drift) = &drift {
-                g[stage] = GAMMA * (1.0 + carried(stage, &g));
                 for i in 0..N {
-                    r.v[i] += h * g[stage] * drift[i];
+                    r.v[i] += h * G[stage] * drift[i];
                 }
             }
             block.solve((system, shape), &mut r);
@@ -86,21 +83,6 @@ impl Method for Rodas5P {
         let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
         Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
     }
-}
-
-/// Position in the step of the stage after `row` + 1 others, from their g.
-fn place(row: usize, g: &[f64; STAGES]) -> f64 {
-    // embedded solutions are at the end
-    A.get(row).map_or(1.0, |weights| weighted(weights, g))
-}
-
-/// Σ c_ij g_j of stage `i`.
-fn carried(i: usize, g: &[f64; STAGES]) -> f64 {
-    weighted(i.checked_sub(1).map_or(&[][..], |row| C[row]), g)
-}
-
-fn weighted(weights: &[f64], g: &[f64; STAGES]) -> f64 {
-    weights.iter().zip(g).map(|(weight, g)| weight * g).sum()
 }
 
 /// Number of stages.
@@ -156,6 +138,39 @@ const C: [&[f64]; STAGES - 1] = [
         -9.488_616_523_096_27,
     ],
 ];
+
+/// g_i of the stages.
+const G: [f64; STAGES] = {
+    let mut g = [0.0; STAGES];
+    let mut stage = 0;
+    while stage < STAGES {
+        let carried = if stage == 0 { 0.0 } else { weighted(C[stage - 1], &g) };
+        g[stage] = GAMMA * (1.0 + carried);
+        stage += 1;
+    }
+    g
+};
+
+/// Places of the stages in the step; embedded solutions are at its end.
+const PLACES: [f64; STAGES] = {
+    let mut places = [1.0; STAGES];
+    places[0] = 0.0;
+    let mut row = 0;
+    while row < A.len() {
+        places[row + 1] = weighted(A[row], &G);
+        row += 1;
+    }
+    places
+};
+
+const fn weighted(weights: &[f64], g: &[f64; STAGES]) -> f64 {
+    let (mut sum, mut j) = (0.0, 0);
+    while j < weights.len() {
+        sum += weights[j] * g[j];
+        j += 1;
+    }
+    sum
+}
 
 /// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ (H₃U + Θ H₄U))).
 const EXTENSION: [[f64; STAGES]; 3] = [

@@ -12,13 +12,34 @@ use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
 /// What inputs add to the accelerations while they change.
 #[derive(Clone, Copy)]
-pub enum Driven<const N: usize> {
-    /// Nothing: they are constant.
-    No,
-    /// A parabola of time: its coefficients, from the constant on.
-    Adds([[f64; N]; 3]),
-    /// More than that.
-    Scales,
+pub struct Driven<const N: usize> {
+    /// Whether they change.
+    pub changes: bool,
+    /// Whether the equations are to be evaluated at the inputs of the time.
+    pub scales: bool,
+    /// Otherwise, a₀, a₁ and a₂.
+    pub by_order: [[f64; N]; 3],
+}
+
+impl<const N: usize> Driven<N> {
+    /// Inputs are constant.
+    pub const NO: Self = Self { changes: false, scales: false, by_order: [[0.0; N]; 3] };
+    /// Equations are to be evaluated at the inputs of the time.
+    pub const SCALES: Self = Self { changes: true, scales: true, ..Self::NO };
+
+    /// Adds to the accelerations at `time` [s].
+    #[inline(always)]
+    fn add(&self, time: f64, accelerations: &mut [f64; N]) {
+        let [zero, one, two] = &self.by_order;
+        for (i, acceleration) in accelerations.iter_mut().enumerate() {
+            *acceleration += zero[i] + time * (one[i] + time * two[i]);
+        }
+    }
+
+    /// ∂(accelerations)/∂t at `time` [s].
+    pub fn slope(&self, time: f64) -> [f64; N] {
+        std::array::from_fn(|i| self.by_order[1][i] + 2.0 * time * self.by_order[2][i])
+    }
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
@@ -33,7 +54,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
                 || [first, second].iter().any(|rates| moves_carrier(rates))
                     && self.teeth.effect_terms.body_effects.scale_carrier_inputs());
         if scales {
-            return Driven::Scales;
+            return Driven::SCALES;
         }
         let mut by_order = [[0.0; N]; 3];
         let mut torque = |i: usize, of: fn(&Inputs, usize) -> f64, s: usize| {
@@ -58,33 +79,35 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
             acceleration(self.planet(g), |inputs, _| inputs.planet_spin, 0);
         }
-        Driven::Adds(by_order)
+        Driven { changes: true, scales: false, by_order }
     }
 
-    /// Adds to the accelerations at `time` [s] what `by_order` gives; returns the power of it at the velocities of `at` [W].
+    /// Whether the equations are to be evaluated at the inputs of the time.
     #[inline]
-    pub(super) fn add_parabola(
-        &self,
-        by_order: &[[f64; N]; 3],
-        (at, time): (&Point<N>, f64),
-        accelerations: &mut [f64; N],
-    ) -> f64 {
-        let mut power = 0.0;
-        for i in 0..self.count() {
-            let added = by_order[0][i] + time * (by_order[1][i] + time * by_order[2][i]);
-            accelerations[i] += added;
-            power += self.teeth.inertia[i] * added * at.v[i];
-        }
-        for g in 0..self.groups() {
-            let i = self.planet(g);
-            let added = by_order[0][i] + time * (by_order[1][i] + time * by_order[2][i]);
-            power += (self.members(g) - 1.0) * self.teeth.inertia[i] * added * at.v[i];
-        }
-        power
+    pub(super) fn scales_by_inputs(&self) -> bool {
+        S::MAY_ACT && self.driven.scales
     }
 
-    /// ∂(accelerations)/∂t at `time` [s] of what `by_order` gives.
-    pub(super) fn slope_of_parabola(by_order: &[[f64; N]; 3], time: f64) -> [f64; N] {
-        std::array::from_fn(|i| by_order[1][i] + 2.0 * time * by_order[2][i])
+    /// Adds to the accelerations at `time` [s] what changing inputs add.
+    #[inline(always)]
+    pub(super) fn add_by_inputs(&self, time: f64, accelerations: &mut [f64; N]) {
+        if S::MAY_CHANGE && (!S::MAY_ACT || self.driven.changes) {
+            self.driven.add(time, accelerations);
+        }
+    }
+
+    /// Power of what changing inputs add, at the velocities of `at` at `time` [s] [W].
+    #[inline]
+    pub(super) fn added_power(&self, at: &Point<N>, time: f64) -> f64 {
+        if S::MAY_CHANGE && self.driven.changes { self.power_of_parabola(at, time) } else { 0.0 }
+    }
+
+    #[inline(never)]
+    fn power_of_parabola(&self, at: &Point<N>, time: f64) -> f64 {
+        let mut added = [0.0; N];
+        self.driven.add(time, &mut added);
+        let power = |i: usize| self.teeth.inertia[i] * added[i] * at.v[i];
+        let other_members = |g: usize| (self.members(g) - 1.0) * power(self.planet(g));
+        (0..self.count()).map(power).sum::<f64>() + self.sum(other_members)
     }
 }

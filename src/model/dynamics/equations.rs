@@ -59,7 +59,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         let acting = Acting::new(S::MAY_ACT.then_some(&teeth.effect_terms.body_effects), inputs, state);
         let is_tooth_broken = state.is_tooth_broken;
         let mut these =
-            Self { teeth, acting, driven: Driven::No, is_tooth_broken, offset, wrapped, shape: PhantomData };
+            Self { teeth, acting, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };
         if let Some(derivatives) = &state.input_derivatives {
             these.driven = these.addition(derivatives);
         }
@@ -140,7 +140,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// These equations in the shape that fits any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
         let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
-        let driven = if acting.driven { Driven::Scales } else { Driven::No };
+        let driven = if acting.driven { Driven::SCALES } else { Driven::NO };
         Largest { teeth, acting, driven, is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::driven::Driven;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{LARGEST, Shape};
@@ -78,20 +77,18 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn is_driven(&self) -> bool {
-        !matches!(self.driven, Driven::No)
+        S::MAY_CHANGE && self.driven.changes
     }
 
     #[inline]
     fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], LedgerRates) {
-        match &self.driven {
-            Driven::No => self.evaluate(at),
-            Driven::Adds(by_order) => {
-                let (mut accelerations, mut ledger_rates) = self.evaluate(at);
-                ledger_rates.input += self.add_parabola(by_order, (at, time), &mut accelerations);
-                (accelerations, ledger_rates)
-            }
-            Driven::Scales => self.later(time).evaluate(at),
+        if self.scales_by_inputs() {
+            return self.later(time).evaluate(at);
         }
+        let (mut accelerations, mut ledger_rates) = self.evaluate(at);
+        self.add_by_inputs(time, &mut accelerations);
+        ledger_rates.input += self.added_power(at, time);
+        (accelerations, ledger_rates)
     }
 
     #[inline]
@@ -104,23 +101,16 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     #[inline]
     fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         let ledger_rates = &mut LedgerRates::default();
-        match &self.driven {
-            Driven::No => self.accelerate(at, ledger_rates),
-            Driven::Adds(by_order) => {
-                let mut accelerations = self.accelerate(at, ledger_rates);
-                self.add_parabola(by_order, (at, time), &mut accelerations);
-                accelerations
-            }
-            Driven::Scales => self.later(time).accelerate(at, ledger_rates),
+        if self.scales_by_inputs() {
+            return self.later(time).accelerate(at, ledger_rates);
         }
+        let mut accelerations = self.accelerate(at, ledger_rates);
+        self.add_by_inputs(time, &mut accelerations);
+        accelerations
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        match &self.driven {
-            Driven::No => [0.0; N],
-            Driven::Adds(by_order) => Self::slope_of_parabola(by_order, time),
-            Driven::Scales => self.drift_at(at, time),
-        }
+        if self.driven.scales { self.drift_at(at, time) } else { self.driven.slope(time) }
     }
 
     #[inline]
@@ -161,15 +151,13 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, LedgerRates>) -> [f64; 2] {
-        let teeth = match &self.driven {
-            Driven::No => self.linearise_and_store(at, lin),
-            Driven::Adds(by_order) => {
-                let energy = self.linearise_and_store(at, lin);
-                lin.ledger_rates.input += self.add_parabola(by_order, (at, time), &mut lin.acceleration);
-                energy
-            }
-            Driven::Scales => self.later(time).linearise_and_store(at, lin),
+        let teeth = if self.scales_by_inputs() {
+            self.later(time).linearise_and_store(at, lin)
+        } else {
+            self.linearise_and_store(at, lin)
         };
+        self.add_by_inputs(time, &mut lin.acceleration);
+        lin.ledger_rates.input += self.added_power(at, time);
         [self.kinetic_energy(at), teeth + self.stored_energy_of_bodies(at, true)]
     }
 

@@ -38,6 +38,8 @@ pub trait Shape<const N: usize>: Copy {
     type ByGroup<T: Copy>: ByGroup<T>;
     /// True if effects may act.
     const MAY_ACT: bool;
+    /// True if inputs may change while they act.
+    const MAY_CHANGE: bool;
     /// True if the steps are compiled for this shape, with the meshes as a part of them.
     const HAS_OWN_STEPS: bool;
     /// True if steps of fixed size are compiled.
@@ -65,24 +67,30 @@ pub trait Shape<const N: usize>: Copy {
     fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]);
 }
 
-/// Planets in `G` groups, with ends of half-shafts or without; effects act if `ACT`. Nothing else moves.
+/// Planets in `G` groups, with ends of half-shafts or without; effects act if `ACT`, and inputs change while they act if `CHANGE`. Nothing
+/// else moves.
 #[derive(Clone, Copy)]
-pub struct Compact<const G: usize, const HAS_ENDS: bool, const ACT: bool>;
+pub struct Compact<const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool>;
 
 /// Any teeth.
 #[derive(Clone, Copy)]
 pub struct Any;
 
 /// Plain teeth with planets in `G` groups, on which no effect acts.
-pub type Plain<const G: usize> = Compact<G, false, false>;
+pub type Plain<const G: usize> = Compact<G, false, false, false>;
+/// The same with planets that are alike, under inputs that change.
+pub type PlainDriven = Compact<1, false, false, true>;
 /// Teeth with effects and planets in `G` groups.
-pub type WithEffects<const G: usize> = Compact<G, false, true>;
+pub type WithEffects<const G: usize> = Compact<G, false, true, true>;
 /// Teeth with effects, planets that are alike, and half-shafts that twist.
-pub type WithEnds = Compact<1, true, true>;
+pub type WithEnds = Compact<1, true, true, true>;
 
-impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool> Shape<N> for Compact<G, HAS_ENDS, ACT> {
+impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool> Shape<N>
+    for Compact<G, HAS_ENDS, ACT, CHANGE>
+{
     type ByGroup<T: Copy> = [T; G];
     const MAY_ACT: bool = ACT;
+    const MAY_CHANGE: bool = CHANGE;
     const HAS_OWN_STEPS: bool = true;
     const HAS_FIXED_STEPS: bool = ACT && G == 1 && !HAS_ENDS || ACT && !crate::FULL;
     const HAS_RADAU: bool = false;
@@ -128,6 +136,7 @@ impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool> Shap
 impl<const N: usize> Shape<N> for Any {
     type ByGroup<T: Copy> = [T; MAX_GROUPS];
     const MAY_ACT: bool = true;
+    const MAY_CHANGE: bool = true;
     const HAS_OWN_STEPS: bool = false;
     const HAS_FIXED_STEPS: bool = true;
     const HAS_RADAU: bool = crate::FULL;

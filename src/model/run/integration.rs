@@ -18,7 +18,7 @@ use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::shape::{Any, DIFFERENT, LEAST, Plain, Shape, WITH_ENDS, WithEffects, WithEnds};
+use crate::model::dynamics::shape::{Any, DIFFERENT, LEAST, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds};
 use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
@@ -75,9 +75,10 @@ pub fn integrate_teeth(
     let is_default = method == Method::Adaptive;
     let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
-        match groups {
-            1 => return whole::<LEAST, Plain<1>>(arguments),
-            2 => return whole::<DIFFERENT, Plain<2>>(arguments),
+        match (groups, arguments.2.input_derivatives.is_some()) {
+            (1, false) => return whole::<LEAST, Plain<1>>(arguments),
+            (1, true) => return whole::<LEAST, PlainDriven>(arguments),
+            (2, false) => return whole::<DIFFERENT, Plain<2>>(arguments),
             _ => {}
         }
     }
