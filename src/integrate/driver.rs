@@ -55,6 +55,8 @@ const LAST_STEPS: f64 = 3.0;
 const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
 pub(super) const LARGEST_SHRINK: f64 = 5.0;
+/// Part of a step above which its middle is that of the whole step: it only lacks the rounding of times.
+const WHOLE: f64 = 1.0 - 1e-9;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
 /// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
@@ -136,7 +138,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 reached = course.end;
             }
             let end = course.extension.at(pending.part);
-            let halfway = if pending.part == 1.0 {
+            let halfway = if pending.part > WHOLE {
                 pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;

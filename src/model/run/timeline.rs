@@ -12,8 +12,6 @@ use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
-/// Relative allowance for rounding in the time that inputs are expected to hold: hosts add up steps.
-const ROUNDING: f64 = 1e-6;
 /// Rounded operations on times between one stop and the next.
 const ROUNDED_OPERATIONS: f64 = 8.0;
 
@@ -98,7 +96,8 @@ pub fn clock(model: &Model, state: &State) -> Clock {
     }
     let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
     let change = next_change(model, state).unwrap_or(f64::INFINITY);
-    Clock::new(change - state.time(), left * (1.0 + ROUNDING))
+    // hosts add up steps, with rounding
+    Clock::new(change - state.time(), left + resolution(state.time()))
 }
 
 /// The last communication point, or the present where the motion has not paused since: on the integrator's clock, and its
