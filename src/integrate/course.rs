@@ -103,6 +103,8 @@ pub struct Pending<P> {
     pub energy: [f64; 2],
     /// Part of the step that is taken: all of it, unless the equations change within it.
     pub part: f64,
+    /// Where torques change at the end of that part, and the integration goes on: the jump of the accelerations [rad/s²].
+    pub jump: Option<f64>,
 }
 
 /// Where an integration stands.
@@ -137,6 +139,17 @@ impl<const N: usize, P> Course<N, P> {
     /// Ends the equations at `end` [s]. A pending step is taken up to there, or dropped if that leaves nothing of it.
     pub fn end_at(&mut self, end: f64) {
         self.end = end;
+        self.take_until(end);
+    }
+
+    /// Lets torques change at `time` [s], where accelerations jump by `jump` [rad/s²]: a pending step is taken up to there, and the
+    /// integration goes on. Returns whether there is such a step.
+    pub fn change_at(&mut self, time: f64, jump: f64) -> bool {
+        self.take_until(time);
+        self.pending.as_mut().map(|pending| pending.jump = Some(jump)).is_some()
+    }
+
+    fn take_until(&mut self, end: f64) {
         if let Some(pending) = &mut self.pending {
             let part = (end - self.time) / pending.attempt.h;
             if part > 0.0 {

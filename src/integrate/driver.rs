@@ -44,6 +44,8 @@ pub enum Failure<E> {
     Diverged,
     /// The observer of accepted steps refused one.
     Refused(E),
+    /// The ledger of a step does not close up to where torques change.
+    NotClosed,
 }
 
 /// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
@@ -142,14 +144,22 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;
-                system.evaluate_at(&course.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
+                let middle = course.extension.at(0.5 * pending.part);
+                let mut rates = system.evaluate_at(&middle, course.time + 0.5 * h).1;
+                if pending.jump.is_some() {
+                    system.take_change_back(&middle, &mut rates);
+                }
+                rates
             };
             begin = (!done).then(|| linearise(system, (&end, reached), &mut lin, Some(statistics)));
-            let (last, energy) = match begin {
+            let (mut last, energy) = match begin {
                 Some(energy) => (lin.ledger_rates, energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
             };
             statistics.evaluations += u64::from(done);
+            if pending.jump.is_some() {
+                system.take_change_back(&end, &mut last);
+            }
             let ledger_rates = [pending.ledger_rates[0], halfway, last];
             let ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
             let mut imbalance = ledger.relative() / (LEDGER * tolerance);
@@ -163,6 +173,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 }
             }
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
+                if pending.jump.is_some() {
+                    return Err(Failure::NotClosed);
+                }
                 unbalanced = pending.attempt.unbalanced + 1;
                 // the error of the whole step allows a longer one after it
                 (after_rejection, retries) = (unbalanced < UNBALANCED, true);
@@ -179,6 +192,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             (unbalanced, after_rejection, retries) = (0, false, false);
             control.accept(method, size, cut, error, pending.attempt.after_rejection);
             control.on_kink = to_kink && pending.part == 1.0;
+            if pending.jump.is_some() {
+                control.jump(pending.jump);
+            }
             statistics.accepted += 1;
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
@@ -226,7 +242,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole, short };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
-                course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0 });
+                course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0, jump: None });
                 continue;
             }
         }

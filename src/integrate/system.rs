@@ -171,6 +171,10 @@ pub trait SecondOrder<const N: usize> {
         [0.0; N]
     }
 
+    /// Turns ledger rates at `at` into those before torques changed, where they have changed.
+    #[inline]
+    fn take_change_back(&self, _at: &Point<N>, _rates: &mut Self::Rates) {}
+
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 

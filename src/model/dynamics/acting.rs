@@ -33,6 +33,8 @@ pub struct Acting {
     pub input_derivatives: InputDerivatives,
     /// Whether they change while they act.
     pub driven: bool,
+    /// Inputs before torques changed, until when the step before the change is completed.
+    pub before: Option<Inputs>,
     /// State of the dry friction.
     pub friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
@@ -54,7 +56,16 @@ impl Acting {
             .map(|effects| effects.friction((state.lock, &state.thermal.felt), &inputs, &input_derivatives));
         let rubs = friction.as_ref().is_some_and(Friction::is_any);
         let oil_viscosity = body_effects.and_then(|effects| effects.oil_viscosity(&state.thermal.felt));
-        Self { inputs, input_derivatives, driven, friction_state: state.friction, friction, rubs, oil_viscosity }
+        Self {
+            inputs,
+            input_derivatives,
+            driven,
+            before: None,
+            friction_state: state.friction,
+            friction,
+            rubs,
+            oil_viscosity,
+        }
     }
 
     /// Lets friction feel other `temperatures` [K].
@@ -167,6 +178,21 @@ pub trait Acted<const N: usize> {
             inputs,
             input_rates: &input_derivatives.rates[0],
             oil_viscosity: *oil_viscosity,
+        }
+    }
+
+    /// Turns ledger rates at `at` into those before torques changed.
+    fn take_torques_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
+        let Acting { inputs, before: Some(before), .. } = self.acting() else { return };
+        let plan = self.plan();
+        for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
+            ledger_rates.input += (inputs.load_torque[s] - before.load_torque[s]) * at.v[self.wheel(s)];
+            if self.has_ends() && !plan.shafts[s] {
+                ledger_rates.shaft[s] = before.load_torque[s];
+            }
+        }
+        if !plan.carrier_imposed {
+            ledger_rates.input -= (inputs.carrier_torque - before.carrier_torque) * at.v[CARRIER];
         }
     }
 

@@ -289,6 +289,14 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         self.drift_at(at, time)
     }
 
+    fn take_change_back(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
+        self.take_torques_back(at, ledger_rates);
+        ledger_rates.shaft = [0, 1].map(|s| match &self.acting.before {
+            Some(before) if !(self.has_ends() && self.ideal.plan.shafts[s]) => before.load_torque[s],
+            _ => ledger_rates.shaft[s],
+        });
+    }
+
     fn weights(&self, at: &Point<MOST>) -> Point<MOST> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
         let mut weights = Point { q: [1.0; MOST], v: [1.0 / (carrier + at.v[PLANET].abs()); MOST] };

@@ -113,6 +113,11 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         if self.driven.scales { self.drift_at(at, time) } else { self.driven.slope(time) }
     }
 
+    #[inline(never)]
+    fn take_change_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
+        self.take_torques_back(at, ledger_rates);
+    }
+
     #[inline]
     fn weights(&self, at: &Point<N>) -> Point<N> {
         let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);

@@ -18,7 +18,9 @@ use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::shape::{Any, DIFFERENT, LEAST, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds};
+use crate::model::dynamics::shape::{
+    Any, DIFFERENT, LEAST, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
+};
 use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
@@ -41,6 +43,8 @@ pub struct Integration<'a> {
     pub pauses: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
+    /// Where only torques have changed within the step ahead: when on the clock, and by how much accelerations jump [rad/s²].
+    pub change: Option<(f64, f64)>,
     /// What steps are watched for.
     pub watched: &'a mut Watched,
 }
@@ -119,7 +123,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_shown, pauses, inputs, watched } = integration;
+    let Integration { clock, begin, is_shown, pauses, inputs, change, watched } = integration;
     let before = state.statistics;
     let mut course = Course {
         longest: LONGEST,
@@ -131,6 +135,13 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut course);
         course.end_at(clock.end);
+        if let Some((time, jump)) = change {
+            equations.acting_mut().before = Some(pending_step.inputs);
+            if !course.change_at(time, jump) {
+                // it begins at the change
+                state.control.jump(Some(jump));
+            }
+        }
     }
     // on the way to the end of the equations the clock need not be set back: that end is near
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
@@ -240,6 +251,7 @@ fn explain(
     let tolerance = solver.relative_tolerance;
     let message = match failure {
         Failure::Refused(tooth) => tooth.message(model),
+        Failure::NotClosed => "the energy balance of a step does not close up to where torques change".into(),
         Failure::StepTooSmall { size } => format!(
             "the step size fell to {size:.3e} s, below what time can resolve; look at the inputs, \
              or loosen solver.relative_tolerance = {tolerance:e}"

@@ -1,6 +1,7 @@
 //! A running simulation and its steps: integration between events, the ledger, and failures.
 
 pub mod accepted;
+mod change;
 mod completed_step;
 pub mod effort;
 pub mod events;

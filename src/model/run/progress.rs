@@ -8,7 +8,7 @@ use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration};
 use super::timeline::{self, Stop};
 use super::watching::Watched;
-use super::{StepFailure, imposed};
+use super::{StepFailure, change, imposed};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State};
@@ -37,7 +37,8 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     state.input_derivatives = None;
     let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
-    let integration = Integration { clock: &mut clock, begin, is_shown: true, pauses: false, inputs: &inputs, watched };
+    let integration =
+        Integration { clock: &mut clock, begin, is_shown: true, pauses: false, inputs: &inputs, change: None, watched };
     let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
         // what was shown holds; the ledger tells what it lacks
@@ -97,7 +98,7 @@ fn to_end(
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin, false), budget);
+        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
     }
     keep_together(model, state);
     arrive(state, stop, begin + clock.time, outcome)
@@ -112,12 +113,13 @@ fn go_on(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
+    let mut change = change::take_up(model, inputs, state, &mut clock);
     let [mut shown, time] = timeline::last_communication_point(state, &clock);
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;
     loop {
-        let at = (&mut clock, begin, way.pauses);
+        let at = (&mut clock, begin, way.pauses, change.take());
         let outcome = one_interval(model, inputs, (state, watched), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
@@ -155,10 +157,10 @@ fn one_interval(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    (clock, begin, pauses): (&mut Clock, f64, bool),
+    (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let integration = Integration { clock, begin, is_shown: false, pauses, inputs, watched };
+    let integration = Integration { clock, begin, is_shown: false, pauses, inputs, change, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);

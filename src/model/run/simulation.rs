@@ -8,7 +8,7 @@ use super::accepted::Accepted;
 use super::integration::RESOLUTION;
 use super::progress::{self, begin_anew};
 use super::watching::Watched;
-use super::{StepFailure, timeline};
+use super::{StepFailure, change, timeline};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::State;
 use crate::model::dynamics::event::{Events, Pause, Way};
@@ -30,6 +30,19 @@ pub struct Simulation {
     pub(in crate::model) forces: Option<Forces>,
     /// Where the last step ended that a solver of the host's completed.
     pub(in crate::model) accepted: Option<Accepted>,
+}
+
+/// What becomes of the inputs at the begin of a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Beginning {
+    /// They have not changed.
+    None,
+    /// Only torques have changed: the integration completes the step ahead and goes on. No event depends on it.
+    Within,
+    /// The integration begins anew.
+    Silent,
+    /// It does, with an event.
+    Event,
 }
 
 impl Simulation {
@@ -108,19 +121,26 @@ impl Simulation {
     /// Applies the inputs at the present if they have changed, as the next step would at its start. Returns true if this is an
     /// event. The next step then continues from here, with the same bits as if the step had applied the inputs.
     pub fn begin(&mut self) -> bool {
+        self.begin_step() == Beginning::Event
+    }
+
+    fn begin_step(&mut self) -> Beginning {
         let Self { model, state, watched, inputs, .. } = self;
         let act_already = match &state.pending_step {
             Some(pending_step) => pending_step.inputs == *inputs && state.input_derivatives.is_none(),
             None => state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs),
         };
         if act_already {
-            return false;
+            return Beginning::None;
+        }
+        if change::jump_within(model, inputs, state).is_some() {
+            return Beginning::Within;
         }
         let count = state.events.count();
         begin_anew(model, inputs, (state, watched));
         state.pause = Some(Pause { now: 0.0, time: state.time(), inputs: *inputs });
         self.forces = None;
-        state.events.count() != count
+        if state.events.count() == count { Beginning::Silent } else { Beginning::Event }
     }
 
     /// Integrates to `until` [s], or to the first event if the way `pauses`, or a part of the way to a communication point. The
@@ -128,10 +148,11 @@ impl Simulation {
     /// pause the motion.
     pub fn advance_by(&mut self, until: f64, way: Way) -> Result<(), StepFailure> {
         self.forces = None;
-        self.begin();
+        let beginning = self.begin_step();
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
-        if state.pending_step.is_some() && timeline::move_within(model, state, (until, way)) {
+        let leads_on = state.pending_step.is_some() && beginning != Beginning::Within;
+        if leads_on && timeline::move_within(model, state, (until, way)) {
             progress::keep_together(model, state);
             return Ok(());
         }

@@ -94,10 +94,14 @@ pub fn clock(model: &Model, state: &State) -> Clock {
     if let Some(pending_step) = &state.pending_step {
         return pending_step.clock;
     }
-    let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
     let change = next_change(model, state).unwrap_or(f64::INFINITY);
-    // hosts add up steps, with rounding
-    Clock::new(change - state.time(), left + resolution(state.time()))
+    Clock::new(change - state.time(), expected(state))
+}
+
+/// Time for which inputs are expected to hold [s]. Hosts add up steps, with rounding.
+pub fn expected(state: &State) -> f64 {
+    let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
+    left + resolution(state.time())
 }
 
 /// The last communication point, or the present where the motion has not paused since: on the integrator's clock, and its
