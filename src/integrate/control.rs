@@ -18,6 +18,8 @@ const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 const STEPS_AFTER_JUMP: usize = 8;
 /// Part of the size before the jump below which a step is short.
 const SHORT: f64 = 0.5;
+/// Error aimed at in steps after jumps, as a fraction of the tolerance.
+const AFTER_JUMP_ERROR: f64 = 0.3;
 /// Growth of such a step from one jump to the next.
 const AFTER_JUMP_GROWTH: f64 = 2.0;
 
@@ -129,6 +131,12 @@ impl Control {
         self.after_jump.start(self.next);
     }
 
+    /// True in steps whose size was learned of jumps: a fast motion decays in them.
+    #[inline]
+    pub(super) fn follows_jump(&self) -> bool {
+        self.after_jump.decides && self.after_jump.step < STEPS_AFTER_JUMP as u32
+    }
+
     /// Size to try the next step with [s]; `again` after an attempt that was rejected.
     #[inline]
     pub(super) fn wanted(&self, again: bool) -> f64 {
@@ -158,6 +166,7 @@ impl Control {
         if self.on_kink {
             self.after_kink = if cut { next.max(self.after_kink) } else { h.max(next.min(h * AFTER_KINK_GROWTH)) };
         }
+        let by_error = method.root(error / AFTER_JUMP_ERROR);
         self.after_jump.learn(h, h / by_error.clamp(1.0 / AFTER_JUMP_GROWTH, LARGEST_SHRINK), cut);
         self.next = if cut { next.max(self.next) } else { next };
         self.last = h;

@@ -3,8 +3,8 @@
 
 use super::control::{Control, SAFETY};
 use super::{
-    Attempt, Course, ErrorNorm, Extension, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder,
-    Statistics, Trial,
+    Attempt, Course, ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Pending, Point,
+    SecondOrder, Statistics, Trial,
 };
 
 /// A completed step, as passed to the observer.
@@ -62,6 +62,8 @@ const WHOLE: f64 = 1.0 - 1e-9;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
 /// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
+/// Imbalance, as a fraction of the allowed one, from which on the middle of a step after a jump is refined.
+const UNREFINED: f64 = 0.05;
 /// Number of consecutive attempts whose ledger does not close after which the step is taken at the size of the first of them: an
 /// imbalance that remains does not depend on the size.
 const UNBALANCED: u32 = 8;
@@ -160,9 +162,15 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if pending.jump.is_some() {
                 system.take_change_back(&end, &mut last);
             }
-            let ledger_rates = [pending.ledger_rates[0], halfway, last];
-            let ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
+            let mut ledger_rates = [pending.ledger_rates[0], halfway, last];
+            let mut ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
             let mut imbalance = ledger.relative() / (LEDGER * tolerance);
+            if control.follows_jump() && (imbalance > UNREFINED || ledger == Imbalance::NONE) {
+                statistics.evaluations += 2;
+                ledger_rates[1] = refined(system, course, h, &ledger_rates);
+                ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
+                imbalance = ledger.relative() / (LEDGER * tolerance);
+            }
             if imbalance > 1.0 {
                 // copies, so that both points may stay in registers
                 let ends = [course.point, end];
@@ -271,6 +279,29 @@ impl<const N: usize, P> Course<N, P> {
         let is_ahead = self.expected > self.time + self.resolution;
         (if is_ahead { self.expected.min(self.end) } else { self.end }) - self.time
     }
+}
+
+/// Ledger rates in place of those halfway in the pending step, with which Simpson's rule gives what Boole's rule gives with two more
+/// points. Heat of a fast motion decays too quickly for three points.
+#[inline(never)]
+fn refined<const N: usize, S: SecondOrder<N> + ?Sized>(
+    system: &S,
+    course: &Course<N, S::Rates>,
+    h: f64,
+    [first, halfway, last]: &[S::Rates; 3],
+) -> S::Rates {
+    let Some(pending) = &course.pending else { return *halfway };
+    let at = |fraction: f64| {
+        let point = course.extension.at(fraction * pending.part);
+        let mut rates = system.evaluate_at(&point, course.time + fraction * h).1;
+        if pending.jump.is_some() {
+            system.take_change_back(&point, &mut rates);
+        }
+        rates
+    };
+    let [quarter, three_quarters] = [at(0.25), at(0.75)];
+    let [ends, quarters, middle] = [-12.0 / 90.0, 48.0 / 90.0, 18.0 / 90.0];
+    system.combined([(ends, first), (quarters, &quarter), (middle, halfway), (quarters, &three_quarters), (ends, last)])
 }
 
 /// The step to take when `wanted` is predicted and `remaining` is left, and whether it was fitted to the end: the last

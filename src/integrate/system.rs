@@ -175,6 +175,11 @@ pub trait SecondOrder<const N: usize> {
     #[inline]
     fn take_change_back(&self, _at: &Point<N>, _rates: &mut Self::Rates) {}
 
+    /// Σ weight · rates at five places of a step; without rates that matter, those in the middle.
+    fn combined(&self, of: [(f64, &Self::Rates); 5]) -> Self::Rates {
+        *of[2].1
+    }
+
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 

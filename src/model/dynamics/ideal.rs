@@ -289,6 +289,10 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         self.drift_at(at, time)
     }
 
+    fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {
+        LedgerRates::combined(of)
+    }
+
     fn take_change_back(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
         self.take_torques_back(at, ledger_rates);
         ledger_rates.shaft = [0, 1].map(|s| match &self.acting.before {

@@ -40,6 +40,18 @@ impl LedgerRates {
         }
     }
 
+    /// Σ weight · rates.
+    pub fn combined(of: [(f64, &Self); 5]) -> Self {
+        let sum = |value: &dyn Fn(&Self) -> f64| of.iter().map(|(weight, rates)| weight * value(rates)).sum();
+        Self {
+            input: sum(&|p| p.input),
+            heat: std::array::from_fn(|i| sum(&|p| p.heat[i])),
+            shaft: [0, 1].map(|s| sum(&|p| p.shaft[s])),
+            drive: sum(&|p| p.drive),
+            limit: std::array::from_fn(|i| sum(&|p| p.limit[i])),
+        }
+    }
+
     /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored, worked and turned
     /// into heat. Of the kinetic energy, most of which nothing ever touches, only the rounding counts.
     #[inline]

@@ -113,6 +113,10 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         if self.driven.scales { self.drift_at(at, time) } else { self.driven.slope(time) }
     }
 
+    fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {
+        LedgerRates::combined(of)
+    }
+
     #[inline(never)]
     fn take_change_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         self.take_torques_back(at, ledger_rates);
