@@ -33,8 +33,8 @@ pub struct Acting {
     pub input_derivatives: InputDerivatives,
     /// Whether they change while they act.
     pub driven: bool,
-    /// Inputs before torques changed, until when the step before the change is completed.
-    pub before: Option<Inputs>,
+    /// By how much the load torques, left and right, and the torque of the carrier have changed within the step ahead [N·m].
+    pub change: [f64; 3],
     /// State of the dry friction.
     pub friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
@@ -60,7 +60,7 @@ impl Acting {
             inputs,
             input_derivatives,
             driven,
-            before: None,
+            change: [0.0; 3],
             friction_state: state.friction,
             friction,
             rubs,
@@ -183,16 +183,15 @@ pub trait Acted<const N: usize> {
 
     /// Turns ledger rates at `at` into those before torques changed.
     fn take_torques_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
-        let Acting { inputs, before: Some(before), .. } = self.acting() else { return };
-        let plan = self.plan();
+        let (Acting { inputs, change, .. }, plan) = (self.acting(), self.plan());
         for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
-            ledger_rates.input += (inputs.load_torque[s] - before.load_torque[s]) * at.v[self.wheel(s)];
+            ledger_rates.input += change[s] * at.v[self.wheel(s)];
             if self.has_ends() && !plan.shafts[s] {
-                ledger_rates.shaft[s] = before.load_torque[s];
+                ledger_rates.shaft[s] = inputs.load_torque[s] - change[s];
             }
         }
         if !plan.carrier_imposed {
-            ledger_rates.input -= (inputs.carrier_torque - before.carrier_torque) * at.v[CARRIER];
+            ledger_rates.input -= change[2] * at.v[CARRIER];
         }
     }
 

@@ -295,10 +295,9 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn take_change_back(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
         self.take_torques_back(at, ledger_rates);
-        ledger_rates.shaft = [0, 1].map(|s| match &self.acting.before {
-            Some(before) if !(self.has_ends() && self.ideal.plan.shafts[s]) => before.load_torque[s],
-            _ => ledger_rates.shaft[s],
-        });
+        for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
+            ledger_rates.shaft[s] = self.acting.inputs.load_torque[s] - self.acting.change[s];
+        }
     }
 
     fn weights(&self, at: &Point<MOST>) -> Point<MOST> {

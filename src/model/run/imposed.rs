@@ -50,12 +50,9 @@ pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) ->
         return None;
     }
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
-    let of_side = |s: usize| {
-        let wheel = if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
-        (inputs.load_torque[s] - before.load_torque[s]).abs() / wheel
-    };
-    let of_carrier = (inputs.carrier_torque - before.carrier_torque).abs() / inertia.carrier;
-    Some(of_side(0).max(of_side(1)).max(of_carrier))
+    let wheel = |s: usize| if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
+    let [left, right, carrier] = inputs.torques_since(before).map(f64::abs);
+    Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
 }
 
 /// Whether all imposed speeds equal their commands.

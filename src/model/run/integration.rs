@@ -136,7 +136,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         pending_step.resume(&mut course);
         course.end_at(clock.end);
         if let Some((time, jump)) = change {
-            equations.acting_mut().before = Some(pending_step.inputs);
+            equations.acting_mut().change = inputs.torques_since(&pending_step.inputs);
             if !course.change_at(time, jump) {
                 // it begins at the change
                 state.control.jump(Some(jump));

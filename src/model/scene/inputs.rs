@@ -111,6 +111,12 @@ inputs! {
 }
 
 impl Inputs {
+    /// Changes of the load torques, left and right, and of the carrier's torque since `before` [N·m].
+    pub fn torques_since(&self, before: &Self) -> [f64; 3] {
+        let [left, right] = [0, 1].map(|s| self.load_torque[s] - before.load_torque[s]);
+        [left, right, self.carrier_torque - before.carrier_torque]
+    }
+
     /// Changes of the temperatures outside: of ambient and of a given sump [K].
     pub fn changes_outside(&self) -> [f64; 2] {
         [self.ambient_change, self.sump_change]
