@@ -166,8 +166,10 @@ impl Control {
         if self.on_kink {
             self.after_kink = if cut { next.max(self.after_kink) } else { h.max(next.min(h * AFTER_KINK_GROWTH)) };
         }
-        let by_error = method.root(error / AFTER_JUMP_ERROR);
-        self.after_jump.learn(h, h / by_error.clamp(1.0 / AFTER_JUMP_GROWTH, LARGEST_SHRINK), cut);
+        if self.after_jump.step < STEPS_AFTER_JUMP as u32 {
+            let by_error = method.root(error / AFTER_JUMP_ERROR);
+            self.after_jump.learn(h, h / by_error.clamp(1.0 / AFTER_JUMP_GROWTH, LARGEST_SHRINK), cut);
+        }
         self.next = if cut { next.max(self.next) } else { next };
         self.last = h;
         self.last_error = error.max(LEAST_REMEMBERED_ERROR);

@@ -17,11 +17,10 @@ pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64>
     if begins_anew { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
 }
 
-/// Takes a change up where the step ahead is that of other torques: the present on the `clock`, and the jump.
-pub fn take_up(model: &Model, inputs: &Inputs, state: &mut State, clock: &mut Clock) -> Option<(f64, f64)> {
-    let jump = jump_within(model, inputs, state)?;
+/// Takes a change at the present up; returns the present on the `clock` [s].
+pub fn take_up(state: &mut State, clock: &mut Clock) -> f64 {
     state.pause = None;
     timeline::begin_holding(state);
     clock.expected = clock.now + timeline::expected(state);
-    Some((clock.now, jump))
+    clock.now
 }

@@ -50,10 +50,11 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
 }
 
 /// Integrates to `until` [s], or to the first event on the way where that `pauses`; the state then has a pause.
+/// Accelerations `jump` at the present where only torques have changed within the step ahead [rad/s²].
 pub fn integrate(
     model: &Model,
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
-    (until, way): (f64, Way),
+    (until, way, mut jump): (f64, Way, Option<f64>),
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
@@ -62,7 +63,7 @@ pub fn integrate(
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             to_end(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            go_on(model, inputs, (state, watched), (stop, way), &mut budget)
+            go_on(model, inputs, (state, watched), (stop, way, jump.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
@@ -109,11 +110,11 @@ fn go_on(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    (stop, way): (Stop, Way),
+    (stop, way, jump): (Stop, Way, Option<f64>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
-    let mut change = change::take_up(model, inputs, state, &mut clock);
+    let mut change = jump.map(|jump| (change::take_up(state, &mut clock), jump));
     let [mut shown, time] = timeline::last_communication_point(state, &clock);
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };

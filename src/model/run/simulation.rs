@@ -33,12 +33,13 @@ pub struct Simulation {
 }
 
 /// What becomes of the inputs at the begin of a step.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 enum Beginning {
     /// They have not changed.
     None,
-    /// Only torques have changed: the integration completes the step ahead and goes on. No event depends on it.
-    Within,
+    /// Only torques have changed: the integration completes the step ahead and goes on. No event depends on it. Accelerations jump by
+    /// so much [rad/s²].
+    Within(f64),
     /// The integration begins anew.
     Silent,
     /// It does, with an event.
@@ -124,17 +125,24 @@ impl Simulation {
         self.begin_step() == Beginning::Event
     }
 
+    #[inline(always)]
     fn begin_step(&mut self) -> Beginning {
-        let Self { model, state, watched, inputs, .. } = self;
-        let act_already = match &state.pending_step {
+        if self.inputs_act() { Beginning::None } else { self.begin_under_inputs() }
+    }
+
+    /// Whether the inputs act already.
+    fn inputs_act(&self) -> bool {
+        let Self { state, inputs, .. } = self;
+        match &state.pending_step {
             Some(pending_step) => pending_step.inputs == *inputs && state.input_derivatives.is_none(),
             None => state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs),
-        };
-        if act_already {
-            return Beginning::None;
         }
-        if change::jump_within(model, inputs, state).is_some() {
-            return Beginning::Within;
+    }
+
+    fn begin_under_inputs(&mut self) -> Beginning {
+        let Self { model, state, watched, inputs, .. } = self;
+        if let Some(jump) = change::jump_within(model, inputs, state) {
+            return Beginning::Within(jump);
         }
         let count = state.events.count();
         begin_anew(model, inputs, (state, watched));
@@ -151,7 +159,8 @@ impl Simulation {
         let beginning = self.begin_step();
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
-        let leads_on = state.pending_step.is_some() && beginning != Beginning::Within;
+        let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
+        let leads_on = state.pending_step.is_some() && jump.is_none();
         if leads_on && timeline::move_within(model, state, (until, way)) {
             progress::keep_together(model, state);
             return Ok(());
@@ -176,12 +185,12 @@ impl Simulation {
         let before = (*inputs, *state);
         // what nothing counts need not be kept
         let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
-        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, way));
+        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, way, jump));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
             go_back((inputs, state, watched), &before, &saved);
             begin_anew(model, inputs, (state, watched));
-            outcome = progress::integrate(model, (inputs, state, watched), (until, way));
+            outcome = progress::integrate(model, (inputs, state, watched), (until, way, None));
         }
         if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
