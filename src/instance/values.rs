@@ -2,7 +2,7 @@
 
 use super::exchange::check_state;
 use super::instance::is_tolerance;
-use super::{CallError, CallResult, InputArray, Instance, Output, Phase};
+use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase};
 use crate::model::{LedgerReadings, Motion, STATES, removed_method};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
@@ -147,14 +147,19 @@ impl Instance {
 
     /// Sets real variables, and continuous states where the host integrates them.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
-        for (reference, value) in references.iter().zip(values.iter()) {
-            self.accepted_real(reference, value, false)?;
+        // a single value needs no look at the others before it is set
+        let is_checked = references.len() != 1 || self.now.kind == Kind::ModelExchange;
+        let mut states = None;
+        if is_checked {
+            for (reference, value) in references.iter().zip(values.iter()) {
+                self.accepted_real(reference, value, false)?;
+            }
+            states = self.with_states_set(references, values)?;
         }
-        let states = self.with_states_set(references, values)?;
         let mut tuned = false;
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
-            let value = self.accepted_real(reference, value, true)?;
+            let value = self.accepted_real(reference, value, is_checked)?;
             let now = &mut self.now;
             match row.access {
                 Access::Real(slot) => {

@@ -99,6 +99,7 @@ impl Simulation {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
         }
         // the next step begins again under the new parameters
+        self.state.control.jump(None);
         self.state.pause = None;
         self.watched.last_loads = None;
         self.forces = None;
