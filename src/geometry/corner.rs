@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use super::Pair;
-use crate::numeric::{Jet, Scalar, atan2, cos, sin, sin_cos, sqrt, tan};
+use crate::numeric::{Jet, Scalar, acos, atan2, cos, sin, sin_cos, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
 /// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
@@ -69,13 +69,16 @@ pub struct CornerTravel {
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub end: f64,
     tip: f64,
+    sin_tip: f64,
     sin_base: f64,
     azimuth_at_end: f64,
-    shaft_angle: f64,
-    mate_base: f64,
+    mate_sin_base: f64,
+    mate_cos_base: f64,
     mate_inv_pitch: f64,
     /// sin²φ of the tip, and cosφ₂ of the corner about the mate's axis as a + b cosχ.
     polar: [f64; 3],
+    /// Component of the corner across the mate's axis in the plane of both axes, as a − b cosχ.
+    across: [f64; 2],
 }
 
 impl CornerTravel {
@@ -87,15 +90,17 @@ impl CornerTravel {
         let sin_base = sin(own.base);
         let azimuth = |psi: f64| atan2(tan(psi), sin_base);
         let tip = own.polar_at(pair.pitch_arc[i] + end);
-        let [across, along] = [sin(pair.shaft_angle) * sin(tip), cos(pair.shaft_angle) * cos(tip)];
+        let [(ss, cs), (st, ct)] = [pair.shaft_angle, tip].map(|angle| (sin(angle), cos(angle)));
         Self {
             end,
             tip,
-            polar: [sin(tip) * sin(tip), along, across],
+            polar: [st * st, cs * ct, ss * st],
+            across: [ss * ct, cs * st],
+            sin_tip: st,
             sin_base,
             azimuth_at_end: azimuth(pair.pitch_arc[i] + end) - azimuth(pair.pitch_arc[i]),
-            shaft_angle: pair.shaft_angle,
-            mate_base: mate.base,
+            mate_sin_base: sin(mate.base),
+            mate_cos_base: cos(mate.base),
             mate_inv_pitch: mate.inv(mate.pitch),
         }
     }
@@ -104,17 +109,23 @@ impl CornerTravel {
     pub fn at(&self, delta: f64) -> CornerContact {
         let delta = Jet::variable(delta);
         let chi = delta * (1.0 / self.sin_base) + Jet::constant(self.azimuth_at_end);
-        let (st, ct) = (sin(self.tip), cos(self.tip));
-        let (ss, cs) = (sin(self.shaft_angle), cos(self.shaft_angle));
-        let (sb, cb) = (sin(self.mate_base), cos(self.mate_base));
-        let cos_polar = chi.cos() * (ss * st) + Jet::constant(cs * ct);
-        let eta = (chi.sin() * st).atan2(Jet::constant(ss * ct) - chi.cos() * (cs * st));
+        let (sb, cb) = (self.mate_sin_base, self.mate_cos_base);
+        let ([_, along, by_cosine], [across, less]) = (self.polar, self.across);
+        let cos_polar = chi.cos() * by_cosine + Jet::constant(along);
+        let eta = (chi.sin() * self.sin_tip).atan2(Jet::constant(across) - chi.cos() * less);
         // sinψ₂ cosδ_b2, and with it ψ₂ and inv₂
         let y = (Jet::constant(cb * cb) - cos_polar * cos_polar).sqrt();
         let inv = y.atan2(cos_polar) * (1.0 / sb) - y.atan2(cos_polar * sb);
         let turn = eta - inv + Jet::constant(self.mate_inv_pitch);
         let gap = delta + Jet::constant(self.end) - turn * sb;
-        CornerContact { gap, own_polar: self.tip, own_azimuth: chi.v, mate_polar: crate::numeric::acos(cos_polar.v) }
+        CornerContact { gap, own_polar: self.tip, own_azimuth: chi.v, mate_polar: acos(cos_polar.v) }
+    }
+
+    /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad], cosφ₂ = cosδ_b2 cosψ.
+    pub fn mate_arc(&self, delta: f64) -> f64 {
+        let ([_, along, by_cosine], cos_base) = (self.polar, self.mate_cos_base);
+        let cos_polar = along + by_cosine * cos(delta / self.sin_base + self.azimuth_at_end);
+        atan2(sqrt(((cos_base - cos_polar) * (cos_base + cos_polar)).max(0.0)), cos_polar)
     }
 }
 
@@ -245,10 +256,13 @@ mod tests {
                 let span = pair.base_pitch / 2.0;
                 for k in 1..500 {
                     let delta = span * f64::from(k) / 500.0;
-                    let (table, exact) = (corner.at(delta), corner.exact(delta).gap);
+                    let contact = corner.exact(delta);
+                    let (table, exact) = (corner.at(delta), contact.gap);
                     if exact.v > 0.1 {
                         break;
                     }
+                    let arc = pair.gears[1 - i].action_arc(contact.mate_polar);
+                    assert!((corner.exact.mate_arc(delta) / arc - 1.0).abs() < 1e-10, "{z_p}/{z_s} {i} {delta}");
                     // the closed form's own rounding is 1e-15 in g and grows by 1/Δ in its slope
                     let rounding = 1e-14 / delta;
                     assert!((table.v - exact.v).abs() < 1e-11 * exact.v + 2e-15, "{z_p}/{z_s} {i} {delta}");

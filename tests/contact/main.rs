@@ -25,6 +25,7 @@ mod tooth_corner_stiffness;
 #[path = "../common/tooth_errors.rs"]
 mod tooth_errors;
 mod tooth_finite_elements;
+mod tooth_integrals;
 mod tooth_laws;
 mod tooth_load_places;
 mod tooth_stiffness;

@@ -10,9 +10,8 @@
 //! Hertz between the flank and the teeth's middles at depths t₁, t₂, w the load per width, b half the width of contact:
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
-use super::quadrature::integrate;
 use super::{FlankLoad, ToothSection};
-use crate::numeric::{PI, cos, sqrt, tan};
+use crate::numeric::{PI, sqrt};
 
 /// Elastic constants of both gears.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,12 +62,12 @@ impl ToothSection {
     pub fn compliance(&self, roll: f64, elasticity: &Elasticity) -> f64 {
         let load = self.load(roll);
         let nu = elasticity.poisson / (1.0 - elasticity.poisson);
-        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
+        let (cos_squared, tan_squared) = self.squares(&load);
         let slide = 2.4 * (1.0 + nu);
         let [bending, shear] = self.beam(&load);
         let share = load.lever / self.root_chord;
-        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_tau * tan_tau / slide);
-        cos_tau * cos_tau / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_tau * tan_tau) * shear + root)
+        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_squared / slide);
+        cos_squared / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_squared) * shear + root)
     }
 
     /// The same of the tooth alone, on a root that does not give way. Bending and compression are those of plane strain times
@@ -76,41 +75,26 @@ impl ToothSection {
     pub fn beam_compliance(&self, roll: f64, elasticity: &Elasticity, softening: f64) -> f64 {
         let load = self.load(roll);
         let nu = elasticity.poisson / (1.0 - elasticity.poisson);
-        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
+        let (cos_squared, tan_squared) = self.squares(&load);
         let [bending, shear] = self.beam(&load);
-        cos_tau * cos_tau / elasticity.plane_modulus()
-            * (softening * (12.0 * bending + tan_tau * tan_tau * shear) + 2.4 * (1.0 + nu) * shear)
+        cos_squared / elasticity.plane_modulus()
+            * (softening * (12.0 * bending + tan_squared * shear) + 2.4 * (1.0 + nu) * shear)
     }
 
     /// ∫(y_c−y)²/s³ dy and ∫dy/s from the root section to where `load` crosses the middle.
     fn beam(&self, load: &FlankLoad) -> [f64; 2] {
-        let top = load.height;
-        let mut bending = 0.0;
-        let mut shear = 0.0;
         if load.lever < 0.0 {
             // a load that crosses the middle below the root section relieves a tooth of constant chord
             let share = load.lever / self.root_chord;
-            (bending, shear) = (share * share * share / 3.0, share);
+            return [share * share * share / 3.0, share];
         }
-        for span in self.spans() {
-            let end = span.at_height(top);
-            if end <= span.from {
-                break;
-            }
-            let middle = 0.5 * (span.from + end);
-            // in two parts: a tip that is nearly pointed asks for it
-            for [from, to] in [[span.from, middle], [middle, end]] {
-                let [b, s] = integrate(from, to, |u| {
-                    let point = span.piece.at(u);
-                    let (arm, chord) = (top - point.height, 2.0 * point.half_chord);
-                    let slenderness = arm / chord;
-                    [slenderness * slenderness / chord * point.rise, point.rise / chord]
-                });
-                bending += b;
-                shear += s;
-            }
-        }
-        [bending, shear]
+        self.bending.at(load.height)
+    }
+
+    /// cos²τ and tan²τ of `load`, as y_c = r_b/cosτ.
+    fn squares(&self, load: &FlankLoad) -> (f64, f64) {
+        let per_cosine = load.height / self.base_radius;
+        (1.0 / (per_cosine * per_cosine), (per_cosine - 1.0) * (per_cosine + 1.0))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::SectionPair;
 use super::beams::{LEAST_RANGE, are_beams, boundary};
-use crate::geometry::{CornerTravel, Gear, Pair};
+use crate::geometry::{CornerTravel, Pair};
 
 /// Steps per base pitch and number of steps, in the search for the end of the corner's travel.
 const SEARCH: (f64, i32) = (64.0, 256);
@@ -16,7 +16,6 @@ const SEARCH: (f64, i32) = (64.0, 256);
 pub struct TipCorner {
     own: usize,
     travel: CornerTravel,
-    mate: Gear,
     outer_cone: f64,
     /// Roll length of the own tooth at its tip [m].
     tip_roll: f64,
@@ -33,7 +32,6 @@ impl TipCorner {
         Self {
             own,
             travel,
-            mate: pair.gears[mate],
             outer_cone: pair.outer_cone,
             tip_roll: teeth.sections[own].pitch_roll + pair.outer_cone * travel.end,
             mate_pitch,
@@ -48,7 +46,7 @@ impl TipCorner {
 
     /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad].
     pub fn mate_arc(&self, delta: f64) -> f64 {
-        self.mate.action_arc(self.travel.at(delta).mate_polar)
+        self.travel.mate_arc(delta)
     }
 
     /// Roll lengths of both gears [m] at Δ = `delta` [rad].

@@ -1,16 +1,16 @@
 //! Stiffness of a tooth pair from the geometry of its teeth and the elastic constants E and ν.
 //!
-//! `section` and `profile` describe the tooth; `compliance` loads it, on the path and past its ends by a tip `corner`, where
-//! both teeth are `beams`; `table` and `beyond` store the result, `laws` make springs of it. All per unit of face width;
-//! slices are similar, so one section holds for all cone distances.
+//! `section` and `profile` describe the tooth, and `bending` integrates over it; `compliance` loads it, on the path and past its
+//! ends by a tip `corner`, where both teeth are `beams`; `table` and `past_end` store the result, `laws` make springs of it. All
+//! per unit of face width; slices are similar, so one section holds for all cone distances.
 
 mod beams;
+mod bending;
 mod compliance;
 mod corner;
 mod laws;
 mod past_end;
 mod profile;
-mod quadrature;
 mod section;
 mod spline;
 mod table;

@@ -3,7 +3,7 @@
 //! The tooth stands on the y axis, its gear's axis is the origin. Each piece gives half the chord x and the height y of
 //! a point with dy/du, as a function of a parameter u in which it is smooth and y rises strictly.
 
-use crate::numeric::{cos, sin, sqrt};
+use crate::numeric::{sin_cos, sqrt};
 
 /// A point of the profile.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl Piece {
     pub fn at(&self, u: f64) -> ProfilePoint {
         match *self {
             Self::Arc { x, y, radius } => {
-                let (s, c) = (sin(u), cos(u));
+                let (s, c) = sin_cos(u);
                 ProfilePoint { half_chord: x - radius * c, height: y + radius * s, rise: radius * c }
             }
             Self::Trochoid { pitch, depth, radius, offset, half_pitch } => {
@@ -72,14 +72,14 @@ impl Piece {
                 let (p, q) = (u * k, pitch - depth * k);
                 let (dp, dq) = (k + u * dk, -depth * dk);
                 let turn = half_pitch + (u - offset) / pitch;
-                let (s, c) = (sin(turn), cos(turn));
+                let (s, c) = sin_cos(turn);
                 let half_chord = q * s - p * c;
                 ProfilePoint { half_chord, height: q * c + p * s, rise: dq * c + dp * s - half_chord / pitch }
             }
             Self::Radial { slope } => ProfilePoint { half_chord: slope * u, height: u, rise: 1.0 },
             Self::Involute { base, angle } => {
                 let tau = angle - u / base;
-                let (s, c) = (sin(tau), cos(tau));
+                let (s, c) = sin_cos(tau);
                 ProfilePoint { half_chord: base * s + u * c, height: base * c - u * s, rise: u * c / base }
             }
         }
@@ -95,37 +95,4 @@ pub struct Span {
     pub from: f64,
     /// Parameter at its upper end.
     pub to: f64,
-}
-
-/// Bisections and Newton steps that find a height: halving alone would end the search.
-const SEARCH: usize = 80;
-
-impl Span {
-    /// Parameter at which the piece has height `y` [m]; the end nearest to it if it lies outside.
-    pub fn at_height(&self, y: f64) -> f64 {
-        let (mut low, mut high) = (self.from, self.to);
-        if y <= self.piece.at(low).height {
-            return low;
-        }
-        if y >= self.piece.at(high).height {
-            return high;
-        }
-        let mut u = 0.5 * (low + high);
-        for _ in 0..SEARCH {
-            let point = self.piece.at(u);
-            let error = point.height - y;
-            if error > 0.0 {
-                high = u;
-            } else {
-                low = u;
-            }
-            let newton = u - error / point.rise;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - u).abs() <= 1e-15 * (self.to - self.from).abs() || next == u {
-                return next;
-            }
-            u = next;
-        }
-        u
-    }
 }

@@ -4,9 +4,10 @@
 //! γ_b = (π/4 + x tanα) m/r + inv α. A point of the flank at radius R has the roll length ρ = √(R² − r_b²). The normal of the
 //! flank there touches the base circle at the angle τ = γ_b − ρ/r_b from the tooth's middle.
 
+use super::bending::Bending;
 use super::{Piece, Span};
 use crate::geometry::Pair;
-use crate::numeric::{FRAC_PI_2, PI, asin, atan2, cos, sin, sqrt, tan};
+use crate::numeric::{FRAC_PI_2, PI, asin, atan2, cos, sin, sin_cos, sqrt, tan};
 use crate::problem::Problem;
 
 /// Shape of the teeth's roots.
@@ -48,6 +49,8 @@ pub struct ToothSection {
     pub root_chord: f64,
     /// The profile from the root section up.
     spans: Vec<Span>,
+    /// Bending and shear over the profile.
+    pub(super) bending: Bending,
 }
 
 /// Load normal to the flank at a point of a section.
@@ -110,6 +113,7 @@ impl SectionSpec {
             root_height: 0.0,
             root_chord: 0.0,
             spans: Vec::new(),
+            bending: Bending::default(),
         }
     }
 
@@ -198,6 +202,7 @@ impl ToothSection {
         // up to τ = −π/2, where the normal is parallel to the tooth's middle line: dy/dρ = 0, far beyond any tip
         let end = self.base_radius * (self.base_half_angle + FRAC_PI_2);
         self.spans.push(Span { piece, from: roll, to: end });
+        self.bending = Bending::new(&self.spans, self.root_chord);
     }
 
     /// The profile from the root section up.
@@ -208,8 +213,9 @@ impl ToothSection {
     /// Load on the flank at roll length `roll` [m].
     pub fn load(&self, roll: f64) -> FlankLoad {
         let angle = self.base_half_angle - roll / self.base_radius;
-        let height = self.base_radius / cos(angle);
-        FlankLoad { angle, depth: roll + self.base_radius * tan(angle), height, lever: height - self.root_height }
+        let (s, c) = sin_cos(angle);
+        let height = self.base_radius / c;
+        FlankLoad { angle, depth: roll + height * s, height, lever: height - self.root_height }
     }
 }
 
