@@ -12,6 +12,7 @@ mod exchange;
 mod exchange_errors;
 mod exchange_events;
 mod experiment;
+mod held_inputs;
 mod hostile_states;
 mod instances;
 mod logging;

@@ -9,6 +9,9 @@
 pub mod acting;
 mod bodies;
 mod driven;
+#[cfg(test)]
+#[path = "tests/driven.rs"]
+mod driven_tests;
 mod dry_friction;
 mod energy_floor;
 #[cfg(test)]

@@ -3,7 +3,6 @@
 //! Torques add to the accelerations, so where nothing else changes, one evaluation ends the step before the change and begins the next
 //! one. The step ahead is completed up to the change, with the torques that acted in it, and the integration goes on.
 
-use super::imposed::jump_of_accelerations;
 use super::timeline;
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
@@ -15,6 +14,38 @@ pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64>
     let effects = model.body_effects();
     let begins_anew = state.input_derivatives.is_some() || effects.may_rub_in(state) || effects.scale_carrier_inputs();
     if begins_anew { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
+}
+
+/// Jump of the accelerations where inputs change from `before` to `inputs` [rad/s²]; `None` if more than torques change.
+pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
+    let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
+    let [before, inputs] = [before, inputs].map(|inputs| acting(model, inputs));
+    let with_torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..before };
+    if with_torques != inputs {
+        return None;
+    }
+    let wheel = |s: usize| if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
+    let [left, right, carrier] = inputs.torques_since(&before).map(f64::abs);
+    Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
+}
+
+/// The inputs that act in the scene; all others are zero, so that a value that nothing feels changes no step.
+fn acting(model: &Model, inputs: &Inputs) -> Inputs {
+    let (plan, parameters) = (&model.ideal.plan, &model.parameters);
+    let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
+    let is_warm = model.thermal.is_some();
+    Inputs {
+        carrier_speed: given(plan.carrier_imposed, inputs.carrier_speed),
+        carrier_torque: given(!plan.carrier_imposed, inputs.carrier_torque),
+        load_torque: [0, 1].map(|s| given(!plan.side_imposed[s], inputs.load_torque[s])),
+        side_speed: [0, 1].map(|s| given(plan.side_imposed[s], inputs.side_speed[s])),
+        planet_spin: given(plan.spin_imposed, inputs.planet_spin),
+        lock: inputs.lock,
+        brake_torque: inputs.brake_torque.map(|torque| given(model.body_effects().has_brakes, torque)),
+        fault: given(parameters.effects.tooth_fault, inputs.fault),
+        ambient_change: given(is_warm, inputs.ambient_change),
+        sump_change: given(is_warm && parameters.specs.warm_up.sump_given, inputs.sump_change),
+    }
 }
 
 /// Takes a change at the present up; returns the present on the `clock` [s].

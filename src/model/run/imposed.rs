@@ -43,18 +43,6 @@ pub fn imposed_speeds<'a>(
     ends.chain(carrier).chain(planets)
 }
 
-/// Jump of the accelerations where inputs change from `before` to `inputs` [rad/s²]; `None` if more than torques change.
-pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
-    let torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..*before };
-    if torques != *inputs {
-        return None;
-    }
-    let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
-    let wheel = |s: usize| if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
-    let [left, right, carrier] = inputs.torques_since(before).map(f64::abs);
-    Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
-}
-
 /// Whether all imposed speeds equal their commands.
 pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let (plan, layout) = (&model.ideal.plan, &model.layout);

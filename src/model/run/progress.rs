@@ -19,7 +19,7 @@ pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State,
     let before = state.pending_step.as_ref().map(|step| step.inputs).or(state.pause.map(|pause| pause.inputs));
     complete(model, (state, watched));
     if let Some(before) = before {
-        state.control.jump(imposed::jump_of_accelerations(model, &before, inputs));
+        state.control.jump(change::jump_of_accelerations(model, &before, inputs));
     }
     state.pause = None;
     imposed::jump(model, inputs, state);
