@@ -264,9 +264,13 @@ impl BodyEffects {
     /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
     /// holds, derivatives of inputs.
     pub fn act_in(&self, state: &State) -> bool {
+        state.input_derivatives.is_some() || self.act_on_bodies_in(state)
+    }
+
+    /// True if effects act on bodies in `state`: effects of the scene, a broken tooth, a lock that is commanded or still holds.
+    pub fn act_on_bodies_in(&self, state: &State) -> bool {
         self.has_effects
             || state.is_tooth_broken
-            || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
