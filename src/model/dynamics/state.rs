@@ -269,10 +269,12 @@ impl BodyEffects {
 
     /// True if effects act on bodies in `state`: effects of the scene, a broken tooth, a lock that is commanded or still holds.
     pub fn act_on_bodies_in(&self, state: &State) -> bool {
-        self.has_effects
-            || state.is_tooth_broken
-            || state.lock > 0.0
-            || state.friction.iter().any(|friction| friction.stiffness > 0.0)
+        self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
+    }
+
+    /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that still holds.
+    pub fn may_rub_in(&self, state: &State) -> bool {
+        self.has_friction || state.lock > 0.0 || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
 }
 

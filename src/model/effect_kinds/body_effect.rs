@@ -83,6 +83,10 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn is_structure(&self) -> bool {
         false
     }
+    /// Index of its heat in the ledger if it is nothing but the torques of half-shafts; `None` for all other effects.
+    fn heat_of_half_shafts(&self) -> Option<usize> {
+        None
+    }
     /// Energy it stores [J].
     fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0

@@ -29,7 +29,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
-    if !model.body_effects().act_on_bodies_in(state) {
+    if !model.body_effects().may_rub_in(state) {
         return;
     }
     let before = state.friction;
