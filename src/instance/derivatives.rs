@@ -4,27 +4,41 @@ use super::sensitivity::{Slopes, check_built};
 use super::unknowns::{finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
-use crate::model::{InputDerivatives, LedgerReadings, ORDERS};
-use crate::variables::{Access, OutputSource, Variable, accepted, table};
+use crate::declaration::Range;
+use crate::model::{InputDerivatives, InputField, LedgerReadings, ORDERS};
+use crate::variables::{Access, OutputSource, Table, Variable, accepted, table};
 
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
 
 impl Snapshot {
-    /// Takes over the inputs that their derivatives have reached in a step. An input that has passed a limit by rounding gets the
-    /// limit.
-    pub fn take_reached_inputs(&mut self) {
+    /// Takes over the inputs that their derivatives have reached in a step. Those in the mask `not_plain` may have passed a limit by
+    /// rounding and then get the limit; without any, the derivatives are the same as before.
+    pub fn take_reached_inputs(&mut self, not_plain: u32) {
         let Some(simulation) = &mut self.simulation else { return };
-        (self.inputs, self.input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
-        for &index in &table().inputs {
-            let row = &table().rows[index];
-            if let Access::Input(slot) = row.access {
-                let reached = slot(&mut self.inputs);
-                *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
-            }
+        self.inputs = *simulation.inputs();
+        if not_plain == 0 {
+            return;
+        }
+        self.input_derivatives = simulation.input_derivatives().copied();
+        for (_, row, slot) in inputs_in(not_plain) {
+            let reached = slot(&mut self.inputs);
+            *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
         }
         simulation.set_inputs(&self.inputs);
     }
+}
+
+/// Bit, row and place of each input in `mask`, ascending; bits beyond the inputs are ignored.
+fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, InputField)> {
+    let Table { rows, inputs, .. } = table();
+    std::iter::from_fn(move || {
+        let index = inputs.get(mask.trailing_zeros() as usize)?;
+        let bit = mask & mask.wrapping_neg();
+        mask ^= bit;
+        Some((bit, &rows[*index]))
+    })
+    .filter_map(|(bit, row)| if let Access::Input(slot) = row.access { Some((bit, row, slot)) } else { None })
 }
 
 /// Bit of an input in `Snapshot::derivatives_set`.
@@ -65,47 +79,70 @@ impl Instance {
             }
         }
         let now = &mut self.now;
-        let mut input_derivatives = now.input_derivatives.unwrap_or(InputDerivatives::ZERO);
+        let input_derivatives = now.input_derivatives.get_or_insert(InputDerivatives::ZERO);
+        let mut may_be_zero = false;
         for ((reference, order), value) in references.iter().zip(orders.iter()).zip(values.iter()) {
             if let Access::Input(slot) = row(reference)?.access {
                 *slot(&mut input_derivatives.rates[order as usize - 1]) = value;
-                now.derivatives_set |= input_bit(reference);
+                may_be_zero |= value == 0.0;
+                let bit = input_bit(reference);
+                now.derivatives_set |= bit;
+                self.changing |= bit;
             }
         }
-        self.replace_input_derivatives(input_derivatives);
+        self.share_input_derivatives(may_be_zero);
         Ok(())
     }
 
     /// An input set without derivatives since the last step is held constant.
     pub fn end_derivatives_of(&mut self, references: InputArray<u32>) {
-        let Some(mut input_derivatives) = self.now.input_derivatives else { return };
-        for reference in references.iter().filter(|&r| self.now.derivatives_set & input_bit(r) == 0) {
-            if let Ok(Variable { access: Access::Input(slot), .. }) = row(reference) {
+        let Some(input_derivatives) = &mut self.now.input_derivatives else { return };
+        for reference in references.iter() {
+            let bit = input_bit(reference);
+            if self.now.derivatives_set & bit == 0
+                && let Ok(Variable { access: Access::Input(slot), .. }) = row(reference)
+            {
                 input_derivatives.rates.iter_mut().for_each(|rates| *slot(rates) = 0.0);
+                self.changing &= !bit;
             }
         }
-        self.replace_input_derivatives(input_derivatives);
+        self.share_input_derivatives(true);
     }
 
-    fn replace_input_derivatives(&mut self, input_derivatives: InputDerivatives) {
+    /// Gives the simulation the derivatives. Without any that is not 0, inputs are constant; this is tested if all derivatives
+    /// `may_be_zero`.
+    fn share_input_derivatives(&mut self, may_be_zero: bool) {
         let now = &mut self.now;
-        now.input_derivatives = (input_derivatives != InputDerivatives::ZERO).then_some(input_derivatives);
+        if self.changing == 0 || may_be_zero && now.input_derivatives.as_ref() == Some(&InputDerivatives::ZERO) {
+            now.input_derivatives = None;
+        }
         if let (Phase::StepComplete, Some(simulation)) = (now.phase, &mut now.simulation) {
-            simulation.set_input_derivatives(now.input_derivatives);
+            simulation.share_input_derivatives(now.input_derivatives.as_ref());
         }
     }
 
-    /// Refuses a step of `h` [s] in which an input would leave its range.
-    pub fn check_inputs_within_step(&self, h: f64) -> CallResult {
-        let Some(input_derivatives) = self.now.input_derivatives else { return Ok(()) };
-        let [mut first, mut second] = input_derivatives.rates;
-        for &index in &table().inputs {
-            let row = &table().rows[index];
-            let Access::Input(slot) = row.access else { continue };
-            let peak = -*slot(&mut first) / *slot(&mut second);
+    /// Refuses a step of `h` [s] in which an input would leave its range. Returns the inputs that are not plain in this step, one bit
+    /// for each in the order of the table: a plain input is constant, or changes at a constant rate far from its limits.
+    pub fn check_inputs_within_step(&mut self, h: f64) -> CallResult<u32> {
+        let mut not_plain = 0;
+        let Some(input_derivatives) = &mut self.now.input_derivatives else { return Ok(not_plain) };
+        for (bit, row, slot) in inputs_in(self.changing) {
+            let [first, second] = input_derivatives.rates.each_mut().map(|rates| *slot(rates));
+            if first == 0.0 && second == 0.0 {
+                self.changing ^= bit;
+                continue;
+            }
+            let last = *slot(&mut self.now.inputs);
+            // twice the change, so that rounding of times does not matter
+            let twice = 2.0 * h * first.abs();
+            let is_far = |range: Range| range.min < last - twice && last + twice < range.max;
+            if second == 0.0 && row.range.is_some_and(is_far) {
+                continue;
+            }
+            not_plain |= bit;
+            let peak = -first / second;
             for time in [h, peak].into_iter().filter(|&time| time > 0.0 && time <= h) {
-                let (mut inputs, _) = input_derivatives.after(time, &self.now.inputs);
-                let (reached, last) = (*slot(&mut inputs), *slot(&mut { self.now.inputs }));
+                let reached = *slot(&mut input_derivatives.after(time, &self.now.inputs).0);
                 accepted(row, reached, last).map_err(|problem| {
                     CallError::error(format!(
                         "with its derivatives, an input leaves its range within the step: {problem}"
@@ -113,7 +150,7 @@ impl Instance {
                 })?;
             }
         }
-        Ok(())
+        Ok(not_plain)
     }
 
     /// Derivatives of outputs by time.

@@ -36,6 +36,8 @@ pub struct Instance {
     announced: Option<Experiment>,
     /// Warnings that are logged once in a run, so far.
     reported: Reported,
+    /// Inputs that may have derivatives, one bit for each in the order of the table; some may not have any.
+    pub(super) changing: u32,
     /// Variables of which the log says that their values change nothing.
     unfelt: Vec<&'static str>,
 }
@@ -62,6 +64,7 @@ impl Instance {
             cache: Share::new(),
             announced: None,
             reported: Reported::default(),
+            changing: 0,
             unfelt: Vec::new(),
         }
     }
@@ -235,7 +238,7 @@ impl Instance {
     pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
         let time = self.simulation()?.time();
         self.check_step(time, point, h)?;
-        self.check_inputs_within_step(h)?;
+        let not_plain = self.check_inputs_within_step(h)?;
         let until = point + h;
         // a step below the resolution of time changes nothing
         if until <= time {
@@ -243,13 +246,10 @@ impl Instance {
         }
         let now = &mut self.now;
         let Some(simulation) = &mut now.simulation else { return Ok(()) };
-        if simulation.input_derivatives() != now.input_derivatives.as_ref() {
-            simulation.set_input_derivatives(now.input_derivatives);
-        }
         let outcome = simulation.advance(until);
         now.derivatives_set = 0;
         if now.input_derivatives.is_some() {
-            now.take_reached_inputs();
+            now.take_reached_inputs(not_plain);
         }
         if let Err(failure) = outcome {
             return Err(self.step_failed(&failure));
@@ -307,6 +307,7 @@ impl Instance {
             restored.follow(announced, &self.cache)?;
         }
         self.now = restored;
+        self.changing = u32::MAX;
         // the host that saved the state may not have handled events, or this host does not
         let lacks_values = self.now.discrete.is_none() && self.now.phase.is_running();
         if lacks_values || !self.allowed.events { self.publish() } else { Ok(()) }

@@ -127,7 +127,11 @@ impl Snapshot {
         if let (Some(state), accepted) = running {
             let resumed =
                 Simulation::resume_with(&self.effective(&self.parameters), &self.inputs, *state, &given(cache));
-            let resumed = resumed.map_err(|p| problem::list(&p))?;
+            let mut resumed = resumed.map_err(|p| problem::list(&p))?;
+            // a step does not compare both
+            if self.kind == Kind::CoSimulation {
+                resumed.set_input_derivatives(self.input_derivatives);
+            }
             self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
         }
         Ok(())

@@ -75,7 +75,7 @@ impl Shape {
     /// That of `system`.
     #[inline(always)]
     pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
-        let (Range { start, end }, count) = (system.inner(), system.degrees_of_freedom().min(N));
+        let (Range { start, end }, count) = (system.inner(), system.rows().min(N));
         Self { first: start.min(count), end: end.min(count), count }
     }
 
@@ -89,6 +89,12 @@ impl Shape {
     #[inline(always)]
     fn inner(&self) -> Range<usize> {
         self.first..self.end
+    }
+
+    /// True if there are inner ones.
+    #[inline(always)]
+    fn has_inner(&self) -> bool {
+        self.first < self.end
     }
 
     /// The others, before and behind them: two plain loops are faster than one through both.
@@ -120,7 +126,7 @@ impl<const N: usize> Inverse<N> {
             }
         }
         // [S, −B P⁻¹]
-        for others in shape.others() {
+        for others in shape.others().into_iter().filter(|_| shape.has_inner()) {
             for i in others {
                 let row = a[i];
                 let mut taken = [0.0; N];
@@ -161,10 +167,12 @@ impl<const N: usize> Inverse<N> {
     #[inline(always)]
     pub fn solve(&self, shape: Shape, b: &mut [f64; N]) {
         let (mut x, mut left) = ([0.0; N], *b);
-        add_in_pairs(&self.columns, &shape.inner(), b, &mut x);
-        add_times(&mut left, 1.0, &x);
-        for others in shape.others() {
-            x[others].fill(0.0);
+        if shape.has_inner() {
+            add_in_pairs(&self.columns, &shape.inner(), b, &mut x);
+            add_times(&mut left, 1.0, &x);
+            for others in shape.others() {
+                x[others].fill(0.0);
+            }
         }
         add(&self.columns, shape, &left, &mut x);
         *b = x;
@@ -210,7 +218,9 @@ fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mu
 #[inline(always)]
 pub fn times<const N: usize>(shape: Shape, columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let mut sum = [0.0; N];
-    add_in_pairs(columns, &shape.inner(), x, &mut sum);
+    if shape.has_inner() {
+        add_in_pairs(columns, &shape.inner(), x, &mut sum);
+    }
     add(columns, shape, x, &mut sum);
     sum
 }

@@ -120,6 +120,13 @@ pub trait SecondOrder<const N: usize> {
         N
     }
 
+    /// Rows of the linear systems, at least the degrees of freedom. Rows beyond have zeros and change nothing; a number that is known
+    /// at compile time makes shorter and faster code.
+    #[inline]
+    fn rows(&self) -> usize {
+        self.degrees_of_freedom()
+    }
+
     /// Degrees of freedom that depend on each other little and are eliminated first.
     #[inline]
     fn inner(&self) -> Range<usize> {

@@ -10,6 +10,8 @@ mod differential;
 mod felt;
 mod gear_cache;
 mod gear_parameters;
+mod ideal_half_shafts;
+mod ideal_lines;
 mod input_derivatives;
 mod mesh_history;
 mod messages;

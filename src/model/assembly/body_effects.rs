@@ -21,6 +21,8 @@ pub struct BodyEffects {
     pub has_effects: bool,
     /// Whether wheels have brakes.
     pub has_brakes: bool,
+    /// True if there is dry friction other than that of a lock.
+    pub has_friction: bool,
     /// The oil, where an effect asks for its viscosity.
     oil: Option<OilSpec>,
 }
@@ -33,6 +35,7 @@ impl BodyEffects {
             has_brakes: friction.iter().any(|source| source.wheel.is_some()),
             has_effects: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
+            has_friction: friction.iter().any(|source| !source.by_lock),
             friction,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
             oil: effects.oil_acts().then_some(p.oil),
@@ -43,6 +46,7 @@ impl BodyEffects {
     pub fn tune(&mut self, effects: &SceneEffects) {
         self.friction.clear();
         self.friction.extend(effects.friction());
+        self.has_friction = self.friction.iter().any(|source| !source.by_lock);
     }
 
     /// Speed that an imposed carrier has at the positions `q` under its command [rad/s].

@@ -1,11 +1,11 @@
 //! The ideal differential: no teeth, Willis' equation as a constraint, two degrees of freedom ω_c and ψ̇.
 //!
 //! With ω_L,R = ω_c ± r ψ̇, r = z_p/z_s, the kinetic energy gives M (ω̇_c, ψ̈)ᵀ = (T_c − T_L − T_R, r (T_R − T_L) + T_ψ)ᵀ,
-//! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constant between communication
-//! points, so speeds are linear and angles quadratic in time: the step is exact.
+//! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constants or parabolas of time between
+//! communication points, so speeds and angles are polynomials of time: the step is exact.
 
 use super::Inertias;
-use crate::model::scene::{CARRIER, Inputs, PLANET, Plan};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, PLANET, Plan};
 
 /// Constants of the ideal differential.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub struct Ideal {
     pub ratio: f64,
 }
 
-/// Accelerations and the torques of the drives.
+/// Accelerations and the torques of the drives, or their derivatives with respect to time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IdealMotion {
     /// ω̇_c [rad/s²].
@@ -29,6 +29,8 @@ pub struct IdealMotion {
     pub carrier_torque: f64,
     /// Torque that imposes the spin, all planets together [N·m].
     pub spin_torque: f64,
+    /// Sums of all torques that work at ω_c and at ψ̇ [N·m].
+    pub net: [f64; 2],
 }
 
 impl Ideal {
@@ -61,16 +63,37 @@ impl Ideal {
         [m.carrier + self.ratio * m.spin, m.carrier - self.ratio * m.spin]
     }
 
-    /// Accelerations under `inputs`.
+    /// Accelerations under constant `inputs`.
     pub fn motion(&self, inputs: &Inputs) -> IdealMotion {
+        self.motion_along(self.mass(), inputs, &Inputs::ZERO)
+    }
+
+    /// Accelerations under inputs that are parabolas of time, and their derivatives with respect to time, by order.
+    #[inline]
+    pub fn course(&self, inputs: &Inputs, derivatives: &InputDerivatives) -> [IdealMotion; 3] {
+        let mass = self.mass();
+        let [first, second] = &derivatives.rates;
+        // accelerations are linear in inputs and their rates; most hosts give lines, which have no second derivatives
+        let [left, right] = second.load_torque;
+        let all = [second.carrier_speed, second.planet_spin, second.carrier_torque, left, right];
+        let is_line = all.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 == 0;
+        [
+            self.motion_along(mass, inputs, first),
+            self.motion_along(mass, first, second),
+            if is_line { IdealMotion::default() } else { self.motion_along(mass, second, &Inputs::ZERO) },
+        ]
+    }
+
+    /// Accelerations under `inputs`, with those of imposed speeds given by the `rates` of the inputs [per s].
+    #[inline]
+    fn motion_along(&self, [m11, m12, m22]: [f64; 3], inputs: &Inputs, rates: &Inputs) -> IdealMotion {
         let r = self.ratio;
         let [left, right] = inputs.load_torque;
-        let [m11, m12, m22] = self.mass();
         let (f1, f2) = (inputs.carrier_torque - left - right, r * (right - left));
         let (carrier, spin) = match (self.plan.carrier_imposed, self.plan.spin_imposed) {
-            (true, true) => (0.0, 0.0),
-            (true, false) => (0.0, f2 / m22),
-            (false, true) => (f1 / m11, 0.0),
+            (true, true) => (rates.carrier_speed, rates.planet_spin),
+            (true, false) => (rates.carrier_speed, (f2 - m12 * rates.carrier_speed) / m22),
+            (false, true) => ((f1 - m12 * rates.planet_spin) / m11, rates.planet_spin),
             (false, false) => {
                 let determinant = m11 * m22 - m12 * m12;
                 ((f1 * m22 - f2 * m12) / determinant, (f2 * m11 - f1 * m12) / determinant)
@@ -79,7 +102,8 @@ impl Ideal {
         let carrier_torque =
             if self.plan.carrier_imposed { m11 * carrier + m12 * spin + left + right } else { inputs.carrier_torque };
         let spin_torque = if self.plan.spin_imposed { m12 * carrier + m22 * spin - f2 } else { 0.0 };
-        IdealMotion { carrier, spin, carrier_torque, spin_torque }
+        let net = [carrier_torque - (left + right), spin_torque + f2];
+        IdealMotion { carrier, spin, carrier_torque, spin_torque, net }
     }
 
     /// Sets side gear speeds by Willis' equation.

@@ -6,16 +6,27 @@
 //! f = (1 − W M) P_c.
 
 use super::{BodyEffects, Ideal};
-use crate::model::scene::{ATTACHED_COUNT, Layout, PLANET, Plan};
+use crate::integrate::Matrix;
+use crate::model::effect_kinds::{BodyMotion, Slopes};
+use crate::model::scene::{ATTACHED_COUNT, Inputs, Layout, PLANET, Plan};
+use crate::numeric::lanes;
 
-/// Most degrees of freedom, with ends of half-shafts, rounded up to whole vectors of any width.
-pub const MOST: usize = 8;
-
-// planets are one group, without pins
-const _: () = assert!(PLANET + 1 + ATTACHED_COUNT <= MOST);
+/// Most degrees of freedom: side gears, carrier, planets in one group, and ends of half-shafts.
+pub const MOST: usize = PLANET + 1 + ATTACHED_COUNT;
 
 /// Motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
+
+/// A scene whose forces are linear: only half-shafts act.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear {
+    /// Index of their heat in the ledger.
+    pub heat_index: usize,
+    /// Derivatives of the accelerations with respect to positions.
+    pub by_position: Matrix<MOST>,
+    /// Derivatives of the accelerations with respect to velocities.
+    pub by_velocity: Matrix<MOST>,
+}
 
 /// Constants of an ideal differential with effects.
 #[derive(Clone, Debug)]
@@ -30,10 +41,14 @@ pub struct IdealWithEffects {
     pub rigid_end: [f64; 2],
     /// r = z_p/z_s.
     pub ratio: f64,
-    /// W: accelerations by forces.
+    /// W: accelerations by forces, by columns.
     pub mobility: [[f64; MOST]; MOST],
     /// Columns of f: for the carrier, the spin and both ends; zero where the motion is not imposed.
     pub follow: [[f64; MOST]; IMPOSED],
+    /// Constants of a scene in which only half-shafts act, apart from dry friction.
+    pub linear: Option<Box<Linear>>,
+    /// True if any motion is imposed.
+    pub is_imposed: bool,
     /// Effects on bodies.
     pub body_effects: BodyEffects,
 }
@@ -49,8 +64,8 @@ impl IdealWithEffects {
         let n = layout.count();
         let r = ideal.ratio;
         // columns of P
-        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]];
+        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0]];
         columns.extend((0..ATTACHED_COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
         let is_free = |k: usize, column: &[f64; MOST]| !(k < IMPOSED && imposed[k]) && *column != [0.0; MOST];
@@ -71,6 +86,8 @@ impl IdealWithEffects {
             ratio: r,
             mobility: [[0.0; MOST]; MOST],
             follow: [[0.0; MOST]; IMPOSED],
+            linear: None,
+            is_imposed: imposed.contains(&true),
             body_effects,
         };
         for i in 0..n {
@@ -78,9 +95,51 @@ impl IdealWithEffects {
                 this.follow[k][i] = follow[(i, k)];
             }
             for j in 0..n {
-                this.mobility[i][j] = w[(i, j)];
+                this.mobility[j][i] = w[(i, j)];
             }
         }
+        if let [effect] = &this.body_effects.forces[..]
+            && let Some(heat_index) = effect.heat_of_half_shafts()
+        {
+            this.linear = Some(Box::new(this.with_half_shafts(heat_index)));
+        }
         this
+    }
+
+    /// Constants of the scene if only half-shafts act, with the index of their heat.
+    fn with_half_shafts(&self, heat_index: usize) -> Linear {
+        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
+        let mut imposed = [[0.0; MOST]; 2];
+        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
+        let motion = BodyMotion {
+            q: &[0.0; MOST],
+            v: &[0.0; MOST],
+            layout: &self.layout,
+            inputs: &Inputs::ZERO,
+            input_rates: &Inputs::ZERO,
+            oil_viscosity: None,
+        };
+        self.body_effects.forces.iter().for_each(|effect| effect.slopes(&motion, &mut slopes));
+        let [by_position, by_velocity] =
+            [(by_position, imposed[0]), (by_velocity, imposed[1])].map(|(forces, imposed)| {
+                let mut product = [[0.0; MOST]; MOST];
+                self.accelerations_by(&forces, &imposed, &mut product);
+                product
+            });
+        Linear { heat_index, by_position, by_velocity }
+    }
+
+    /// Writes derivatives of the accelerations to `product`, from those of the forces and of the carrier's imposed acceleration.
+    pub fn accelerations_by(&self, forces: &Matrix<MOST>, imposed: &[f64; MOST], product: &mut Matrix<MOST>) {
+        for (i, row) in product.iter_mut().enumerate() {
+            let mut sum = [0.0; MOST];
+            for (k, force) in forces.iter().enumerate() {
+                lanes::add_times(&mut sum, self.mobility[k][i], force);
+            }
+            if self.plan.carrier_imposed {
+                lanes::add_times(&mut sum, self.follow[0][i], imposed);
+            }
+            *row = sum;
+        }
     }
 }

@@ -46,26 +46,44 @@ pub struct Acting {
 
 impl Acting {
     /// What acts at `state` under `inputs`, with the effects `bodies` where there are any.
-    #[inline]
+    #[inline(never)]
     pub fn new(body_effects: Option<&BodyEffects>, inputs: &Inputs, state: &State) -> Self {
-        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        let (input_derivatives, driven) =
-            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
-        let friction = body_effects
-            .filter(|effects| effects.may_rub_in(state))
-            .map(|effects| effects.friction((state.lock, &state.thermal.felt), &inputs, &input_derivatives));
-        let rubs = friction.as_ref().is_some_and(Friction::is_any);
-        let oil_viscosity = body_effects.and_then(|effects| effects.oil_viscosity(&state.thermal.felt));
+        let mut acting = Self::without_friction(inputs, state);
+        if let Some(body_effects) = body_effects {
+            acting.add(body_effects, state);
+        }
+        acting
+    }
+
+    /// Inputs that act at `state`. It is large: within steps it is written where it stays.
+    #[inline(always)]
+    pub fn without_friction(inputs: &Inputs, state: &State) -> Self {
         Self {
-            inputs,
-            input_derivatives,
-            driven,
+            inputs: Inputs { carrier_speed: state.carrier_command, ..*inputs },
+            input_derivatives: state.input_derivatives.unwrap_or(InputDerivatives::ZERO),
+            driven: state.input_derivatives.is_some(),
             change: [0.0; 3],
             friction_state: state.friction,
-            friction,
-            rubs,
-            oil_viscosity,
+            friction: None,
+            rubs: false,
+            oil_viscosity: None,
         }
+    }
+
+    /// Adds what effects on bodies contribute at `state`: dry friction, if there may be any, and the viscosity of the oil.
+    pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
+        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.felt);
+        if body_effects.may_rub_in(state) {
+            let at = (state.lock, &state.thermal.felt);
+            let friction = body_effects.friction(at, &self.inputs, &self.input_derivatives);
+            self.rubs = friction.is_any();
+            self.friction = Some(friction);
+        }
+    }
+
+    /// True if dry friction neither acts nor holds anything.
+    pub fn is_free(&self) -> bool {
+        self.friction.is_none()
     }
 
     /// Lets friction feel other `temperatures` [K].

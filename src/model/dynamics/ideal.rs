@@ -6,11 +6,11 @@
 use super::energy_floor::energy_floor;
 use super::{Acted, Acting, Jacobian, State};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
-use crate::model::assembly::Ideal;
-use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, MOST};
+use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, Linear, MOST};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, InputDerivatives, Inputs, Layout, PLANET, Plan};
+use crate::model::effect_kinds::{Action, BodyMotion, FrictionSource, Slopes, SurfaceLoad};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, PLANET, Plan};
+use crate::numeric::lanes;
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,10 +31,13 @@ pub struct IdealEquations<'a> {
     pub(in crate::model) acting: Acting,
 }
 
+/// Inputs at one instant, and their rates [per s].
+type InputsNow<'a> = (&'a Inputs, &'a Inputs);
+
 impl<'a> IdealEquations<'a> {
     /// Index of the end of the half-shaft of side `s`.
     fn end(&self, s: usize) -> usize {
-        self.ideal.layout.end(s)
+        PLANET + 1 + s
     }
 
     /// Degrees of freedom.
@@ -43,13 +46,35 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Equations under `inputs` at `state`.
+    #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
         Self { ideal, acting: Acting::new(Some(&ideal.body_effects), inputs, state) }
     }
 
+    /// Passes the inputs of `time` [s] after they were set to `of`.
+    #[inline(always)]
+    fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
+        if self.acting.driven {
+            let (inputs, derivatives) = self.acting.input_derivatives.after(time, &self.acting.inputs);
+            of((&inputs, &derivatives.rates[0]))
+        } else {
+            of(self.now())
+        }
+    }
+
+    /// Inputs as they were set.
+    #[inline(always)]
+    fn now(&self) -> InputsNow<'_> {
+        (&self.acting.inputs, &self.acting.input_derivatives.rates[0])
+    }
+
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
-    fn forces(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) -> ([f64; MOST], [f64; IMPOSED]) {
-        let rates = &self.acting.input_derivatives.rates[0];
+    fn forces(
+        &self,
+        at: &Point<MOST>,
+        (inputs, rates): InputsNow,
+        ledger_rates: &mut LedgerRates,
+    ) -> ([f64; MOST], [f64; IMPOSED]) {
         let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
         let mut out = Action {
             force: &mut sum,
@@ -57,54 +82,201 @@ impl<'a> IdealEquations<'a> {
             drive: &mut ledger_rates.drive,
             heat: &mut ledger_rates.heat,
         };
+        let motion = self.motion(at, (inputs, rates));
         for effect in self.ideal.body_effects.forces.iter() {
-            effect.act(&self.body_motion(at), &mut out);
+            effect.act(&motion, &mut out);
         }
-        let plan = &self.ideal.plan;
         if self.rubs() {
-            self.rub(at, &self.surface_loads(at, 0.0), &mut sum, ledger_rates);
+            self.rub(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
         }
-        for s in 0..2 {
-            ledger_rates.shaft[s] = self.acting.inputs.load_torque[s];
-            if self.has_ends() && plan.shafts[s] {
-                let end = self.end(s);
-                ledger_rates.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
+        for s in (0..2).filter(|_| self.has_ends()) {
+            let end = self.end(s);
+            let rate = at.v[s] - at.v[end];
+            ledger_rates.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], rate);
+        }
+        self.drive(at, (inputs, rates), &mut sum, ledger_rates);
+        (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+    }
+
+    /// All positions and velocities, as effects use them, under inputs.
+    #[inline]
+    fn motion<'b>(&'b self, at: &'b Point<MOST>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
+        let (layout, oil_viscosity) = (&self.ideal.layout, self.acting.oil_viscosity);
+        BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
+    }
+
+    /// Loads on all rubbing surfaces: without teeth, those of the brakes.
+    fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
+        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(inputs));
+        all
+    }
+
+    /// W Q + f u̇_c.
+    #[inline]
+    fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
+        let ideal = self.ideal;
+        let mut free = [0.0; MOST];
+        for (column, force) in ideal.mobility.iter().zip(sum) {
+            lanes::add_times(&mut free, *force, column);
+        }
+        self.follow(free, imposed)
+    }
+
+    /// W Q + f u̇_c for forces that do not act on planets, as those of half-shafts.
+    #[inline]
+    fn accelerations_by_shafts(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
+        let mut free = [0.0; MOST];
+        for i in [0, 1, CARRIER, PLANET + 1, PLANET + 2] {
+            lanes::add_times(&mut free, sum[i], &self.ideal.mobility[i]);
+        }
+        self.follow(free, imposed)
+    }
+
+    /// Adds f u̇_c to the accelerations that follow from forces.
+    #[inline(always)]
+    fn follow(&self, mut free: [f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
+        let ideal = self.ideal;
+        if ideal.is_imposed {
+            let mut following = [0.0; MOST];
+            for (column, acceleration) in ideal.follow.iter().zip(imposed) {
+                lanes::add_times(&mut following, *acceleration, column);
             }
-            let wheel = self.wheel(s);
+            lanes::add_times(&mut free, 1.0, &following);
+        }
+        free
+    }
+
+    /// Constants of a scene in which nothing but half-shafts acts; `None` if other effects or dry friction act.
+    #[inline]
+    fn linear(&self) -> Option<&'a Linear> {
+        self.ideal.linear.as_deref().filter(|_| !self.rubs())
+    }
+
+    /// Forces and imposed accelerations as [`Self::forces`] gives them if only half-shafts act. Calls `see` with the side, the torque
+    /// and the rate of the twist of each half-shaft.
+    #[inline(always)]
+    fn forces_of_shafts(
+        &self,
+        at: &Point<MOST>,
+        (inputs, rates): InputsNow,
+        ledger_rates: &mut LedgerRates,
+        mut see: impl FnMut(&mut LedgerRates, usize, f64, f64),
+    ) -> ([f64; MOST], [f64; IMPOSED]) {
+        let mut sum = [0.0; MOST];
+        for s in 0..2 {
+            let end = self.end(s);
+            let rate = at.v[s] - at.v[end];
+            let torque = self.ideal.body_effects.half_shafts.torque(s, at.q[end], rate);
+            sum[s] -= torque;
+            sum[end] += torque;
+            see(ledger_rates, s, torque, rate);
+        }
+        self.drive(at, (inputs, rates), &mut sum, ledger_rates);
+        (sum, [rates.carrier_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+    }
+
+    /// Adds the torques of inputs, and their power.
+    #[inline(always)]
+    fn drive(
+        &self,
+        at: &Point<MOST>,
+        (inputs, rates): InputsNow,
+        sum: &mut [f64; MOST],
+        ledger_rates: &mut LedgerRates,
+    ) {
+        let (plan, has_ends) = (&self.ideal.plan, self.has_ends());
+        for s in 0..2 {
+            let is_free = has_ends && plan.shafts[s];
+            let wheel = if is_free { self.end(s) } else { s };
+            if !is_free {
+                ledger_rates.shaft[s] = inputs.load_torque[s];
+            }
             if plan.side_imposed[s] {
                 let inertial = self.ideal.inertia[wheel] * rates.side_speed[s];
                 ledger_rates.input += (inertial - sum[wheel]) * at.v[wheel];
             } else {
-                sum[wheel] -= self.acting.inputs.load_torque[s];
-                ledger_rates.input -= self.acting.inputs.load_torque[s] * at.v[wheel];
+                sum[wheel] -= inputs.load_torque[s];
+                ledger_rates.input -= inputs.load_torque[s] * at.v[wheel];
             }
         }
         if !plan.carrier_imposed {
-            let drive = self.acting.inputs.carrier_torque + ledger_rates.drive;
+            let drive = inputs.carrier_torque + ledger_rates.drive;
             sum[CARRIER] += drive;
             ledger_rates.input += drive * at.v[CARRIER];
         }
-        (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
-    fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
-        let ideal = self.ideal;
-        std::array::from_fn(|i| {
-            let free: f64 = (0..self.count()).map(|j| ideal.mobility[i][j] * sum[j]).sum();
-            free + (0..IMPOSED).map(|k| ideal.follow[k][i] * imposed[k]).sum::<f64>()
-        })
+    /// Accelerations under inputs.
+    fn accelerate(&self, at: &Point<MOST>, now: InputsNow) -> [f64; MOST] {
+        if self.linear().is_some() {
+            let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
+            return self.accelerations_by_shafts(&sum, &imposed);
+        }
+        let (sum, imposed) = self.forces(at, now, &mut LedgerRates::default());
+        self.accelerations(&sum, &imposed)
     }
 
-    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], excess: f64) -> IdealTorques {
+    /// Accelerations under inputs; adds to the ledger rates.
+    fn evaluate_under(&self, at: &Point<MOST>, now: InputsNow, ledger_rates: &mut LedgerRates) -> [f64; MOST] {
+        let (sum, imposed) = match self.linear() {
+            Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
+                ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
+                ledger_rates.shaft[s] = torque;
+            }),
+            None => self.forces(at, now, ledger_rates),
+        };
+        let a = self.accelerations(&sum, &imposed);
+        let plan = &self.ideal.plan;
+        if plan.carrier_imposed || plan.spin_imposed {
+            let torques = self.torques_of(&sum, &a, now.0.carrier_torque + ledger_rates.drive);
+            if plan.carrier_imposed {
+                ledger_rates.input += torques.carrier * at.v[CARRIER];
+            }
+            ledger_rates.input += torques.spin * at.v[PLANET];
+        }
+        a
+    }
+
+    /// Writes the equations under inputs, linearised, to `lin`.
+    fn linearise_under(&self, at: &Point<MOST>, now: InputsNow, lin: &mut Linearisation<MOST, LedgerRates>) {
+        lin.ledger_rates = LedgerRates::default();
+        lin.acceleration = self.evaluate_under(at, now, &mut lin.ledger_rates);
+        if let Some(linear) = self.linear() {
+            // one by one, because a pair would be copied twice
+            lin.by_position = linear.by_position;
+            lin.by_velocity = linear.by_velocity;
+            return;
+        }
+        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
+        let mut imposed = [[0.0; MOST]; 2];
+        let mut out = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
+        let motion = self.motion(at, now);
+        for effect in self.ideal.body_effects.forces.iter() {
+            effect.slopes(&motion, &mut out);
+        }
+        if self.rubs() {
+            let mut by_rate = [[0.0; MOST]; MOST];
+            let by_velocity = &mut by_velocity;
+            let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity };
+            self.friction_slopes(at, &self.brake_loads(now.0), j);
+            self.times_rates(&mut by_rate);
+            for (row, by_rate) in by_velocity.iter_mut().zip(&by_rate) {
+                lanes::add_times(row, 1.0, by_rate);
+            }
+        }
+        self.ideal.accelerations_by(&by_position, &imposed[0], &mut lin.by_position);
+        self.ideal.accelerations_by(&by_velocity, &imposed[1], &mut lin.by_velocity);
+    }
+
+    /// Torques that follow from the constraint; `drive` is that of a carrier whose motion is not imposed.
+    #[inline]
+    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], drive: f64) -> IdealTorques {
         let ideal = self.ideal;
         let lack: [f64; MOST] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
         let plan = &ideal.plan;
         IdealTorques {
-            carrier: if plan.carrier_imposed {
-                lack[0] + lack[1] + lack[CARRIER]
-            } else {
-                self.acting.inputs.carrier_torque + excess
-            },
+            carrier: if plan.carrier_imposed { lack[0] + lack[1] + lack[CARRIER] } else { drive },
             spin: if plan.spin_imposed { ideal.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
             gears: [lack[0], lack[1]],
         }
@@ -113,18 +285,24 @@ impl<'a> IdealEquations<'a> {
     /// Torques that follow from the constraint.
     pub fn torques(&self, at: &Point<MOST>) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
-        let (sum, imposed) = self.forces(at, &mut ledger_rates);
-        self.torques_of(&sum, &self.accelerations(&sum, &imposed), ledger_rates.drive)
+        let (sum, imposed) = self.forces(at, self.now(), &mut ledger_rates);
+        let drive = self.acting.inputs.carrier_torque + ledger_rates.drive;
+        self.torques_of(&sum, &self.accelerations(&sum, &imposed), drive)
     }
 
     /// Kinetic energy [J].
     fn kinetic_energy(&self, at: &Point<MOST>) -> f64 {
-        0.5 * (0..self.count()).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
+        // rows beyond the last degree of freedom have no inertia
+        0.5 * (0..MOST).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
     /// Energy of half-shafts and stuck friction [J].
     fn stored_energy(&self, at: &Point<MOST>) -> f64 {
-        let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&self.body_motion(at))).sum();
+        let motion = self.motion(at, self.now());
+        if self.linear().is_some() && self.acting.is_free() {
+            return self.ideal.body_effects.forces[0].energy(&motion);
+        }
+        let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&motion)).sum();
         bodies + self.friction_energy(at)
     }
 }
@@ -172,8 +350,7 @@ impl Acted<MOST> for IdealEquations<'_> {
     }
 
     fn acceleration_by_inputs(&self, at: &Point<MOST>) -> [f64; MOST] {
-        let (sum, imposed) = self.forces(at, &mut LedgerRates::default());
-        self.accelerations(&sum, &imposed)
+        self.accelerate(at, self.now())
     }
 }
 
@@ -182,6 +359,11 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn degrees_of_freedom(&self) -> usize {
         self.count()
+    }
+
+    #[inline]
+    fn rows(&self) -> usize {
+        MOST
     }
 
     fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
@@ -195,98 +377,89 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64, residual: f64) -> f64 {
         let spring_forces = || {
             let rest = Point { q: ends[1].q, v: [0.0; MOST] };
-            let free = self.under(&Inputs::ZERO, &InputDerivatives::ZERO);
-            let (force, _) = free.forces(&rest, &mut LedgerRates::default());
+            let (force, _) = self.forces(&rest, (&Inputs::ZERO, &Inputs::ZERO), &mut LedgerRates::default());
             std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
         };
         energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
+    #[inline]
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        self.ideal.layout.set_twist_rates(v, &mut rates);
+        if self.has_ends() {
+            for s in 0..2 {
+                rates[self.end(s)] = v[s] - v[self.end(s)];
+            }
+        }
         rates
     }
 
+    #[inline]
     fn times_rates(&self, m: &mut Matrix<MOST>) {
+        let has_ends = self.has_ends();
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            self.ideal.layout.turn_twist_rates(row);
+            for s in (0..2).filter(|_| has_ends) {
+                let end = self.end(s);
+                row[s] += row[end];
+                row[end] = -row[end];
+            }
         }
     }
 
     fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], LedgerRates) {
         let mut ledger_rates = LedgerRates::default();
-        let (sum, imposed) = self.forces(at, &mut ledger_rates);
-        let a = self.accelerations(&sum, &imposed);
-        let torques = self.torques_of(&sum, &a, ledger_rates.drive);
-        if self.ideal.plan.carrier_imposed {
-            ledger_rates.input += torques.carrier * at.v[CARRIER];
-        }
-        ledger_rates.input += torques.spin * at.v[PLANET];
-        (a, ledger_rates)
+        (self.evaluate_under(at, self.now(), &mut ledger_rates), ledger_rates)
     }
 
     fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, LedgerRates> {
-        let (acceleration, ledger_rates) = self.evaluate(at);
-        let zero = [[0.0; MOST]; MOST];
-        let (mut by_position, mut by_rate, mut by_velocity) = (zero, zero, zero);
-        let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity: &mut by_velocity };
-        let mut imposed = [[0.0; MOST]; 2];
-        let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed);
-        for effect in self.ideal.body_effects.forces.iter() {
-            effect.slopes(&self.body_motion(at), &mut out);
-        }
-        if self.rubs() {
-            self.friction_slopes(at, &self.surface_loads(at, 0.0), j);
-        }
-        self.times_rates(&mut by_rate);
-        let ideal = self.ideal;
-        let follow = ideal.follow[0];
-        let moved = |m: &Matrix<MOST>, imposed: &[f64; MOST]| -> Matrix<MOST> {
-            let mut product = [[0.0; MOST]; MOST];
-            for (i, row) in product.iter_mut().enumerate() {
-                for k in 0..self.count() {
-                    for j in 0..MOST {
-                        row[j] += ideal.mobility[i][k] * m[k][j];
-                    }
-                }
-                for j in 0..MOST {
-                    row[j] += follow[i] * imposed[j];
-                }
-            }
-            product
-        };
-        for i in 0..MOST {
-            for j in 0..MOST {
-                by_velocity[i][j] += by_rate[i][j];
-            }
-        }
-        Linearisation {
-            acceleration,
-            by_position: moved(&by_position, &imposed[0]),
-            by_velocity: moved(&by_velocity, &imposed[1]),
-            ledger_rates,
-        }
+        let mut lin = Linearisation::default();
+        self.linearise_under(at, self.now(), &mut lin);
+        lin
     }
 
+    #[inline]
     fn is_driven(&self) -> bool {
         self.acting.driven
     }
 
+    #[inline]
     fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], LedgerRates) {
-        if self.acting.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
+        let mut ledger_rates = LedgerRates::default();
+        (self.at_time(time, |now| self.evaluate_under(at, now, &mut ledger_rates)), ledger_rates)
+    }
+
+    #[inline]
+    fn accelerate_at(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
+        self.at_time(time, |now| self.accelerate(at, now))
     }
 
     fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, LedgerRates> {
-        if self.acting.driven { self.later(time).linearise(at) } else { self.linearise(at) }
+        let mut lin = Linearisation::default();
+        self.at_time(time, |now| self.linearise_under(at, now, &mut lin));
+        lin
+    }
+
+    #[inline]
+    fn linearise_with_energy(
+        &self,
+        at: &Point<MOST>,
+        time: f64,
+        lin: &mut Linearisation<MOST, LedgerRates>,
+    ) -> [f64; 2] {
+        self.at_time(time, |now| self.linearise_under(at, now, lin));
+        self.energy(at)
     }
 
     fn drift(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
-        self.drift_at(at, time)
+        let (_, InputDerivatives { rates: [first, second] }) =
+            self.acting.input_derivatives.after(time, &self.acting.inputs);
+        let with = self.accelerate(at, (&first, &second));
+        let without = self.accelerate(at, (&Inputs::ZERO, &Inputs::ZERO));
+        std::array::from_fn(|i| with[i] - without[i])
     }
 
     fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {
@@ -315,29 +488,5 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn crossing(&self, start: (&Point<MOST>, f64), end: (&Point<MOST>, f64)) -> Option<f64> {
         self.friction_crossing(start, end)
-    }
-}
-
-impl Ideal {
-    /// Exact motion over `h` [s] under constant inputs.
-    pub fn advance(&self, state: &mut State, inputs: &Inputs, h: f64) {
-        let m = self.motion(inputs);
-        let v = state.v;
-        let turn = |speed: f64, acceleration: f64| h * (speed + 0.5 * h * acceleration);
-        let (carrier, spin) = (turn(v[CARRIER], m.carrier), turn(v[PLANET], m.spin));
-        let relative = self.ratio * spin;
-        state.q[0] += relative;
-        state.q[1] -= relative;
-        state.q[CARRIER] += carrier;
-        for g in 0..self.plan.groups().len() {
-            state.q[PLANET + g] += spin;
-        }
-        let [left, right] = inputs.load_torque;
-        state.work += m.carrier_torque * carrier + m.spin_torque * spin
-            - left * (carrier + relative)
-            - right * (carrier - relative);
-        state.v[CARRIER] += h * m.carrier;
-        state.v[PLANET] += h * m.spin;
-        self.constrain(&mut state.v);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! - `acting`: inputs and dry friction at all levels of gear contact;
 //! - `shape`, `planet_contact`, `bodies`, `dry_friction`, `equations`, `motion`: teeth, from the shape of the equations to what an
-//!   integrator sees; `ideal`: the same without teeth;
+//!   integrator sees; `ideal`: the same without teeth; `ideal_course`: without effects either, in closed form;
 //! - `ledger_rates`, `energy_floor`: powers that come with the forces, and the energy that a step does not resolve;
 //! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: what the steps leave behind.
 
@@ -20,6 +20,10 @@ mod energy_floor_tests;
 pub mod equations;
 pub mod event;
 pub mod ideal;
+mod ideal_course;
+#[cfg(test)]
+#[path = "tests/ideal.rs"]
+mod ideal_tests;
 pub mod ledger_rates;
 mod motion;
 pub mod pending_step;

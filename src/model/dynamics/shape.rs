@@ -13,6 +13,8 @@ pub const LEAST: usize = 4;
 pub const DIFFERENT: usize = 5;
 /// Degrees of freedom with planets that are alike and half-shafts that twist.
 pub const WITH_ENDS: usize = 6;
+/// Degrees of freedom up to which teeth of other shapes need only small matrices, a whole number of vectors of any width.
+pub const MEDIUM: usize = 8;
 /// Degrees of freedom that every scene fits in, a whole number of vectors of any width.
 pub const LARGEST: usize = 16;
 

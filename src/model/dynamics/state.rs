@@ -268,11 +268,9 @@ impl BodyEffects {
         self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
     }
 
-    /// Whether dry friction may act in `state`: the scene has some, or a lock is commanded or still holds.
+    /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that still holds.
     pub fn may_rub_in(&self, state: &State) -> bool {
-        state.lock > 0.0
-            || self.friction.iter().any(|source| !source.by_lock)
-            || state.friction.iter().any(|friction| friction.stiffness > 0.0)
+        self.has_friction || state.lock > 0.0 || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
 }
 

@@ -87,6 +87,10 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn scales_carrier_inputs(&self) -> bool {
         false
     }
+    /// Index of its heat in the ledger if it is nothing but the torques of half-shafts; `None` for all other effects.
+    fn heat_of_half_shafts(&self) -> Option<usize> {
+        None
+    }
     /// Energy it stores [J].
     fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0

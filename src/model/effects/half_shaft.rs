@@ -121,6 +121,12 @@ impl HalfShafts {
         self.stiffness[s] * twist + self.damping[s] * rate
     }
 
+    /// Power that damping of the shaft of side `s` turns into heat [W], at the `rate` of its twist [rad/s].
+    #[inline]
+    pub fn heat(&self, s: usize, rate: f64) -> f64 {
+        self.damping[s] * rate * rate
+    }
+
     /// Static twist of the shaft of side `s` [rad] under `torque` [N·m].
     pub fn static_twist(&self, s: usize, torque: f64) -> f64 {
         torque / self.stiffness[s]
@@ -142,7 +148,7 @@ impl BodyEffect for ShaftTorques {
             let torque = self.shafts.torque(s, at.q[end], rate);
             out.force[s] -= torque;
             out.force[end] += torque;
-            out.heat[self.heat_index] += self.shafts.damping[s] * rate * rate;
+            out.heat[self.heat_index] += self.shafts.heat(s, rate);
         }
     }
 
@@ -157,6 +163,10 @@ impl BodyEffect for ShaftTorques {
             out.velocity(end, s, c);
             out.velocity(end, end, -c);
         }
+    }
+
+    fn heat_of_half_shafts(&self) -> Option<usize> {
+        Some(self.heat_index)
     }
 
     fn energy(&self, at: &BodyMotion) -> f64 {

@@ -13,15 +13,16 @@ use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
 use super::watching::Watched;
+use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
-use crate::model::assembly::ideal_with_effects::MOST;
+use crate::model::assembly::ideal_with_effects::{IdealWithEffects, MOST};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
-    Any, DIFFERENT, LEAST, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
+    Any, DIFFERENT, LEAST, MEDIUM, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
 };
-use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
+use crate::model::dynamics::{Acting, Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
@@ -58,10 +59,10 @@ pub fn integrate(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     match &model.gears {
-        Gears::Ideal(ideal) => {
-            let equations: &mut dyn LedgerEquations<MOST> = &mut IdealEquations::new(ideal, integration.inputs, state);
-            integrate_equations::<MOST, Any, _>(equations, model, state, integration, budget)
+        Gears::Ideal(ideal) if !FULL || model.parameters.solver.method == Method::Adaptive => {
+            integrate_ideal(ideal, model, state, integration, budget)
         }
+        Gears::Ideal(ideal) => ideal_by_table(ideal, model, state, integration, budget),
         Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
 }
@@ -90,9 +91,37 @@ pub fn integrate_teeth(
         (1, Some(false)) if is_default || method == Method::FixedStep => whole::<LEAST, WithEffects<1>>(arguments),
         (2, Some(false)) if FULL && is_default => whole::<DIFFERENT, WithEffects<2>>(arguments),
         (1, Some(true)) if is_default || !FULL => whole::<WITH_ENDS, WithEnds>(arguments),
-        _ if FULL && teeth.layout.count() <= MOST => by_table::<MOST>(arguments),
+        _ if FULL && teeth.layout.count() <= MEDIUM => by_table::<MEDIUM>(arguments),
         _ => by_table::<LARGEST>(arguments),
     }
+}
+
+/// Gears without teeth with effects, compiled as a whole: in the shape with ends every scene has room.
+#[inline(never)]
+fn integrate_ideal(
+    ideal: &IdealWithEffects,
+    model: &Model,
+    state: &mut State,
+    integration: Integration,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
+    let equations = &mut IdealEquations { ideal, acting: Acting::without_friction(integration.inputs, state) };
+    equations.acting.add(&ideal.body_effects, state);
+    integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
+}
+
+/// Methods for gears without teeth that are not compiled for them.
+#[inline(never)]
+fn ideal_by_table(
+    ideal: &IdealWithEffects,
+    model: &Model,
+    state: &mut State,
+    integration: Integration,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
+    let equations: &mut dyn LedgerEquations<MEDIUM> =
+        &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
+    integrate_equations::<MEDIUM, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Constants, state, stretch of time and budget of an integration.

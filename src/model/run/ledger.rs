@@ -86,9 +86,19 @@ impl LedgerEquations<MOST> for IdealEquations<'_> {
     }
 
     fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
-        add_to_ledger(step, sums.work, sums.heat, true);
-        warm_up(model, self.acting(), step, sums);
+        record_without_teeth(model, self.acting(), step, sums);
     }
+}
+
+/// Records a completed step of gears without teeth.
+pub fn record_without_teeth<const N: usize>(
+    model: &Model,
+    acting: &Acting,
+    step: &Step<N, LedgerRates>,
+    sums: &mut LedgerSums,
+) {
+    add_to_ledger(step, sums.work, sums.heat, true);
+    warm_up(model, acting, step, sums);
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {

@@ -14,9 +14,12 @@ pub mod progress;
 mod simulation;
 pub mod timeline;
 pub mod watching;
+mod widened;
 
 pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use simulation::Simulation;
 pub use watching::Watched;
+#[cfg(test)]
+pub use widened::Widened;

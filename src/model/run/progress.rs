@@ -181,10 +181,9 @@ pub fn keep_together(model: &Model, state: &mut State) {
 }
 
 /// Takes inputs to what they are `time` [s] later.
-fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
-    if let Some(input_derivatives) = state.input_derivatives {
-        let (later, rest) = input_derivatives.after(time, inputs);
-        (*inputs, state.input_derivatives) = (later, Some(rest));
+pub fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
+    if let Some(input_derivatives) = &mut state.input_derivatives {
+        input_derivatives.follow(time, inputs);
         state.carrier_command = inputs.carrier_speed;
     }
 }

@@ -79,8 +79,14 @@ impl Simulation {
 
     /// Sets the derivatives of the inputs; without any, inputs are constant.
     pub fn set_input_derivatives(&mut self, input_derivatives: Option<InputDerivatives>) {
-        if input_derivatives != self.state.input_derivatives {
-            self.state.input_derivatives = input_derivatives;
+        self.share_input_derivatives(input_derivatives.as_ref());
+    }
+
+    /// Sets the derivatives of the inputs to a copy of these.
+    #[inline]
+    pub fn share_input_derivatives(&mut self, input_derivatives: Option<&InputDerivatives>) {
+        if input_derivatives != self.state.input_derivatives.as_ref() {
+            InputDerivatives::copy(input_derivatives, &mut self.state.input_derivatives);
             self.state.pause = None;
             self.forces = None;
         }
@@ -171,10 +177,21 @@ impl Simulation {
         {
             let h = until - state.time();
             let (q, v, work) = (state.q, state.v, state.work);
-            model.ideal.advance(state, inputs, h);
+            match &state.input_derivatives {
+                None => model.ideal.advance(state, inputs, h),
+                Some(derivatives) => {
+                    let course = model.ideal.course(inputs, derivatives);
+                    model.ideal.advance_along(state, &course, h);
+                }
+            }
             if !state.is_motion_finite() {
                 (state.q, state.v, state.work) = (q, v, work);
                 return Err(StepFailure::not_finite(state.time()));
+            }
+            if state.input_derivatives.is_some() {
+                progress::advance_inputs(inputs, state, h);
+                // to the last bit, because the next step takes any difference for a jump
+                model.ideal.impose(state, inputs);
             }
             state.pause = None;
             timeline::arrive(state, until, state.time() + h)?;

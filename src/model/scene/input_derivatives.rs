@@ -24,16 +24,37 @@ impl InputDerivatives {
     /// Inputs that stay constant.
     pub const ZERO: Self = Self { rates: [Inputs::ZERO; ORDERS] };
 
+    /// Writes `from` to `to`, which costs nothing if there are no derivatives.
+    #[inline]
+    pub fn copy(from: Option<&Self>, to: &mut Option<Self>) {
+        match (from, to) {
+            (Some(from), Some(to)) => to.rates.copy_from_slice(&from.rates),
+            (Some(from), to) => *to = Some(*from),
+            (None, to @ Some(_)) => *to = None,
+            (None, None) => {}
+        }
+    }
+
     /// Inputs and their derivatives `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
-        let [first, second] = &self.rates;
-        let unlimited = inputs.plus(time, first).plus(0.5 * time * time, second);
-        let later = unlimited.limited();
-        let rates = [first.plus(time, second), *second];
-        if later == unlimited {
-            return (later, Self { rates });
-        }
-        // an input that has reached its limit stays there
-        (later, Self { rates: rates.map(|rate| rate.where_equal(&later, &unlimited)) })
+        let (mut later, mut rest) = (*inputs, *self);
+        rest.follow(time, &mut later);
+        (later, rest)
+    }
+
+    /// Takes `inputs` and these derivatives to those `time` [s] later. An input that has reached its limit stays there.
+    pub fn follow(&mut self, time: f64, inputs: &mut Inputs) {
+        inputs.follow(&mut self.rates, |value, rates, limits| follow_parabola(value, rates, limits, time));
+    }
+}
+
+/// Takes a value and its first and second derivative to those `time` [s] later.
+#[inline(never)]
+fn follow_parabola(value: &mut f64, [first, second]: [&mut f64; 2], limits: [f64; 2], time: f64) {
+    let unlimited = *value + time * *first + 0.5 * time * time * *second;
+    *value = unlimited.clamp(limits[0], limits[1]);
+    *first += time * *second;
+    if *value != unlimited {
+        (*first, *second) = (0.0, 0.0);
     }
 }

@@ -16,6 +16,7 @@ trait Value: Copy {
     const ZERO: Self;
     fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self;
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64));
+    fn follow(&mut self, rates: [&mut Self; 2], follow: impl Fn(&mut f64, [&mut f64; 2]));
 }
 
 impl Value for f64 {
@@ -25,6 +26,14 @@ impl Value for f64 {
     }
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
         see(self, other);
+    }
+    #[inline]
+    fn follow(&mut self, rates: [&mut f64; 2], follow: impl Fn(&mut f64, [&mut f64; 2])) {
+        // most inputs do not change, which one comparison of bits tells
+        let [first, second] = rates;
+        if (first.to_bits() | second.to_bits()) << 1 != 0 {
+            follow(self, [first, second]);
+        }
     }
 }
 
@@ -36,6 +45,12 @@ impl Value for [f64; 2] {
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
         see(self[0], other[0]);
         see(self[1], other[1]);
+    }
+    #[inline]
+    fn follow(&mut self, rates: [&mut [f64; 2]; 2], follow: impl Fn(&mut f64, [&mut f64; 2])) {
+        let [first, second] = rates;
+        let sides = self.iter_mut().zip(first.iter_mut().zip(second));
+        sides.for_each(|(value, (first, second))| value.follow([first, second], &follow));
     }
 }
 
@@ -69,14 +84,10 @@ macro_rules! inputs {
                 Self { $($name: self.$name.combine(Value::ZERO, |a, _| a.clamp($limits[0], $limits[1]))),+ }
             }
 
-            /// The same with 0 in place of each input that differs between `one` and `other`.
-            pub fn where_equal(&self, one: &Self, other: &Self) -> Self {
-                Self {
-                    $($name: {
-                        let same = one.$name.combine(other.$name, |a, b| f64::from(a == b));
-                        self.$name.combine(same, |value, same| value * same)
-                    }),+
-                }
+            /// Calls `follow` with each value, its first and second rate, and its limits, unless both rates are 0.
+            pub fn follow(&mut self, rates: &mut [Self; 2], follow: impl Fn(&mut f64, [&mut f64; 2], [f64; 2])) {
+                let [first, second] = rates;
+                $(self.$name.follow([&mut first.$name, &mut second.$name], |value, rates| follow(value, rates, $limits));)+
             }
 
             /// Calls `see` with each value and that of `other`.

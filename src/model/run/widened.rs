@@ -1,0 +1,183 @@
+//! Ideal gears in the size of the equations that are called through a table of functions.
+//!
+//! Methods other than the default one are not compiled for ideal gears. They run the equations in this size, as they do for most
+//! teeth; values beyond the degrees of freedom are zero and change nothing.
+
+use std::ops::Range;
+
+use super::completed_step::CompletedStep;
+use super::failure::ExcessiveDeflection;
+use super::ledger::{LedgerEquations, LedgerSums, record_without_teeth};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
+use crate::model::assembly::Model;
+use crate::model::assembly::ideal_with_effects::MOST;
+use crate::model::dynamics::ledger_rates::LedgerRates;
+use crate::model::dynamics::shape::MEDIUM;
+use crate::model::dynamics::{Acted, Acting, IdealEquations};
+use crate::model::effect_kinds::{FrictionSource, SurfaceLoad};
+use crate::model::scene::{FRICTION_BODIES, Layout, Plan};
+
+/// Equations of ideal gears with zeros behind their degrees of freedom.
+pub struct Widened<'a>(pub IdealEquations<'a>);
+
+fn narrow(at: &Point<MEDIUM>) -> Point<MOST> {
+    Point::of([&at.q, &at.v])
+}
+
+fn wide(values: &[f64; MOST]) -> [f64; MEDIUM] {
+    std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+}
+
+fn wide_matrix(m: &Matrix<MOST>) -> Matrix<MEDIUM> {
+    std::array::from_fn(|i| m.get(i).map_or([0.0; MEDIUM], wide))
+}
+
+impl Acted<MEDIUM> for Widened<'_> {
+    fn acting(&self) -> &Acting {
+        self.0.acting()
+    }
+
+    fn acting_mut(&mut self) -> &mut Acting {
+        self.0.acting_mut()
+    }
+
+    fn friction_sources(&self) -> &[FrictionSource] {
+        self.0.friction_sources()
+    }
+
+    fn plan(&self) -> &Plan {
+        self.0.plan()
+    }
+
+    fn layout(&self) -> &Layout {
+        self.0.layout()
+    }
+
+    fn rubs(&self) -> bool {
+        self.0.rubs()
+    }
+
+    fn has_ends(&self) -> bool {
+        self.0.has_ends()
+    }
+
+    fn sticking(&self) -> &[f64] {
+        self.0.sticking()
+    }
+
+    fn mesh_loads(&self, at: &Point<MEDIUM>) -> [SurfaceLoad; FRICTION_BODIES] {
+        self.0.mesh_loads(&narrow(at))
+    }
+
+    fn acceleration_at(&self, at: &Point<MEDIUM>, time: f64) -> [f64; MEDIUM] {
+        wide(&self.0.acceleration_at(&narrow(at), time))
+    }
+
+    fn acceleration_by_inputs(&self, at: &Point<MEDIUM>) -> [f64; MEDIUM] {
+        wide(&self.0.acceleration_by_inputs(&narrow(at)))
+    }
+
+    fn is_friction_due(&self, at: &Point<MEDIUM>, time: f64) -> bool {
+        self.0.is_friction_due(&narrow(at), time)
+    }
+
+    fn drag_anchors(&self, at: &Point<MEDIUM>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
+        self.0.drag_anchors(&narrow(at), ledger_rates, anchors);
+    }
+
+    fn settle_friction(&mut self, at: &Point<MEDIUM>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
+        self.0.settle_friction(&narrow(at), time, bodies, heat);
+    }
+}
+
+impl SecondOrder<MEDIUM> for Widened<'_> {
+    type Rates = LedgerRates;
+
+    fn degrees_of_freedom(&self) -> usize {
+        self.0.degrees_of_freedom()
+    }
+
+    fn rates(&self, v: &[f64; MEDIUM]) -> [f64; MEDIUM] {
+        wide(&self.0.rates(&std::array::from_fn(|i| v[i])))
+    }
+
+    fn times_rates(&self, m: &mut Matrix<MEDIUM>) {
+        let mut rows: Matrix<MOST> = std::array::from_fn(|i| std::array::from_fn(|j| m[i][j]));
+        self.0.times_rates(&mut rows);
+        *m = wide_matrix(&rows);
+    }
+
+    fn evaluate(&self, at: &Point<MEDIUM>) -> ([f64; MEDIUM], LedgerRates) {
+        let (acceleration, ledger_rates) = self.0.evaluate(&narrow(at));
+        (wide(&acceleration), ledger_rates)
+    }
+
+    fn linearise(&self, at: &Point<MEDIUM>) -> Linearisation<MEDIUM, LedgerRates> {
+        self.linearise_at(at, 0.0)
+    }
+
+    fn is_driven(&self) -> bool {
+        self.0.is_driven()
+    }
+
+    fn evaluate_at(&self, at: &Point<MEDIUM>, time: f64) -> ([f64; MEDIUM], LedgerRates) {
+        let (acceleration, ledger_rates) = self.0.evaluate_at(&narrow(at), time);
+        (wide(&acceleration), ledger_rates)
+    }
+
+    fn linearise_at(&self, at: &Point<MEDIUM>, time: f64) -> Linearisation<MEDIUM, LedgerRates> {
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } =
+            self.0.linearise_at(&narrow(at), time);
+        Linearisation {
+            acceleration: wide(&acceleration),
+            by_position: wide_matrix(&by_position),
+            by_velocity: wide_matrix(&by_velocity),
+            ledger_rates,
+        }
+    }
+
+    fn drift(&self, at: &Point<MEDIUM>, time: f64) -> [f64; MEDIUM] {
+        wide(&self.0.drift(&narrow(at), time))
+    }
+
+    fn weights(&self, at: &Point<MEDIUM>) -> Point<MEDIUM> {
+        let Point { q, v } = self.0.weights(&narrow(at));
+        Point { q: wide(&q), v: wide(&v) }
+    }
+
+    fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {
+        LedgerRates::combined(of)
+    }
+
+    fn take_change_back(&self, at: &Point<MEDIUM>, ledger_rates: &mut LedgerRates) {
+        self.0.take_change_back(&narrow(at), ledger_rates);
+    }
+
+    fn energy(&self, at: &Point<MEDIUM>) -> [f64; 2] {
+        self.0.energy(&narrow(at))
+    }
+
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
+        self.0.imbalance(energies, h, ledger_rates)
+    }
+
+    fn energy_floor(&self, ends: [&Point<MEDIUM>; 2], tolerance: f64, residual: f64) -> f64 {
+        let ends = ends.map(narrow);
+        self.0.energy_floor([&ends[0], &ends[1]], tolerance, residual)
+    }
+
+    fn crossing(&self, start: (&Point<MEDIUM>, f64), end: (&Point<MEDIUM>, f64)) -> Option<f64> {
+        let [start_at, end_at] = [start.0, end.0].map(narrow);
+        self.0.crossing((&start_at, start.1), (&end_at, end.1))
+    }
+}
+
+impl LedgerEquations<MEDIUM> for Widened<'_> {
+    fn check_deflection(&self, _: &Point<MEDIUM>) -> Result<u8, ExcessiveDeflection> {
+        Ok(0)
+    }
+
+    fn record(&self, model: &Model, (step, _): CompletedStep<MEDIUM>, sums: &mut LedgerSums) {
+        record_without_teeth(model, self.acting(), step, sums);
+    }
+}
