@@ -1,7 +1,8 @@
 //! Inputs that the host holds through each communication step and changes at the next: a staircase.
 
+use bevel_differential::fmi2::Status;
+
 use crate::common::Host;
-use bevel_differential::fmi2::types::Status;
 
 const H: f64 = 1e-3;
 

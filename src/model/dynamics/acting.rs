@@ -45,16 +45,6 @@ pub struct Acting {
 }
 
 impl Acting {
-    /// What acts at `state` under `inputs`, with the effects `bodies` where there are any.
-    #[inline(never)]
-    pub fn new(body_effects: Option<&BodyEffects>, inputs: &Inputs, state: &State) -> Self {
-        let mut acting = Self::without_friction(inputs, state);
-        if let Some(body_effects) = body_effects {
-            acting.add(body_effects, state);
-        }
-        acting
-    }
-
     /// Inputs that act at `state`. It is large: within steps it is written where it stays.
     #[inline(always)]
     pub fn without_friction(inputs: &Inputs, state: &State) -> Self {

@@ -56,7 +56,10 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
                 offset[g][s] = teeth.base_pitch * (state.whole_periods[LEFT + s] - spin) as f64;
             }
         }
-        let acting = Acting::new(S::MAY_ACT.then_some(&teeth.effect_terms.body_effects), inputs, state);
+        let mut acting = Acting::without_friction(inputs, state);
+        if S::MAY_ACT {
+            acting.add(&teeth.effect_terms.body_effects, state);
+        }
         let is_tooth_broken = state.is_tooth_broken;
         let mut these =
             Self { teeth, acting, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };

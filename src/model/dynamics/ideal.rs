@@ -48,7 +48,9 @@ impl<'a> IdealEquations<'a> {
     /// Equations under `inputs` at `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
-        Self { ideal, acting: Acting::new(Some(&ideal.body_effects), inputs, state) }
+        let mut equations = Self { ideal, acting: Acting::without_friction(inputs, state) };
+        equations.acting.add(&ideal.body_effects, state);
+        equations
     }
 
     /// Passes the inputs of `time` [s] after they were set to `of`.

@@ -22,7 +22,7 @@ use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
     Any, DIFFERENT, LEAST, MEDIUM, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
 };
-use crate::model::dynamics::{Acting, Clock, Equations, IdealEquations, LARGEST, State};
+use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
@@ -105,8 +105,7 @@ fn integrate_ideal(
     integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let equations = &mut IdealEquations { ideal, acting: Acting::without_friction(integration.inputs, state) };
-    equations.acting.add(&ideal.body_effects, state);
+    let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
     integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
 }
 

@@ -16,10 +16,12 @@ use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.
 pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
-    let before = state.pending_step.as_ref().map(|step| step.inputs).or(state.pause.map(|pause| pause.inputs));
+    let before =
+        state.pending_step.as_ref().map(|step| &step.inputs).or(state.pause.as_ref().map(|pause| &pause.inputs));
+    let jump = before.map(|before| change::jump_of_accelerations(model, before, inputs));
     complete(model, (state, watched));
-    if let Some(before) = before {
-        state.control.jump(change::jump_of_accelerations(model, &before, inputs));
+    if let Some(jump) = jump {
+        state.control.jump(jump);
     }
     state.pause = None;
     imposed::jump(model, inputs, state);
