@@ -57,8 +57,9 @@ const LAST_STEPS: f64 = 3.0;
 const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
 pub(super) const LARGEST_SHRINK: f64 = 5.0;
-/// Part of a step above which its middle is that of the whole step: it only lacks the rounding of times.
-const WHOLE: f64 = 1.0 - 1e-9;
+/// Part of a step above which its middle follows from that of the whole step along a straight line: it lacks little more than the rounding
+/// of times.
+const WHOLE: f64 = 1.0 - 1e-5;
 /// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
 /// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
@@ -142,7 +143,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 reached = course.end;
             }
             let end = course.extension.at(pending.part);
-            let halfway = if pending.part > WHOLE {
+            let mut halfway = if pending.part > WHOLE {
                 pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;
@@ -161,6 +162,10 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             statistics.evaluations += u64::from(done);
             if pending.jump.is_some() {
                 system.take_change_back(&end, &mut last);
+            }
+            if pending.part > WHOLE && pending.part < 1.0 {
+                let (first, ends) = (&pending.ledger_rates[0], 0.5 * (pending.part - 1.0));
+                halfway = system.combined([(-ends, first), (0.0, first), (1.0, &halfway), (0.0, &last), (ends, &last)]);
             }
             let mut ledger_rates = [pending.ledger_rates[0], halfway, last];
             let mut ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);

@@ -17,7 +17,7 @@ pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64>
 }
 
 /// Jump of the accelerations where inputs change from `before` to `inputs` [rad/s²]; `None` if more than torques change.
-pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
+fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
     let [before, inputs] = [before, inputs].map(|inputs| acting(model, inputs));
     let with_torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..before };

@@ -16,12 +16,10 @@ use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.
 pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
-    let before =
-        state.pending_step.as_ref().map(|step| &step.inputs).or(state.pause.as_ref().map(|pause| &pause.inputs));
-    let jump = before.map(|before| change::jump_of_accelerations(model, before, inputs));
+    let is_jump = state.pending_step.is_some();
     complete(model, (state, watched));
-    if let Some(jump) = jump {
-        state.control.jump(jump);
+    if is_jump {
+        state.control.jump(None);
     }
     state.pause = None;
     imposed::jump(model, inputs, state);

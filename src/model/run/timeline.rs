@@ -12,6 +12,8 @@ use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
+/// Relative allowance for rounding in the time that inputs are expected to hold: hosts add up steps.
+const ROUNDING: f64 = 1e-6;
 /// Rounded operations on times between one stop and the next.
 const ROUNDED_OPERATIONS: f64 = 8.0;
 
@@ -98,10 +100,10 @@ pub fn clock(model: &Model, state: &State) -> Clock {
     Clock::new(change - state.time(), expected(state))
 }
 
-/// Time for which inputs are expected to hold [s]. Hosts add up steps, with rounding.
+/// Time for which inputs are expected to hold [s].
 pub fn expected(state: &State) -> f64 {
     let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
-    left + resolution(state.time())
+    left * (1.0 + ROUNDING)
 }
 
 /// The last communication point, or the present where the motion has not paused since: on the integrator's clock, and its
