@@ -268,6 +268,11 @@ impl BodyEffects {
         self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
     }
 
+    /// Whether gears without teeth move by a formula in `state`: no effect acts on bodies, and inputs are constant.
+    pub fn have_closed_form(&self, state: &State) -> bool {
+        !self.act_in(state) && state.input_derivatives.is_none()
+    }
+
     /// Whether dry friction may act in `state`: the scene has some, or a lock is commanded or still holds.
     pub fn may_rub_in(&self, state: &State) -> bool {
         state.lock > 0.0

@@ -36,7 +36,7 @@ impl Simulation {
     /// What a step costs at present; a lock or a broken tooth may change it.
     pub fn cost(&self) -> CostClass {
         match &self.model.gears {
-            Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
+            Gears::Ideal(ideal) if ideal.body_effects.have_closed_form(&self.state) => CostClass::ClosedForm,
             Gears::Ideal(_) => CostClass::Ideal,
             Gears::Teeth(teeth) if teeth.are_in_detail(&self.state) => CostClass::TeethInDetail,
             Gears::Teeth(teeth) if teeth.effect_terms.body_effects.act_in(&self.state) => CostClass::TeethAndBodies,

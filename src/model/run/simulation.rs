@@ -166,7 +166,7 @@ impl Simulation {
             return Ok(());
         }
         if let Gears::Ideal(ideal) = &model.gears
-            && !ideal.body_effects.act_in(state)
+            && ideal.body_effects.have_closed_form(state)
         {
             let h = until - state.time();
             let (q, v, work) = (state.q, state.v, state.work);
@@ -202,8 +202,9 @@ impl Simulation {
     /// Where the solver's step ends that contains the present or begins there [s]; none where the solver's steps end where the host
     /// asks.
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
-        let is_closed = matches!(&self.model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state));
-        if is_closed || self.model.parameters.solver.method == Method::FixedStep {
+        let (model, state) = (&self.model, &self.state);
+        let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if ideal.body_effects.have_closed_form(state));
+        if is_closed || state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             return Ok(None);
         }
         let end = |state: &State| {
