@@ -4,31 +4,36 @@ use super::sensitivity::{Slopes, check_built};
 use super::unknowns::{finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
-use crate::model::{InputDerivatives, LedgerReadings, ORDERS};
+use crate::model::{InputDerivatives, Inputs, LedgerReadings, ORDERS};
 use crate::variables::{Access, OutputSource, Variable, accepted, table};
 
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
 
 impl Snapshot {
-    /// Takes over the inputs that their derivatives have reached in a step. An input that has passed a limit by rounding gets the
-    /// limit.
+    /// Takes over the inputs that their derivatives have reached in a step.
     pub fn take_reached_inputs(&mut self) {
         let Some(simulation) = &mut self.simulation else { return };
-        (self.inputs, self.input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
-        for &index in &table().inputs {
-            let row = &table().rows[index];
-            if let Access::Input(slot) = row.access {
-                let reached = slot(&mut self.inputs);
-                *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
-            }
-        }
+        (self.inputs, self.input_derivatives) =
+            (within_ranges(*simulation.inputs()), simulation.input_derivatives().copied());
         simulation.set_inputs(&self.inputs);
     }
 }
 
+/// Returns `inputs` with the limit in place of each input that has passed it by rounding.
+pub fn within_ranges(mut inputs: Inputs) -> Inputs {
+    for &index in &table().inputs {
+        let row = &table().rows[index];
+        if let Access::Input(slot) = row.access {
+            let reached = slot(&mut inputs);
+            *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
+        }
+    }
+    inputs
+}
+
 /// Bit of an input in `Snapshot::derivatives_set`.
-fn input_bit(reference: u32) -> u32 {
+pub fn input_bit(reference: u32) -> u32 {
     let index = table().inputs.iter().position(|&i| i as u32 == reference);
     index.map_or(0, |index| 1 << index)
 }
@@ -90,8 +95,10 @@ impl Instance {
     fn replace_input_derivatives(&mut self, input_derivatives: InputDerivatives) {
         let now = &mut self.now;
         now.input_derivatives = (input_derivatives != InputDerivatives::ZERO).then_some(input_derivatives);
-        if let (Phase::StepComplete, Some(simulation)) = (now.phase, &mut now.simulation) {
-            simulation.set_input_derivatives(now.input_derivatives);
+        match (now.phase, &mut now.simulation) {
+            (Phase::StepComplete, Some(simulation)) if simulation.ramps_inputs() => now.apply_jumps(),
+            (Phase::StepComplete, Some(simulation)) => simulation.set_input_derivatives(now.input_derivatives),
+            _ => {}
         }
     }
 

@@ -242,15 +242,18 @@ impl Instance {
             return Ok(());
         }
         let now = &mut self.now;
+        let ramps = now.begin_ramp(until);
         let Some(simulation) = &mut now.simulation else { return Ok(()) };
-        if simulation.input_derivatives() != now.input_derivatives.as_ref() {
+        if !ramps && simulation.input_derivatives() != now.input_derivatives.as_ref() {
             simulation.set_input_derivatives(now.input_derivatives);
         }
         let outcome = simulation.advance(until);
-        now.derivatives_set = 0;
-        if now.input_derivatives.is_some() {
+        if ramps {
+            now.end_ramp(until);
+        } else if now.input_derivatives.is_some() {
             now.take_reached_inputs();
         }
+        now.derivatives_set = 0;
         if let Err(failure) = outcome {
             return Err(self.step_failed(&failure));
         }

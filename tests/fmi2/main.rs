@@ -13,6 +13,7 @@ mod exchange_errors;
 mod exchange_events;
 mod experiment;
 mod hostile_states;
+mod input_ramp;
 mod instances;
 mod logging;
 mod set_states;
