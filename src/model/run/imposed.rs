@@ -52,7 +52,10 @@ pub fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) ->
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
     let wheel = |s: usize| if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
     let [left, right, carrier] = inputs.torques_since(before).map(f64::abs);
-    Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
+    // torques on bodies with imposed speeds do not act
+    let jump = |torque: f64, inertia: f64, is_imposed: bool| if is_imposed { 0.0 } else { torque / inertia };
+    let wheels = [left, right].into_iter().enumerate().map(|(s, torque)| jump(torque, wheel(s), plan.side_imposed[s]));
+    Some(wheels.fold(jump(carrier, inertia.carrier, plan.carrier_imposed), f64::max))
 }
 
 /// Whether all imposed speeds equal their commands.
