@@ -131,7 +131,7 @@ impl Differential {
         }
         simulation.ramp_inputs(&host, until);
         simulation.advance(until).map_err(DifferentialError::Step)?;
-        simulation.set_inputs(&host.values);
+        simulation.end_ramp(&host);
         Ok(())
     }
 

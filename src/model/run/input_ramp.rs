@@ -58,6 +58,11 @@ impl Simulation {
         }
     }
 
+    /// Ends a step in which all inputs have arrived: at the end of their lines they get the host's values to the last bit.
+    pub fn end_ramp(&mut self, host: &HostInputs) {
+        self.set_inputs(&host.values.pick(&self.inputs, &host.follow));
+    }
+
     fn set_rates(&mut self, derivatives: InputDerivatives) {
         self.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
     }
