@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::declaration::Variability;
-use crate::model::{Inputs, Parameters, Simulation, StepFailure};
+use crate::model::{HostInputs, Inputs, Parameters, Simulation, StepFailure};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, Variable, assign, named, number_of, tuned, value_of};
 
@@ -93,7 +93,11 @@ impl Differential {
         }
         assign(row, value, &mut self.parameters, &mut self.inputs)?;
         if let Some(simulation) = &mut self.simulation {
-            simulation.set_inputs(&self.inputs);
+            if simulation.ramps_inputs() {
+                simulation.apply_jumps(&HostInputs::held(&self.inputs));
+            } else {
+                simulation.set_inputs(&self.inputs);
+            }
             if !matches!(row.access, Access::Input(_)) {
                 simulation.tune(&tuned(&self.parameters, simulation.parameters()));
             }
@@ -110,18 +114,25 @@ impl Differential {
         }
     }
 
-    /// Simulates on for `duration` [s]; inputs hold. The first call starts the simulation at 0 s.
+    /// Simulates on for `duration` [s]; inputs hold, or ramp under `solver.input_ramp`. The first call starts the simulation at 0 s.
     pub fn advance(&mut self, duration: f64) -> Result<(), DifferentialError> {
         if !(duration >= 0.0 && duration.is_finite()) {
             let message = format!("a duration of {duration} s is no time to simulate for");
             return Err(DifferentialError::Step(StepFailure { time: self.time(), message }));
         }
+        let host = HostInputs::held(&self.inputs);
         let simulation = self.simulation()?;
         let until = simulation.time() + duration;
         if until <= simulation.time() {
             return Ok(());
         }
-        simulation.advance(until).map_err(DifferentialError::Step)
+        if !simulation.ramps_inputs() {
+            return simulation.advance(until).map_err(DifferentialError::Step);
+        }
+        simulation.ramp_inputs(&host, until);
+        simulation.advance(until).map_err(DifferentialError::Step)?;
+        simulation.end_ramp(&host);
+        Ok(())
     }
 
     /// Time that was simulated [s].

@@ -5,7 +5,7 @@ use super::unknowns::{finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
 use crate::declaration::Range;
-use crate::model::{InputDerivatives, InputField, LedgerReadings, ORDERS};
+use crate::model::{InputDerivatives, InputField, Inputs, LedgerReadings, ORDERS};
 use crate::variables::{Access, OutputSource, Table, Variable, accepted, table};
 
 /// Highest order of output derivatives.
@@ -41,8 +41,20 @@ fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, Inp
     .filter_map(|(bit, row)| if let Access::Input(slot) = row.access { Some((bit, row, slot)) } else { None })
 }
 
+/// Returns `inputs` with the limit in place of each input that has passed it by rounding.
+pub fn within_ranges(mut inputs: Inputs) -> Inputs {
+    for &index in &table().inputs {
+        let row = &table().rows[index];
+        if let Access::Input(slot) = row.access {
+            let reached = slot(&mut inputs);
+            *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
+        }
+    }
+    inputs
+}
+
 /// Bit of an input in `Snapshot::derivatives_set`.
-fn input_bit(reference: u32) -> u32 {
+pub fn input_bit(reference: u32) -> u32 {
     let index = table().inputs.iter().position(|&i| i as u32 == reference);
     index.map_or(0, |index| 1 << index)
 }
@@ -116,8 +128,12 @@ impl Instance {
         if self.changing == 0 || may_be_zero && now.input_derivatives.as_ref() == Some(&InputDerivatives::ZERO) {
             now.input_derivatives = None;
         }
-        if let (Phase::StepComplete, Some(simulation)) = (now.phase, &mut now.simulation) {
-            simulation.share_input_derivatives(now.input_derivatives.as_ref());
+        match (now.phase, &mut now.simulation) {
+            (Phase::StepComplete, Some(simulation)) if simulation.ramps_inputs() => now.apply_jumps(),
+            (Phase::StepComplete, Some(simulation)) => {
+                simulation.share_input_derivatives(now.input_derivatives.as_ref());
+            }
+            _ => {}
         }
     }
 

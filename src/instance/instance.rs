@@ -245,12 +245,15 @@ impl Instance {
             return Ok(());
         }
         let now = &mut self.now;
+        let ramps = now.begin_ramp(until);
         let Some(simulation) = &mut now.simulation else { return Ok(()) };
         let outcome = simulation.advance(until);
-        now.derivatives_set = 0;
-        if now.input_derivatives.is_some() {
+        if ramps {
+            now.end_ramp(until);
+        } else if now.input_derivatives.is_some() {
             now.take_reached_inputs(not_plain);
         }
+        now.derivatives_set = 0;
         if let Err(failure) = outcome {
             return Err(self.step_failed(&failure));
         }

@@ -19,6 +19,7 @@ mod exchange;
 mod exports;
 mod host_memory;
 mod initial_derivatives;
+mod input_ramp;
 #[allow(clippy::module_inception)]
 mod instance;
 mod log;

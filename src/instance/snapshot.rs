@@ -15,7 +15,7 @@ use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, ta
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 18;
+const VERSION: u32 = 19;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -72,7 +72,8 @@ impl Snapshot {
 }
 
 /// What of a simulation is serialised behind its snapshot: all but what follows from the parameters. It is large for a small stack.
-type Running = (Option<Box<(State, Watched)>>, Option<Box<Accepted>>);
+/// The inputs are those that act, which may be others than the host has set.
+type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
@@ -116,7 +117,7 @@ impl Snapshot {
     #[inline(never)] // its frame is large for a small stack
     fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
         let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
-        let state = running.map(|s| Box::new((*s.state(), *s.watched())));
+        let state = running.map(|s| Box::new(((*s.state(), *s.watched()), *s.inputs())));
         let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
         self.simulation = None;
         self.resume((state, accepted), cache)
@@ -124,12 +125,12 @@ impl Snapshot {
 
     /// Continues what was `running`, if anything, under the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
-        if let (Some(state), accepted) = running {
+        if let (Some(running), accepted) = running {
             let resumed =
-                Simulation::resume_with(&self.effective(&self.parameters), &self.inputs, *state, &given(cache));
+                Simulation::resume_with(&self.effective(&self.parameters), &running.1, running.0, &given(cache));
             let mut resumed = resumed.map_err(|p| problem::list(&p))?;
             // a step does not compare both
-            if self.kind == Kind::CoSimulation {
+            if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {
                 resumed.set_input_derivatives(self.input_derivatives);
             }
             self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
@@ -144,6 +145,7 @@ impl Snapshot {
         let own_steps = self.kind == Kind::CoSimulation;
         parameters.solver.merge_planets &= own_steps;
         parameters.effects.mesh_history &= own_steps;
+        parameters.solver.input_ramp &= own_steps;
         parameters
     }
 
@@ -151,7 +153,8 @@ impl Snapshot {
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         // as `Running` has it
         let simulation = self.simulation.as_ref();
-        let running = (simulation.map(|s| (s.state(), s.watched())), simulation.and_then(Simulation::accepted));
+        let running =
+            (simulation.map(|s| ((s.state(), s.watched()), s.inputs())), simulation.and_then(Simulation::accepted));
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
@@ -207,7 +210,7 @@ impl Snapshot {
         }
         if !start_time.is_finite()
             || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
-            || state.as_ref().is_some_and(|both| !both.0.is_valid() || !both.1.is_valid())
+            || state.as_ref().is_some_and(|both| !both.0.0.is_valid() || !both.0.1.is_valid())
             || !(accepted.as_deref().is_none_or(Finite::is_finite)
                 && input_derivatives.is_finite()
                 && discrete.is_finite())
@@ -223,10 +226,11 @@ impl Snapshot {
         if exchanges && (*kind != Kind::ModelExchange || accepted.is_none()) || steps && *kind != Kind::CoSimulation {
             return Err(format!("the state \"{}\" does not belong to this kind of instance", phase.name()));
         }
-        let mut inputs = *inputs;
-        for row in &table().rows {
-            if let Access::Input(slot) = row.access {
-                check_value(row, *slot(&mut inputs)).map_err(|p| p.to_string())?;
+        for mut inputs in [Some(*inputs), state.as_deref().map(|running| running.1)].into_iter().flatten() {
+            for row in &table().rows {
+                if let Access::Input(slot) = row.access {
+                    check_value(row, *slot(&mut inputs)).map_err(|p| p.to_string())?;
+                }
             }
         }
         let problems = if state.is_some() { check_ranges(parameters) } else { Vec::new() };

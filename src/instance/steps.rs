@@ -65,6 +65,15 @@ impl Instance {
         self.check_co_simulation()?;
         let time = self.simulation()?.time();
         self.check_step(time, point, h)?;
+        let ramps = self.now.begin_ramp(until);
+        let outcome = self.move_to_event(until, in_parts);
+        if ramps {
+            self.now.end_ramp(until);
+        }
+        outcome
+    }
+
+    fn move_to_event(&mut self, until: f64, in_parts: bool) -> CallResult<Ended> {
         let may_end_early = self.allowed.early_return;
         let simulation = self.simulation()?;
         // a command that changes what friction holds is an event at the start of the step

@@ -286,17 +286,18 @@ impl Instance {
     /// Passes the new values to a running simulation; before, the simulation is discarded and rebuilt on demand.
     fn changed(&mut self, parameters: bool) {
         let now = &mut self.now;
-        match &mut now.simulation {
-            Some(simulation) if now.phase.is_running() => {
-                simulation.set_inputs(&now.inputs);
-                if parameters {
-                    simulation.tune(&tuned(&now.parameters, simulation.parameters()));
-                }
-                if simulation.is_model_exchange() {
-                    simulation.follow_commands();
-                }
+        if !now.phase.is_running() {
+            now.simulation = None;
+            return;
+        }
+        now.pass_inputs();
+        if let Some(simulation) = &mut now.simulation {
+            if parameters {
+                simulation.tune(&tuned(&now.parameters, simulation.parameters()));
             }
-            _ => now.simulation = None,
+            if simulation.is_model_exchange() {
+                simulation.follow_commands();
+            }
         }
     }
 }

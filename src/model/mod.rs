@@ -42,7 +42,7 @@ pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use readings::{CostClass, Reported};
-pub use run::{Accepted, Simulation, StepFailure, Watched, six_digits};
+pub use run::{Accepted, HostInputs, Simulation, StepFailure, Watched, six_digits};
 pub use scene::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{

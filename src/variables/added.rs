@@ -152,6 +152,7 @@ const ADDED: &[&str] = &[
     "warm_up.sump_change",
     "inertia.side_gear_mass",
     "tooth_fault.at_onset",
+    "solver.input_ramp",
 ];
 
 /// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.

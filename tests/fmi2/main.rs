@@ -14,6 +14,7 @@ mod exchange_events;
 mod experiment;
 mod held_inputs;
 mod hostile_states;
+mod input_ramp;
 mod instances;
 mod logging;
 mod set_states;

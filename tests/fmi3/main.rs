@@ -1,3 +1,4 @@
 //! The C interface of FMI 3.0.
 
+mod input_ramp;
 mod sources;

@@ -90,3 +90,19 @@ fn a_pin_gives_way_by_its_force_over_its_stiffness() {
     let found = it.get("planet[1].pin_angle").expect("an angle");
     assert!((found.abs() / expected - 1.0).abs() < 1e-6, "{found:e} {expected:e}");
 }
+
+#[test]
+fn under_input_ramps_a_speed_is_reached_at_the_end_of_the_next_step() {
+    let mut turn = Differential::new();
+    turn.set_text("scene.gear_contact", "ideal").unwrap();
+    turn.set_text("solver.input_ramp", "true").unwrap();
+    turn.set("carrier.speed_command", 50.0).unwrap();
+    turn.advance(1e-3).unwrap();
+    let angle = turn.get("carrier.angle").unwrap();
+    turn.set("carrier.speed_command", 51.0).unwrap();
+    assert_eq!(turn.get("carrier.speed"), Ok(50.0), "nothing moves before the step");
+    turn.advance(1e-3).unwrap();
+    assert!((turn.get("carrier.speed").unwrap() - 51.0).abs() < 1e-12);
+    let turned = turn.get("carrier.angle").unwrap() - angle;
+    assert!((turned - 50.5e-3).abs() < 1e-12, "{turned} rad");
+}

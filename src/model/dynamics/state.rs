@@ -268,6 +268,11 @@ impl BodyEffects {
         self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
     }
 
+    /// Whether forces of gears without teeth follow from a formula in `state`: no effect acts on bodies, and inputs are constant.
+    pub fn have_closed_form(&self, state: &State) -> bool {
+        !self.act_in(state) && state.input_derivatives.is_none()
+    }
+
     /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that still holds.
     pub fn may_rub_in(&self, state: &State) -> bool {
         self.has_friction || state.lock > 0.0 || state.friction.iter().any(|friction| friction.stiffness > 0.0)

@@ -66,7 +66,7 @@ impl Simulation {
     pub(in crate::model) fn forces_of_state(&self, extent: Extent) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
-            Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) && state.input_derivatives.is_none() => {
+            Gears::Ideal(ideal) if ideal.body_effects.have_closed_form(state) => {
                 forces::ideal_forces(model, inputs, state)
             }
             Gears::Ideal(ideal) => {

@@ -8,6 +8,7 @@ pub mod events;
 pub mod failure;
 pub mod hints;
 pub mod imposed;
+mod input_ramp;
 mod integration;
 pub mod ledger;
 pub mod progress;
@@ -18,6 +19,7 @@ mod widened;
 
 pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};
+pub use input_ramp::HostInputs;
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use simulation::Simulation;
 pub use watching::Watched;

@@ -220,8 +220,9 @@ impl Simulation {
     /// Where the solver's step ends that contains the present or begins there [s]; none where the solver's steps end where the host
     /// asks.
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
-        let is_closed = matches!(&self.model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state));
-        if is_closed || self.model.parameters.solver.method == Method::FixedStep {
+        let (model, state) = (&self.model, &self.state);
+        let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
+        if is_closed || state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             return Ok(None);
         }
         let end = |state: &State| {

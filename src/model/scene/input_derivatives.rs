@@ -35,6 +35,11 @@ impl InputDerivatives {
         }
     }
 
+    /// Returns the derivatives of each input, or those of `other` where the `mask` is not 0.
+    pub fn pick(&self, other: &Self, mask: &Inputs) -> Self {
+        Self { rates: std::array::from_fn(|order| self.rates[order].pick(&other.rates[order], mask)) }
+    }
+
     /// Inputs and their derivatives `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
         let (mut later, mut rest) = (*inputs, *self);

@@ -15,6 +15,7 @@ const COMMAND: [f64; 2] = [0.0, 1.0];
 trait Value: Copy {
     const ZERO: Self;
     fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self;
+    fn pick(self, other: Self, mask: Self) -> Self;
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64));
     fn follow(&mut self, rates: [&mut Self; 2], follow: impl Fn(&mut f64, [&mut f64; 2]));
 }
@@ -23,6 +24,9 @@ impl Value for f64 {
     const ZERO: Self = 0.0;
     fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         of(self, other)
+    }
+    fn pick(self, other: Self, mask: Self) -> Self {
+        if mask == 0.0 { self } else { other }
     }
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
         see(self, other);
@@ -41,6 +45,9 @@ impl Value for [f64; 2] {
     const ZERO: Self = [0.0; 2];
     fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         [of(self[0], other[0]), of(self[1], other[1])]
+    }
+    fn pick(self, other: Self, mask: Self) -> Self {
+        [self[0].pick(other[0], mask[0]), self[1].pick(other[1], mask[1])]
     }
     fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
         see(self[0], other[0]);
@@ -88,6 +95,16 @@ macro_rules! inputs {
             pub fn follow(&mut self, rates: &mut [Self; 2], follow: impl Fn(&mut f64, [&mut f64; 2], [f64; 2])) {
                 let [first, second] = rates;
                 $(self.$name.follow([&mut first.$name, &mut second.$name], |value, rates| follow(value, rates, $limits));)+
+            }
+
+            /// Returns each value, or that of `other` where the `mask` is not 0.
+            pub fn pick(&self, other: &Self, mask: &Self) -> Self {
+                Self { $($name: self.$name.pick(other.$name, mask.$name)),+ }
+            }
+
+            /// Rates at which these inputs become `later` in `time` [s].
+            pub fn rates_to(&self, later: &Self, time: f64) -> Self {
+                Self { $($name: self.$name.combine(later.$name, |from, to| (to - from) / time)),+ }
             }
 
             /// Calls `see` with each value and that of `other`.

@@ -31,6 +31,8 @@ spec! {
         pub fixed_step: f64 = 1e-4,
         /// Planets that are identical and in phase are simulated once and counted; off simulates each.
         pub merge_planets: bool = true,
+        /// A jump of a torque or an imposed speed is spread linearly over the communication step that follows it.
+        pub input_ramp: bool = false,
     }
 }
 

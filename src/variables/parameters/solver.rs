@@ -32,5 +32,12 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         )
         .when("co-simulation and scene.gear_contact != ideal")
         .switch(|p| &mut p.solver.merge_planets),
+        row(
+            "solver.input_ramp",
+            "Jumps of torques and imposed speeds are spread linearly over the communication step that follows, half a \
+             step late; lock, fault trigger and temperatures still jump",
+        )
+        .when("co-simulation")
+        .switch(|p| &mut p.solver.input_ramp),
     ]
 }

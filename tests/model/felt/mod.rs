@@ -9,7 +9,7 @@ use crate::common::random::Draws;
 use crate::mirror::random;
 use crate::mirror::scene::{Scene, Step};
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, Simulation};
+use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{Situation, is_felt};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
@@ -76,9 +76,13 @@ impl Run {
             if !goes_on {
                 break;
             }
-            simulation.set_inputs(&step.inputs);
-            simulation.set_input_derivatives(step.derivatives);
             time += step.size;
+            if simulation.ramps_inputs() {
+                simulation.ramp_inputs(&HostInputs::held(&step.inputs), time);
+            } else {
+                simulation.set_inputs(&step.inputs);
+                simulation.set_input_derivatives(step.derivatives);
+            }
             if simulation.advance(time).is_err() {
                 break;
             }

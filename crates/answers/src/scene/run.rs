@@ -4,7 +4,7 @@ use std::io::Write;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use bevel_differential::model::{InputDerivatives, Inputs, Parameters, Reported, Simulation};
+use bevel_differential::model::{HostInputs, InputDerivatives, Inputs, Parameters, Reported, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, check_ranges};
 use schedule::{Schedule, Step};
@@ -65,8 +65,9 @@ impl<'a> SceneRun<'a> {
     /// One step to the next communication point, or to the next change of inputs before it.
     pub fn advance(&mut self) -> Result<()> {
         let Some(step) = self.schedule.next() else { return Ok(()) };
-        self.feed(&step);
+        let ramp = self.feed(&step);
         self.simulation.advance(step.end).map_err(|why| anyhow!("{why}")).with_context(|| refused(self.scene))?;
+        ramp.iter().for_each(|host| self.simulation.end_ramp(host));
         self.found.extend(self.simulation.unreported(&mut self.reported));
         if self.is_over() {
             self.found.extend(self.simulation.unreported_at_end(&mut self.reported));
@@ -85,27 +86,37 @@ impl<'a> SceneRun<'a> {
         &self.found
     }
 
-    /// Sets what is due before `step`, and what tables do over it.
-    fn feed(&mut self, step: &Step) {
+    /// Sets what is due before `step`, and what tables do over it. Returns the inputs if those that jump ramp over the step.
+    fn feed(&mut self, step: &Step) -> Option<HostInputs> {
         let mut tuned = false;
         for setting in self.scene.events[step.changes.clone()].iter().flat_map(|event| &event.settings) {
             setting.apply(&mut self.parameters, &mut self.inputs);
             tuned |= !matches!(setting.row.access, Access::Input(_));
         }
-        let mut derivatives = InputDerivatives::ZERO;
+        let (mut derivatives, mut follow) = (InputDerivatives::ZERO, Inputs::ZERO);
         // the last one wins where two tables name one input
         for InputTable { row, table } in &self.scene.input_tables {
             if let Access::Input(access) = row.access {
                 [*access(&mut self.inputs), *access(&mut derivatives.rates[0])] = step.follow(table);
+                *access(&mut follow) = f64::from(self.scene.input_slopes);
             }
         }
-        self.simulation.set_inputs(&self.inputs);
+        let ramps = self.simulation.ramps_inputs();
+        if !ramps {
+            self.simulation.set_inputs(&self.inputs);
+        }
         if tuned {
             self.simulation.tune(&self.parameters);
+        }
+        if ramps {
+            let host = HostInputs { values: self.inputs, derivatives, follow };
+            self.simulation.ramp_inputs(&host, step.end);
+            return Some(host);
         }
         if self.scene.input_slopes {
             self.simulation.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
         }
+        None
     }
 
     /// Value of an output.

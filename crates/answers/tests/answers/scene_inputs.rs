@@ -287,3 +287,25 @@ fn a_choice_of_slopes_that_is_none_is_told_by_key_and_value() {
         parsed(&format!("{FRAME}input_slopes = 1\n")).err().map(|error| format!("{error:#}")).unwrap_or_default();
     assert!(problem.contains("input_slopes = 1: must be true or false"), "{problem}");
 }
+
+#[test]
+fn under_input_ramps_a_change_is_spread_over_the_next_step_and_tables_keep_their_lines() -> Result<()> {
+    // a table jumps by 2 rad/s at 20 ms, and rises by 1 rad/s from there to 30 ms
+    let table = "[[table]]\ninput = \"spin.command\"\ntime = [0.0, 0.02, 0.02, 0.03]\nvalue = [0.0, 0.0, 2.0, 3.0]\n";
+    for (ramps, turned) in [(true, 50.0 * 0.01 + 50.5 * 0.001 + 51.0 * 0.089), (false, 50.0 * 0.01 + 51.0 * 0.09)] {
+        let scene = parsed(&format!(
+            "description = \"d\"\nstop_time = 0.1\nstep = 1e-3\noutputs = [\"carrier.angle\", \"planet[1].spin_angle\"]\n\
+             [set]\nscene.gear_contact = \"ideal\"\nscene.planet_spin = \"imposed\"\nsolver.input_ramp = {ramps}\n\
+             carrier.speed_command = 50.0\n[[at]]\ntime = 0.01\ncarrier.speed_command = 51.0\n{table}"
+        ))?;
+        let found = run(&scene, None, &mut Progress::silent())?;
+        assert!(
+            (found.outputs[0].end - turned).abs() < 1e-9,
+            "{ramps}: {} instead of {turned} rad",
+            found.outputs[0].end
+        );
+        let spun = 2.5 * 0.01 + 3.0 * 0.07;
+        assert!((found.outputs[1].end - spun).abs() < 1e-9, "{ramps}: {} instead of {spun} rad", found.outputs[1].end);
+    }
+    Ok(())
+}

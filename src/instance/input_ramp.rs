@@ -1,0 +1,71 @@
+//! Steps in which jumps of inputs become lines (`solver.input_ramp`).
+//!
+//! The snapshot has the host's values, the simulation has the values that it has reached. Inputs with derivatives from the host
+//! follow these derivatives instead of a line to the next value.
+
+use super::Snapshot;
+use super::derivatives::{input_bit, within_ranges};
+use crate::model::{HostInputs, InputDerivatives, Inputs, Simulation};
+use crate::variables::{Access, table};
+
+impl Snapshot {
+    /// Passes the inputs that the host has set to the simulation, between steps.
+    #[inline]
+    pub fn pass_inputs(&mut self) {
+        match &mut self.simulation {
+            Some(simulation) if simulation.ramps_inputs() => self.apply_jumps(),
+            Some(simulation) => simulation.set_inputs(&self.inputs),
+            None => {}
+        }
+    }
+
+    /// Passes the inputs that jump, and those that follow derivatives.
+    #[cold]
+    pub fn apply_jumps(&mut self) {
+        let host = self.host_inputs();
+        if let Some(simulation) = &mut self.simulation {
+            simulation.apply_jumps(&host);
+        }
+    }
+
+    /// Begins a step to `until` [s], or the rest of one. Returns true if jumps of inputs become lines.
+    #[inline]
+    pub fn begin_ramp(&mut self, until: f64) -> bool {
+        let ramps = self.simulation.as_ref().is_some_and(Simulation::ramps_inputs);
+        if ramps {
+            let host = self.host_inputs();
+            self.simulation.iter_mut().for_each(|simulation| simulation.ramp_inputs(&host, until));
+        }
+        ramps
+    }
+
+    /// Ends a step to `until` [s] in which jumps of inputs became lines. An input at the end of its line gets the host's value to
+    /// the last bit.
+    pub fn end_ramp(&mut self, until: f64) {
+        let HostInputs { values, follow, .. } = self.host_inputs();
+        let Some(simulation) = &self.simulation else { return };
+        let (is_complete, reached) = (simulation.time() >= until, simulation.input_derivatives().copied());
+        self.inputs = within_ranges(values.pick(simulation.inputs(), &follow));
+        self.input_derivatives = reached
+            .map(|reached| InputDerivatives::ZERO.pick(&reached, &follow))
+            .filter(|derivatives| *derivatives != InputDerivatives::ZERO);
+        match &mut self.simulation {
+            Some(simulation) if is_complete => simulation.set_inputs(&self.inputs),
+            _ => self.apply_jumps(),
+        }
+    }
+
+    /// Inputs as the host has set them.
+    fn host_inputs(&self) -> HostInputs {
+        let mut derivatives = self.input_derivatives.unwrap_or(InputDerivatives::ZERO);
+        let mut follow = Inputs::ZERO;
+        for &index in &table().inputs {
+            let Access::Input(slot) = table().rows[index].access else { continue };
+            let is_set = self.derivatives_set & input_bit(index as u32) != 0;
+            if is_set || derivatives.rates.iter_mut().any(|rates| *slot(rates) != 0.0) {
+                *slot(&mut follow) = 1.0;
+            }
+        }
+        HostInputs { values: self.inputs, derivatives, follow }
+    }
+}

@@ -1,0 +1,69 @@
+//! Input ramps (`solver.input_ramp`): a jump of an input becomes a line over the communication step that follows it.
+//!
+//! Between steps the simulation keeps the inputs that it has reached, and the host's values wait. A step gives each waiting
+//! input the rate at which it arrives at the end, as a host would by input derivatives. A step that ends early leaves the
+//! rest of the line to the next step. Torques and imposed speeds ramp. Lock and fault trigger are commands that cause
+//! events, and the temperatures outside act through slow nodes, so these inputs jump.
+
+use super::Simulation;
+use crate::model::scene::{InputDerivatives, Inputs};
+use crate::numeric::Finite;
+
+/// Inputs that jump, each marked by 1.
+const JUMPING: Inputs = Inputs { lock: 1.0, fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
+
+/// What a host has set.
+#[derive(Clone, Copy, Debug)]
+pub struct HostInputs {
+    /// Values.
+    pub values: Inputs,
+    /// Derivatives.
+    pub derivatives: InputDerivatives,
+    /// Inputs that follow the derivatives, each marked by 1.
+    pub follow: Inputs,
+}
+
+impl HostInputs {
+    /// Values without derivatives.
+    pub fn held(values: &Inputs) -> Self {
+        Self { values: *values, derivatives: InputDerivatives::ZERO, follow: Inputs::ZERO }
+    }
+}
+
+impl Simulation {
+    /// True if jumps of inputs become lines.
+    pub fn ramps_inputs(&self) -> bool {
+        self.model.parameters.solver.input_ramp && !self.is_model_exchange()
+    }
+
+    /// Applies the inputs that do not ramp. The others keep the values and rates that they have reached.
+    pub fn apply_jumps(&mut self, host: &HostInputs) {
+        let at_once = JUMPING.plus(1.0, &host.follow);
+        self.set_inputs(&self.inputs.pick(&host.values, &at_once));
+        let reached = self.state.input_derivatives.unwrap_or(InputDerivatives::ZERO);
+        self.set_rates(reached.pick(&host.derivatives, &host.follow));
+    }
+
+    /// Prepares a step in which all inputs arrive at the host's values at the time `until` [s].
+    pub fn ramp_inputs(&mut self, host: &HostInputs, until: f64) {
+        self.apply_jumps(host);
+        let first = self.inputs.rates_to(&host.values, until - self.time());
+        let lines = InputDerivatives { rates: [first, Inputs::ZERO] };
+        // over the shortest steps a rate may overflow; then the inputs jump
+        if lines.is_finite() {
+            self.set_rates(lines.pick(&host.derivatives, &host.follow));
+        } else {
+            self.set_inputs(&host.values);
+            self.set_rates(host.derivatives);
+        }
+    }
+
+    /// Ends a step in which all inputs have arrived: at the end of their lines they get the host's values to the last bit.
+    pub fn end_ramp(&mut self, host: &HostInputs) {
+        self.set_inputs(&host.values.pick(&self.inputs, &host.follow));
+    }
+
+    fn set_rates(&mut self, derivatives: InputDerivatives) {
+        self.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
+    }
+}
