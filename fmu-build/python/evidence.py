@@ -28,6 +28,8 @@ TIGHT = 1e-9
 # a tolerance by the difference between both runs: other platforms, and hosts with other communication points, have other differences of
 # the same size
 MARGIN = 5.0
+# tolerances of the solver by which motion and forces may be off at any point, on top
+POINTWISE = 10.0
 # fractions of the largest magnitude: rounding to the digits of the files, and a difference that shows another motion
 ROUNDING, LOST = 1e-9, 1e-3
 # what should be 0 is small or large by a heat, which is an energy as well
@@ -88,7 +90,7 @@ class Run:
         if points:
             write_table(folder / self.file("inputs"), points)
             inputs = table(fmu, folder / self.file("inputs"), file)
-        usual = start.get(SOLVER, fmu.variable(SOLVER).start)
+        self.tolerance = usual = start.get(SOLVER, fmu.variable(SOLVER).start)
         self.usual, self.tight = (record(fmu, start | {SOLVER: tolerance}, inputs, scene["stop"], self.step, scene["outputs"], [])
                                   for tolerance in (usual, TIGHT))
 
@@ -112,7 +114,9 @@ class Run:
             self.description += f" (the result ends at {self.tight['time'][end - 1]:.6g} s: later the motion depends on the tolerance of the solver)"
         kept = sorted({1, *range(0, end, max(1, math.ceil((end - 1) / ROWS))), end - 1})
         rows = [("time", *self.outputs), *([f"{cell:.10g}" for cell in self.tight[place]] for place in kept)]
-        return rows, {name: rounded_up(MARGIN * differences[name][:end].max() + ROUNDING * scales[name]) for name in self.outputs}
+        return rows, {
+            name: rounded_up(MARGIN * differences[name][:end].max() + (ROUNDING + POINTWISE * self.tolerance) * scales[name])
+            for name in self.outputs}
 
 
 def signals(scene, fmu, values):

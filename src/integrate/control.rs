@@ -47,36 +47,53 @@ finite!(Control { next, last, last_error; on_kink, after_kink, after_jump });
 /// step after the last one, until steps are about as long again as before the jump.
 ///
 /// At these sizes the error grows in proportion to the jump and with the fifth power of the size. So the memory holds the right size
-/// for a jump of 1 rad/s², and the fifth root of the jump scales it.
+/// for a jump as large as the first, and the fifth root of the ratio of both scales it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AfterJump {
     /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] where none follows a jump any more.
     step: u32,
     /// Whether the memory decides on sizes. A jump that is too small to cut the next step short leaves the control as it is.
     decides: bool,
-    /// Fifth root of the jump of the accelerations; that of [rad/s²].
+    /// First jump of the accelerations [rad/s²]; 0 before.
+    first: f64,
+    /// Fifth root of the last jump over the first.
     root: f64,
     /// Size predicted before the jump [s].
     before: f64,
-    /// Right sizes for a jump of 1 rad/s² [s]; 0 where none is known.
+    /// Right sizes for a jump as large as the first [s]; 0 where none is known.
     sizes: [f64; STEPS_AFTER_JUMP],
 }
 
-finite!(AfterJump { root, before, sizes; step, decides });
+finite!(AfterJump { first, root, before, sizes; step, decides });
 
 impl AfterJump {
     /// No jump yet.
-    const NONE: Self =
-        Self { step: STEPS_AFTER_JUMP as u32, decides: false, root: 1.0, before: 0.0, sizes: [0.0; STEPS_AFTER_JUMP] };
+    const NONE: Self = Self {
+        step: STEPS_AFTER_JUMP as u32,
+        decides: false,
+        first: 0.0,
+        root: 1.0,
+        before: 0.0,
+        sizes: [0.0; STEPS_AFTER_JUMP],
+    };
 
     /// True if all numbers are finite and in their ranges.
     pub fn is_valid(&self) -> bool {
-        self.is_finite() && self.root > 0.0 && self.before >= 0.0 && self.sizes.iter().all(|&size| size >= 0.0)
+        let Self { first, root, before, .. } = *self;
+        self.is_finite() && first >= 0.0 && root > 0.0 && before >= 0.0 && self.sizes.iter().all(|&size| size >= 0.0)
     }
 
     fn start(&mut self, before: f64) {
         (self.step, self.before, self.decides) = (0, before, true);
         self.decides = self.size().is_some_and(|size| size < SHORT * before);
+    }
+
+    /// Takes a jump of the accelerations by `jump` [rad/s²].
+    fn scale(&mut self, jump: f64) {
+        if self.first == 0.0 {
+            self.first = jump;
+        }
+        self.root = fifth_root(jump / self.first);
     }
 
     /// Size of the next step [s], where it is known.
@@ -125,7 +142,7 @@ impl Control {
     pub fn jump(&mut self, jump: Option<f64>) {
         match jump {
             Some(0.0) => return,
-            Some(jump) => self.after_jump.root = fifth_root(jump),
+            Some(jump) => self.after_jump.scale(jump),
             None => {}
         }
         self.after_jump.start(self.next);

@@ -82,4 +82,4 @@ def test_numbers_of_the_page_are_those_of_the_source():
     assert f"two planets that differ | {sizes['DIFFERENT']} |" in page
     assert f"half-shafts that twist | {sizes['WITH_ENDS']} |" in page
     assert f"| teeth, `Largest` | up to {sizes['LARGEST']} |" in page
-    assert f"| gears without teeth | up to {constant('src/model/assembly/ideal_with_effects.rs', 'MOST')} |" in page
+    assert f"| gears without teeth | up to {sizes['WITH_ENDS']} |" in page
