@@ -17,7 +17,8 @@ from scaling import Scale, differences, dimension
 LIMIT = 1e-7
 # largest stresses are those at the ends of steps and at peaks of the approach in between, where others may be higher by some 1e-5;
 # damage goes with the ninth power of the stress and more (S-N curves), and so does its error
-LIMITS = {"safety.": 1e-5, "damage.": 10.0 * LIMIT}
+# ratios of torques amplify what other steps of the solver change, as a small sum does
+LIMITS = {"safety.": 1e-5, "damage.": 10.0 * LIMIT, "locking_value": 10.0 * LIMIT, "torque_bias_ratio": 10.0 * LIMIT}
 # what a constant must change to be one, far above what may be left of rounding and of the solver's tolerance
 SEEN = 1e-6
 SEED, SCENES, POINTS = 21, 36, 6
