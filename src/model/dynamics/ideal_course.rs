@@ -14,13 +14,7 @@ impl Ideal {
         let v = state.v;
         let turn = |speed: f64, acceleration: f64| h * (speed + 0.5 * h * acceleration);
         let (carrier, spin) = (turn(v[CARRIER], m.carrier), turn(v[PLANET], m.spin));
-        let relative = self.ratio * spin;
-        state.q[0] += relative;
-        state.q[1] -= relative;
-        state.q[CARRIER] += carrier;
-        for g in 0..self.plan.groups().len() {
-            state.q[PLANET + g] += spin;
-        }
+        let relative = self.turn(state, carrier, spin);
         let [left, right] = inputs.load_torque;
         state.work += m.carrier_torque * carrier + m.spin_torque * spin
             - left * (carrier + relative)
@@ -40,15 +34,21 @@ impl Ideal {
         for (k, m) in course.iter().enumerate() {
             state.work += m.net[0] * by_carrier[k] + m.net[1] * by_spin[k];
         }
-        let (turned, spun) = (by_carrier[0], by_spin[0]);
-        let relative = self.ratio * spun;
+        self.turn(state, by_carrier[0], by_spin[0]);
+        (state.v[CARRIER], state.v[PLANET]) = (carrier.speed_at(h), spin.speed_at(h));
+    }
+
+    /// Turns all gears by the angles of the carrier and of the spin; returns that of the left side gear relative to the carrier.
+    #[inline]
+    fn turn(&self, state: &mut State, carrier: f64, spin: f64) -> f64 {
+        let relative = self.ratio * spin;
         state.q[0] += relative;
         state.q[1] -= relative;
-        state.q[CARRIER] += turned;
+        state.q[CARRIER] += carrier;
         for g in 0..self.plan.groups().len() {
-            state.q[PLANET + g] += spun;
+            state.q[PLANET + g] += spin;
         }
-        (state.v[CARRIER], state.v[PLANET]) = (carrier.speed_at(h), spin.speed_at(h));
+        relative
     }
 
     /// Gives imposed speeds the values of their `inputs`, and side gears the speeds by Willis' equation.

@@ -60,9 +60,9 @@ pub fn integrate(
 ) -> Result<(), StepFailure> {
     match &model.gears {
         Gears::Ideal(ideal) if !FULL || model.parameters.solver.method == Method::Adaptive => {
-            integrate_ideal(ideal, model, state, integration, budget)
+            integrate_ideal((ideal, model, state, integration, budget))
         }
-        Gears::Ideal(ideal) => ideal_by_table(ideal, model, state, integration, budget),
+        Gears::Ideal(ideal) => ideal_by_table((ideal, model, state, integration, budget)),
         Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
 }
@@ -96,40 +96,28 @@ pub fn integrate_teeth(
     }
 }
 
+/// Constants of the gears and of the scene, state, stretch of time and budget of an integration.
+type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
+
 /// Gears without teeth with effects, compiled as a whole: in the shape with ends every scene has room.
 #[inline(never)]
-fn integrate_ideal(
-    ideal: &IdealWithEffects,
-    model: &Model,
-    state: &mut State,
-    integration: Integration,
-    budget: &mut u64,
-) -> Result<(), StepFailure> {
+fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
     integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
 }
 
 /// Methods for gears without teeth that are not compiled for them.
 #[inline(never)]
-fn ideal_by_table(
-    ideal: &IdealWithEffects,
-    model: &Model,
-    state: &mut State,
-    integration: Integration,
-    budget: &mut u64,
-) -> Result<(), StepFailure> {
+fn ideal_by_table((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<MEDIUM> =
         &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
     integrate_equations::<MEDIUM, Any, _>(equations, model, state, integration, budget)
 }
 
-/// Constants, state, stretch of time and budget of an integration.
-type Arguments<'a, 'b> = (&'a Teeth, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
-
 /// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each shape.
 #[inline(never)]
 fn whole<const N: usize, S: Shape<N>>(
-    (teeth, model, state, integration, budget): Arguments,
+    (teeth, model, state, integration, budget): Arguments<Teeth>,
 ) -> Result<(), StepFailure> {
     let equations = &mut Equations::<S, N>::new(teeth, integration.inputs, state);
     integrate_equations::<N, S, _>(equations, model, state, integration, budget)
@@ -137,7 +125,7 @@ fn whole<const N: usize, S: Shape<N>>(
 
 /// All other teeth and methods: the integration calls their forces through a table of functions.
 #[inline(never)]
-fn by_table<const N: usize>((teeth, model, state, integration, budget): Arguments) -> Result<(), StepFailure> {
+fn by_table<const N: usize>((teeth, model, state, integration, budget): Arguments<Teeth>) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<N> = &mut Equations::<Any, N>::new(teeth, integration.inputs, state);
     integrate_equations::<N, Any, _>(equations, model, state, integration, budget)
 }
