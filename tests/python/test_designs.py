@@ -84,7 +84,7 @@ def test_a_share_of_zero_has_a_finite_value(fmu):
     ({"left.speed": "1..2"}, ("random", 5), ["left.speed", "cannot be varied"]),
     ({"left.load_torque": "900 N.m..700 N.m"}, ("random", 5), ["left.load_torque", "range"]),
     ({"left.load_torque": "7 ft..9 ft"}, ("random", 5), ["left.load_torque", "'ft'"]),
-    ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal takes 2 numbers"]),
+    ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal needs 2 numbers"]),
     ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["no distribution"]),
     ({"left.load_torque": "lognormal(1, 1 N.m)"}, ("random", 5), ["1 N.m", "not a plain number"]),
     ({"left.load_torque": "1..2:one"}, ("grid",), ["2 values or more"]),

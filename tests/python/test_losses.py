@@ -341,7 +341,7 @@ def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
         runs[cold] = made.new
         assert set(levels["oil.temperature"]) <= set(made.lines[3])
         assert made.slipping.shape[4] == made.stuck.shape[3] == len(made.lines[3])
-        told = [text for text in said if text.startswith("oil.temperature changes nothing here")]
+        told = [text for text in said if text.startswith("oil.temperature has no effect here")]
         assert len(told) == (cold == 1.0) and all("4 temperatures share the runs at 80 degC" in text for text in told)
         loss = made.at(np.array([[500.0, 20.0, 10.0, temperature] for temperature in levels["oil.temperature"]]))[:, 2]
         factors = [cold, 1.0 + (cold - 1.0) * 0.6, 1.0, 1.0]

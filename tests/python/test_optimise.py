@@ -173,7 +173,7 @@ def test_the_same_seed_gives_the_same_front_however_many_workers(two, folder):
     assert [(row.values, row.violation) for row in rows] == [(row.values, row.violation) for row in other_rows]
     other, _ = found(small.sized(seed=4), folder / "seed")
     assert [row.values for row in alone] != [row.values for row in other]
-    # two starts and one that goes on from the best of both
+    # two starts, and one that continues from the best designs of both
     assert len(rows) > 12 * 3 * 2
 
 
@@ -362,7 +362,7 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     ("seed = 3", "sead = 3", ["sead", "did you mean seed"]),
     ("[vary]", "[follow]\ngeometry.module = { from = \"geometry.face_width\" }\n[vary]", ["geometry.module", "varies as well"]),
     ("[vary]", "[[confirm]]\nname = \"a\"\nconditions = [\"left.speed < 1\"]\n[vary]", ["left.speed", "replaces no condition"]),
-    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "a name of its own"]),
+    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "needs a unique name"]),
     ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
 ])
 def test_errors_in_a_file_name_what_is_wrong(folder, fmu_file, old, new, parts):
@@ -383,7 +383,7 @@ def test_where_nothing_is_feasible_the_checks_say_so(folder, fmu_file):
     with pytest.raises(DifferentialError) as error:
         found(problem, folder / "out")
     lines = str(error.value).splitlines()
-    assert lines[0] == "no feasible design among 16. So many were refused by:"
+    assert lines[0] == "no feasible design among 16. Designs refused by each check:"
     refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:] if line.startswith("  ")}
     assert sum(refused.values()) >= 16 and any("envelope.diameter" in check for check in refused)
     assert lines[-1].startswith("Widen the ranges")
@@ -392,14 +392,14 @@ def test_where_nothing_is_feasible_the_checks_say_so(folder, fmu_file):
 def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
     small = two.sized(population=8, generations=2)
     found(small, folder / "out")
-    with pytest.raises(DifferentialError, match="go on by --resume"):
+    with pytest.raises(DifferentialError, match="continue with --resume"):
         Store(folder / "out", small)
     with pytest.raises(DifferentialError, match="another problem"):
         Store(folder / "out", changed(folder, fmu_file, "95 mm", "94 mm").sized(population=8), resume=True)
-    with pytest.raises(DifferentialError, match="no results to go on from"):
+    with pytest.raises(DifferentialError, match="no results to continue from"):
         Store(folder / "elsewhere", small, resume=True)
     (folder / "out/evaluations.parquet").write_bytes(b"not a table")
-    with pytest.raises(DifferentialError, match="no results to go on from"):
+    with pytest.raises(DifferentialError, match="no results to continue from"):
         Store(folder / "out", small, resume=True)
 
 
@@ -432,7 +432,7 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, cap
             process.send_signal(signal.SIGINT)
             break
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130 and "go on by --resume" in errors and "Traceback" not in errors
+    assert process.returncode == 130 and "continue with --resume" in errors and "Traceback" not in errors
     before = pd.read_csv(folder / "out/front.csv")
     assert len(before) and len(pd.read_parquet(folder / "out/evaluations.parquet")) >= 2 * 8
     # files for CAD are another test's

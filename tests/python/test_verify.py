@@ -114,7 +114,7 @@ def test_one_wrong_value_of_a_result_is_noticed_at_its_place(unit, capsys):
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="NaN"', 1)}, ["parameters/hil.ssv", "'NaN'", "finite"]),
     ({"parameters/hil.ssv": lambda text: text.replace('unit="N.m"', 'unit="lbf.ft"', 1)}, ["parameters/hil.ssv", "lbf.ft", "N.m"]),
     ({"parameters/hil.ssv": lambda text: re.sub('<ssv:Real value="10.0".*?/>', "", text, count=1)}, ["parameters/hil.ssv", "half_shaft", "''"]),
-    ({"parameters/hil.ssv": "<"}, ["parameters/hil.ssv", "no valid XML"]),
+    ({"parameters/hil.ssv": "<"}, ["parameters/hil.ssv", "not valid XML"]),
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="-10.0"', 1)}, ["the unit fails", "half_shaft"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "clunk,left.twist")}, ["tolerances.csv", "left.twist", "hil"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "hil,left.twits")}, ["tolerances.csv, line", "left.twits", "did you mean"]),
@@ -141,7 +141,7 @@ def test_without_tolerances_no_scene_is_compared(unit, capsys, content, part):
 @pytest.mark.parametrize("changes, parts", [
     ({MANIFEST: None}, [FOLDER, MANIFEST, "no evidence"]),
     ({MANIFEST: lambda text: text.replace('role="result"', 'role="report"')}, [MANIFEST, "no file with the role result"]),
-    ({MANIFEST: "no XML"}, [MANIFEST, "no valid XML"]),
+    ({MANIFEST: "no XML"}, [MANIFEST, "not valid XML"]),
     ({DESCRIPTION: lambda text: text.replace('modelName="BevelDifferential"', 'modelName="Gearbox"')}, ["the unit Gearbox", "BevelDifferential"]),
     ({DESCRIPTION: "no XML"}, ["its model description cannot be read"]),
 ])

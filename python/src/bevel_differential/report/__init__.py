@@ -1,1 +1,1 @@
-"""A report of a scene: one HTML file with figures, tables and what they say (docs/report.md)."""
+"""Report of a scene: one HTML file with figures, tables and explanations (docs/report.md)."""

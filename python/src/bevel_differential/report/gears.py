@@ -1,4 +1,4 @@
-"""The gears: drawings and a table with the symbols of ISO 23509."""
+"""Gears of a scene: drawings and a table with the symbols of ISO 23509."""
 
 import math
 from dataclasses import replace
@@ -13,7 +13,7 @@ GEARS = ("planet", "side")
 
 
 def section(run: Simulated) -> Section:
-    """Both drawings and the table."""
+    """Section with both drawings and the table."""
     pair = pair_of(run)
     found = Section("gears", "The gears")
     found.add(Picture("section", draw_section(pair), _section_caption(pair)))
@@ -23,7 +23,7 @@ def section(run: Simulated) -> Section:
 
 
 def pair_of(run: Simulated) -> Pair:
-    """The pair with the cones that the FMU has."""
+    """Pair with the cones of the FMU."""
     names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
     pair = Pair.of({name: run.value(name) for name in names})
     cones = ("pitch", "base", "tip", "root")
@@ -41,7 +41,7 @@ def _section_caption(pair):
     share = pair.face_width / pair.outer_cone
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
-            ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
+            ". All cones meet in the apex. Teeth (the stronger colour) are between root and tip cone over the face of "
             f"{words.mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes "
             "through the root circles, as the FMU has them for masses.")
 
