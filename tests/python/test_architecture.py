@@ -1,4 +1,4 @@
-"""What docs/architecture.md and docs/theory.md name is there: files, folders, types, constants, functions, variables, programs of tests."""
+"""Names in docs/architecture.md and docs/theory.md exist: files, folders, types, constants, functions, variables, test programs."""
 
 import re
 from pathlib import Path
@@ -12,14 +12,14 @@ FILES = {file.relative_to(ROOT).as_posix(): file for folder in FOLDERS for file 
          if file.suffix in SOURCES and file != Path(__file__) and not {"target", "node_modules"} & set(file.parts)}
 TEXT = "\n".join(file.read_text(encoding="utf-8") for path, file in FILES.items() if not path.endswith(".csv"))
 PATH = re.compile(r"[\w./*-]+")
-# the standard library's
+# names of the standard library
 STANDARD = {"Arc", "Copy"}
-# a word of a span by its form, and what defines it
+# form of a word in a span, and the pattern of its definition
 DEFINITIONS = [(r"[A-Z][A-Z0-9_]*", r"const {}\b|static {}\b"), (r"[A-Z]\w+", r"(?:struct|enum|trait|type|macro_rules!) {}\b")]
 
 
 def spans(page):
-    """Code spans outside blocks of code, once each."""
+    """Code spans outside code blocks, each once."""
     prose = re.sub(r"^```.*?^```|^    .*?$", "", (ROOT / "docs" / page).read_text(encoding="utf-8"), flags=re.M | re.S)
     return sorted({" ".join(span.split()) for span in re.findall(r"`([^`]+)`", prose)})
 
@@ -28,7 +28,7 @@ CASES = [(page, span) for page in ("architecture.md", "theory.md") for span in s
 
 
 def on_disk(path):
-    """A path from the top, or the end of one, with or without the ending of a file; `*` stands for anything."""
+    """True if a path from the root, or the end of a path, exists, with or without a file ending; `*` matches anything."""
     plain = path.rstrip("/")
     if (ROOT / plain).exists():
         return True
@@ -46,9 +46,9 @@ def is_defined(word):
 
 
 def is_there(span):
-    span = re.sub(r"^target/", "", span)  # folders that commands make have the names of the commands
+    span = re.sub(r"^target/", "", span)  # folders created by commands are named after the commands
     if span.startswith("cargo "):
-        # programs of tests, and modules in them
+        # test programs, and modules in them
         program, module = (re.search(pattern, span) for pattern in (r"--test (\w+)", r" (\w+)::"))
         return (not program or on_disk(f"tests/{program[1]}")) and (not module or on_disk(f"{program[1]}/{module[1]}"))
     if PATH.fullmatch(span) and ("/" in span or re.search(r"\.(rs|py|toml|h|csv)$", span)):

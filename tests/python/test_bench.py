@@ -1,4 +1,4 @@
-"""The virtual bench: each test has a figure, numbers and a sentence, and reads what is known."""
+"""The virtual bench: each test has a figure, numbers and a sentence, and measures known values."""
 
 import re
 from math import log10
@@ -12,7 +12,7 @@ from bevel_differential.scene_file import read_toml
 from PIL import Image
 
 PRELOAD, RATIO, COLD = 60.0, 1.3, 1.5
-# gears without teeth and friction of the packs alone
+# gears without teeth, and only friction of the packs
 PLAIN = {"scene.gear_contact": "ideal", "effects.tooth_friction": False, "effects.thrust_friction": False, "limited_slip.preload": PRELOAD,
          "limited_slip.torque_coefficient": 0.0, "limited_slip.static_ratio": RATIO, "limited_slip.stribeck_speed": 0.0,
          "limited_slip.cold_factor": COLD, "limited_slip.hot_factor": 1.0}
@@ -39,7 +39,7 @@ def test_bias_is_that_of_the_packs(fmu_file, tmp_path):
     rows = table(tmp_path / "bias.csv")
     assert len(rows) == 6 * 3 * 2
     for torque, difference, temperature, left, right, ratio, effect in rows.tolist():
-        # half way from -20 to 80 °C at 40 °C is three fifths of the way
+        # 40 °C is three fifths of the interval from -20 to 80 °C
         clutch = PRELOAD * (1.0 + (COLD - 1.0) * max(0.0, (353.15 - temperature) / 100.0))
         shift = np.sign(difference) * clutch
         assert [left, right] == pytest.approx([torque / 2.0 - shift, torque / 2.0 + shift], rel=1e-4)
@@ -58,7 +58,7 @@ def test_breakaway_is_apart_from_bias(fmu_file, tmp_path):
 
 
 def test_judder_ends_where_linear_theory_says_that_it_cannot_begin(fmu_file, tmp_path):
-    # T (s - 1) r/v_S exp(-v/v_S) is less than the damping of a half-shaft: 3.3 rad/s between the wheels
+    # T (s - 1) r/v_S exp(-v/v_S) is below the damping of a half-shaft if the wheels differ by more than 3.3 rad/s
     says = bench("judder", tmp_path, fmu=fmu_file)
     swing, slip, rising = numbers(says)[:3]
     limit = 2.0 * 0.1 / 0.055 * np.log(150.0 * 0.15 * 0.055 / (0.1 * 5.0))
@@ -84,7 +84,7 @@ def test_a_winter_start_begins_with_the_drag_of_its_oil(fmu_file, tmp_path):
 
     for at in (1, -1):
         viscous = (1e-3 + 2.0 * 2e-4) * viscosity(record["temperature.oil"][at]) / viscosity(353.15)
-        # viscosity follows temperature in steps
+        # viscosity is updated in steps of temperature
         assert record["power.loss"][at] == pytest.approx((0.5 + 2.0 * 0.2) * 50.0 + viscous * 50.0**2 + 1e-4 * 50.0**3, rel=0.02)
     assert loss == round(record["power.loss"][1]) > 5.0 * later
 

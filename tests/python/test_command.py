@@ -1,4 +1,4 @@
-"""The command `bevel-differential`: what it prints, what it writes, and how it says what is wrong."""
+"""The command `bevel-differential`: its output, its files, and its messages about errors."""
 
 import os
 import subprocess

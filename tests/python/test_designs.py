@@ -1,4 +1,4 @@
-"""What varies, which designs are tried, and the figures that a run is judged by."""
+"""Variation, plans of designs, and the figures by which a run is judged."""
 
 import numpy as np
 import pytest
@@ -70,7 +70,7 @@ def test_seeds_of_a_run_follow_from_the_plan_s_seed_and_the_run_alone(plan, kind
 ])
 def test_drawn_values_have_their_distribution(plan, given, distribution):
     drawn = values(plan({"geometry.module": given}, "random", 2000, 1), "geometry.module")
-    # 1e-4: one such test in ten thousand would fail by chance, and this draw is always the same
+    # 1e-4: one test in ten thousand would fail by chance, but this draw is always the same
     assert stats.kstest(drawn, distribution.cdf).pvalue > 1e-4
 
 
@@ -85,7 +85,7 @@ def test_a_share_of_zero_has_a_finite_value(fmu):
     ({"left.load_torque": "900 N.m..700 N.m"}, ("random", 5), ["left.load_torque", "range"]),
     ({"left.load_torque": "7 ft..9 ft"}, ("random", 5), ["left.load_torque", "'ft'"]),
     ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal needs 2 numbers"]),
-    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["no distribution"]),
+    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["do not define a distribution"]),
     ({"left.load_torque": "lognormal(1, 1 N.m)"}, ("random", 5), ["1 N.m", "not a plain number"]),
     ({"left.load_torque": "1..2:one"}, ("grid",), ["2 values or more"]),
     ({"left.load_torque": "1..2"}, ("grid",), ["left.load_torque", "FROM..TO:11"]),
@@ -106,7 +106,7 @@ def test_a_plan_that_cannot_be_says_why(plan, vary, arguments, parts):
     assert all(part in str(error.value) for part in parts), error.value
 
 
-# a wave with a mean, 3 whole periods of 0.25 s, in steps so fine that trapezoids are exact to 1e-5
+# a wave with a mean, 3 whole periods of 0.25 s, with steps so fine that the trapezoidal rule is exact to 1e-5
 TIMES = np.linspace(0.0, 0.75, 30001)
 WAVE = 2.0 + 3.0 * np.sin(2.0 * np.pi * TIMES / 0.25 + 0.4)
 

@@ -1,4 +1,4 @@
-"""Pages as a reader walks them: links lead somewhere, commands are known, and what is long is said by few words."""
+"""Pages for readers: links have targets, commands are known, and long texts are limited."""
 
 import importlib
 import re

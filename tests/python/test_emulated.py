@@ -1,4 +1,4 @@
-"""The host for libraries of other processors, run here without an emulator on this machine's library."""
+"""Host for libraries of other processors, run here without an emulator on this machine's library."""
 
 import shutil
 import sys
@@ -18,7 +18,7 @@ TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.sp
 
 @pytest.fixture
 def far(fmu, tmp_path):
-    """An instance behind the host."""
+    """Instance behind the host."""
     compiler = shutil.which("cc")
     if compiler is None or not sys.platform.startswith("linux"):
         pytest.skip("the host is for Linux, and a C compiler builds it")

@@ -1,4 +1,4 @@
-"""Instances of the Python package, driven call by call: values of all kinds, steps, states, refusals."""
+"""Instances of the Python package in single calls: values of all kinds, steps, states, refusals."""
 
 import pickle
 import shutil
@@ -56,7 +56,7 @@ def test_a_saved_state_goes_on_with_the_same_bits_in_another_instance(fmu):
         first = go_on(one)
         assert first[0] == pytest.approx(8e-3, rel=1e-12)
         assert go_on(one.restore(saved)) == first == go_on(other.restore(saved))
-        # a restored instance is not fresh: it is reset before it begins anew
+        # a restored instance is not fresh: it is reset before it is initialised again
         assert other.initialise(TURN).get("solver.steps") == 0.0
 
 
@@ -76,7 +76,7 @@ def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_r
         opened.initialise()
         with pytest.raises(DifferentialError, match="left.load_torque.* N.m is outside") as refused:
             opened.set({"left.load_torque": 1e30})
-        # the log names the call as well, for hosts
+        # for hosts, the log also names the call
         assert refused.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {refused.value}"
         with pytest.raises(DifferentialError, match="assembly condition") as refused:
             opened.initialise({"geometry.planet_count": 3})

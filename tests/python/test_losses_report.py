@@ -1,4 +1,4 @@
-"""The report of a loss map: figures with captions, the sentence of the bound, numbers of the table, and no half file."""
+"""The report of a loss map: figures with captions, the sentence of the bound, numbers of the table, and no incomplete file."""
 
 import re
 from html.parser import HTMLParser
@@ -30,7 +30,7 @@ ZERO_CELSIUS = 273.15
 
 @pytest.fixture
 def in_haste(monkeypatch):
-    """Panels stand where they are at first."""
+    """Skips the layout of panels, to save time."""
     monkeypatch.setattr(Figure, "get_layout_engine", lambda _: None)
 
 
@@ -76,7 +76,7 @@ def mapped(fmu_file):
 
 @pytest.fixture(scope="module")
 def single(fmu_file):
-    """A map of a single point, whose report is drawn soonest."""
+    """Map of a single point, whose report is drawn fastest."""
     return made_map(fmu_file, RICH, {name: values[:1] for name, values in LEVELS.items()}, unseen=0)
 
 
@@ -232,12 +232,12 @@ def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, fmu_
         draw(shown, tmp_path / "map.svg")
     assert not re.search(r"rad/s|(?<!k)N·m|°C", text.partition("Measured error")[0].partition("Axes of the map")[2].replace("N·m on top", ""))
     axes, = Tables(text).of("axis")
-    # 60 s in a minute and 2π rad in a turn, 1000 N·m in a kN·m
+    # 60 s per minute and 2π rad per turn, 1000 N·m per kN·m
     sizes = (1e-3, 30.0 / pi, 30.0 / pi, 1.0)
     assert [name.rsplit(" ", 1)[-1] for _, name, *_ in axes] == ["kN·m", "rpm", "rpm", "K"]
     for (_, first, last, *_), size, values in zip(axes, sizes, LEVELS.values()):
         assert [number(first), number(last)] == pytest.approx([size * values[0], size * values[-1]], rel=1e-4)
     picture = (tmp_path / "map.svg").read_text(encoding="utf-8")
     assert "carrier torque, kN·m" in picture and "difference of speeds (left − right), rpm" in picture and "rad/s" not in picture
-    # programs read the map: it stays SI
+    # programs read the map, so it stays in SI
     assert save(shown, tmp_path / "own.csv").read_text().splitlines()[3:] == save(mapped, tmp_path / "si.csv").read_text().splitlines()[3:]

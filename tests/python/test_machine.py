@@ -1,4 +1,4 @@
-"""Where the package finds libraries for the machine that it runs on."""
+"""Paths of libraries for the machine of the package."""
 
 import platform
 import sys
@@ -10,7 +10,7 @@ from bevel_differential import machine
 
 @pytest.fixture
 def on(monkeypatch):
-    """Lets the package believe that it runs on such a machine."""
+    """Makes the package believe that it runs on a certain machine."""
     def pretend(system, processor):
         monkeypatch.setattr(sys, "platform", system)
         monkeypatch.setattr(platform, "machine", lambda: processor)

@@ -1,4 +1,4 @@
-"""Slips that would give wrong results without a word, or a traceback: each is one error that says what to do."""
+"""Mistakes that would give wrong results silently, or a traceback: each is one error with a remedy."""
 
 import subprocess
 import sys
@@ -30,7 +30,7 @@ def with_fmu(fmu_file, monkeypatch):
 
 @pytest.fixture
 def driven(fmu_file):
-    """A scene whose load at the left follows a table."""
+    """Scene whose left load follows a table."""
     table = (TORQUE, [0.0, 0.01], [0.0, 1.0], None)
     with Scene(stop=0.01, outputs=[TORQUE, "left.speed"], tables=[table], fmu=fmu_file) as scene:
         yield scene
@@ -144,7 +144,7 @@ def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
 
 def test_a_closed_instance_says_so_and_not_an_old_warning(fmu):
     with fmu.open() as instance:
-        # the face width of the study is warned of
+        # the FMU warns of the study's face width
         instance.initialise()
         assert instance.messages
     for use in (lambda: instance.get("left.speed"), lambda: instance.step(1e-3), instance.reset, instance.save):

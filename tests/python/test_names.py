@@ -1,4 +1,4 @@
-"""Names of variables: a tree, as tools that build buses or records need it; former names still find their variables."""
+"""Names of variables form a tree, which tools need for buses or records; former names still find their variables."""
 
 import math
 import re
@@ -15,7 +15,7 @@ from bevel_differential.designs.sweep import sweep
 from bevel_differential.want import Want
 from fmpy import read_model_description
 
-# former names and present ones
+# former and present names
 FORMER = {"planet.spin_command": "spin.command", "planet.spin_torque": "spin.torque",
           **{f"planet[1].left_pair[{k}].{part}": f"mesh.pair[{k}].{part}" for k in (1, 2, 3)
              for part in ("tooth", "force", "height", "toe_pressure", "middle_pressure", "heel_pressure")}}
@@ -23,13 +23,13 @@ SPIN = {"scene.planet_spin": "imposed", "scene.gear_contact": "ideal"}
 
 
 class Node:
-    """A node of the tree: what its uses say that it is, its members and its elements."""
+    """Node of the tree: kinds by its uses, members and elements."""
 
     def __init__(self):
         self.kinds, self.below = set(), {}
 
     def add(self, parts):
-        """The rest of a name: [("", "left"), ("[", "1"), ...]."""
+        """Adds the rest of a name: [("", "left"), ("[", "1"), ...]."""
         if not parts:
             self.kinds.add("leaf")
             return
@@ -42,7 +42,7 @@ class Node:
         return frozenset((word, node.shape()) for word, node in self.below.items())
 
     def faults(self, name):
-        """Faults that a tree of records and arrays cannot have."""
+        """Yields faults that a tree of records and arrays cannot have."""
         if len(self.kinds) > 1:
             yield f"{name} is {' and '.join(sorted(self.kinds))}"
         if "array" in self.kinds and len({node.shape() for node in self.below.values()}) > 1:
@@ -148,7 +148,7 @@ file = "inputs.csv"
 
 @pytest.fixture
 def scene_file(tmp_path):
-    """scene_file(text): a scene file with former names and its CSV file, and a second pair with present names."""
+    """scene_file(text): scene file with former names and its CSV file, and a second pair of files with present names."""
     def made(text, folder="old"):
         place = tmp_path / folder
         place.mkdir(exist_ok=True)

@@ -1,5 +1,5 @@
-"""No answer comes from a value that nobody gave: effects start neutral, acting start values are listed, and loads that nobody set
-do not run away in silence."""
+"""No answer depends silently on a value that nobody gave: effects start without influence, start values that take effect are
+listed, and the log names loads that nobody set and that accelerate the wheels backward."""
 
 import warnings
 from math import inf
@@ -13,7 +13,7 @@ from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from fmi3 import Unit3
 
 BY_TORQUE = {"scene.carrier_drive": "torque", "scene.gear_contact": "ideal"}
-# start values of effects that not every differential has
+# start values of parameters that many differentials do not need
 NEUTRAL = ["limited_slip.preload", "limited_slip.torque_coefficient", *(f"bearing_drag.{name}" for name in (
     "carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous", "seal_diameter", "bearing_load"))]
 
@@ -59,7 +59,7 @@ def test_what_not_every_differential_has_starts_at_zero(fmu, name):
 @pytest.mark.parametrize("contact", ["ideal", "lumped"])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_preload_is_all_that_a_clutch_with_a_preload_has(run, contact, sign):
-    # each clutch moves M from the carrier's half to the slower side: TBR = (T/2 + M)/(T/2 - M)
+    # each clutch moves the torque M from the carrier's half to the slower side: TBR = (T/2 + M)/(T/2 - M)
     torque, preload = 525.6, 50.0
     values = {**BY_TORQUE, "scene.gear_contact": contact, "scene.left_drive": "speed", "scene.right_drive": "speed",
               "carrier.torque_command": sign * torque, "carrier.speed_command": sign * 50.0, "left.speed_command": sign * 52.0,
@@ -134,7 +134,7 @@ OWN = {"geometry.module": "5 mm", **BY_TORQUE, "carrier.torque_command": 2000.0}
 
 
 def listed(line):
-    """{name: text of its value} of a line of values that nobody set."""
+    """{name: text of its value} from a line of values that nobody set."""
     found = {}
     for group in line.removeprefix(NOBODY_SET).split("; "):
         name, _, values = group.partition(": ")
@@ -155,7 +155,7 @@ def test_own_gears_get_one_line_of_all_values_that_nobody_set_and_none_once_they
     assert ("material.young_modulus" in found) == ("contact.law" in found) == (more.get("scene.gear_contact") == "tooth")
     assert ("lock.torque" in found) == ("lock.command" in more)
     assert not set(found) & set(OWN | more)
-    # set to what they are, they are somebody's
+    # set to their start values, they count as set
     start = {name: fmu.variable(name).start for name in found}
     assert not [text for text in messages(fmu, kind, {**OWN, **more, **start}) if text.startswith(NOBODY_SET)]
 
@@ -175,7 +175,7 @@ def test_the_study_is_not_warned_of_and_its_list_is_part_of_what_is_simulated(fm
 
 
 def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):
-    """For gears and a drive: what acts is in the list, so any other parameter may have any value."""
+    """For gears and a drive, the list contains all values that take effect, so any other parameter may have any value."""
     names = ["left.speed", "right.speed", "carrier.angle", "left.shaft_torque", "carrier.torque"]
     with fmu.open() as opened:
         opened.initialise(OWN)

@@ -1,4 +1,4 @@
-"""A value that changes nothing in a scene is a warning by name, with what would let it act; wherever a scene is set up."""
+"""A value without effect in a scene causes a warning with its name and with the setting that it needs, wherever a scene is set up."""
 
 import warnings
 from pathlib import Path
@@ -12,7 +12,7 @@ from bevel_differential.instance import UNFELT
 from bevel_differential.spectrum import Event, spectrum
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-# what is set, and what would let it act
+# values that are set, and the setting that they need
 CASES = [
     ({"left.brake_torque": 200.0}, "effects.wheel_brake = true"),
     ({"limited_slip.preload": 80.0}, "effects.limited_slip = true"),
@@ -91,7 +91,7 @@ def test_each_is_said_once_in_a_run_and_again_in_the_next(fmu):
         for _ in range(2):
             opened.initialise({"left.brake_torque": 200.0})
             for k in range(4):
-                # the one again, another one that is set later, and one that acts
+                # the first value again, another one that is set later, and one that takes effect
                 opened.set({"left.brake_torque": 150.0 + k, "left.load_torque": 800.0 + k, "limited_slip.preload": 70.0 + k})
                 opened.step(1e-3)
             assert sorted(opened.unfelt) == ["left.brake_torque", "limited_slip.preload"]

@@ -1,4 +1,4 @@
-"""The command `bevel-differential page`: it finds the page, or says how to make it."""
+"""The command `bevel-differential page`: it finds the page, or says how to build it."""
 
 import webbrowser
 

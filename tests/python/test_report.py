@@ -1,4 +1,4 @@
-"""The report of a scene: one file that needs nothing else, with figures that show something, for every scene."""
+"""The report of a scene: one self-contained file, with figures that show something, for every scene."""
 
 import re
 from functools import cache
@@ -16,9 +16,9 @@ from bevel_differential.report.write import write
 from report_page import ReportPage
 
 MOST_BYTES = 5e6
-# of a long scene its first part, s; a rattle has two periods in its
+# duration of the first part of a long scene, s; a rattle has two periods in its part
 LONGEST = {"drive_cycle": 60.0, "hil": 3.0, "rattle": 0.1}
-# figures of a scene with teeth, planets that roll and inputs that change
+# figures of a scene with teeth, rolling planets and changing inputs
 ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias",
        "power", "worth"}
 WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress", "worth"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
@@ -26,7 +26,7 @@ WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress", "worth"}
            "drive_cycle": {"pattern", "waterfall"}}
 
 
-# scenes whose panels are arranged and whose run-up has all its turns, as users get it; the others take half the time
+# scenes with arranged panels and a complete run-up, as for users; the others take half the time
 WHOLE = ("study_turning", "locked")
 
 
@@ -37,14 +37,14 @@ def with_fmu(fmu_file, monkeypatch, tmp_path):
 
 
 def in_haste(patch):
-    """Panels stand where they are at first, and run-ups are short."""
+    """Skips the layout of panels and shortens run-ups, to save time."""
     patch.setattr(Figure, "get_layout_engine", lambda _: None)
     patch.setattr(runup, "TURNS", runup.FEWER)
 
 
 @cache
 def text_of(name, fmu_file):
-    """The report of a shipped scene."""
+    """Report of a shipped scene."""
     with Scene.load(name, fmu=fmu_file) as scene, pytest.MonkeyPatch.context() as patch:
         if name not in WHOLE:
             in_haste(patch)

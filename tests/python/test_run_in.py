@@ -1,4 +1,4 @@
-"""Starts out of equilibrium: safety and damage may begin after the run-in, and who counts the blow is told."""
+"""Starts out of equilibrium: safety and damage may begin after the run-in, and users whose ratings count the impact are warned."""
 
 import pytest
 
@@ -13,7 +13,7 @@ RATED = ["safety.root_min", "safety.flank_min", "damage.planet", "damage.side_fl
 
 
 def turn(fmu, **values):
-    """The study's turn, its ratings at the end, and what the FMU said of them."""
+    """The study's turn: its ratings at the end, and messages of the FMU about them."""
     scene = Scene.load("study_turning", fmu=fmu).set({"effects.strength": True, **values})
     record = scene.run(RATED)
     return {name: record[name][-1] for name in RATED}, [text for text in scene.warnings if text.startswith(strength.MESSAGE)]
