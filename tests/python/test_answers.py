@@ -38,7 +38,7 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
 
 
 @pytest.mark.parametrize("within", ["1%", "10%"])
-def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_path, monkeypatch, capsys):
+def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     # the torque does not need the effect warm_up, so the table has no effect
     idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
@@ -63,7 +63,7 @@ def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):
     assert lines[0] == lines[1] and len(lines[0]) > 10
 
 
-def test_what_is_wrong_comes_as_values():
+def test_problems_are_returned_as_values():
     with pytest.raises(DifferentialError) as caught:
         accuracy("limited_slip", within="1%", set={"geometry.module": "4.5 kg", "geometry.face_widht": 0.02})
     assert caught.value.kind == "use"
@@ -94,7 +94,7 @@ def test_ctrl_c_stops_the_command():
     assert command.returncode == 130 and "stopped" in said and "Traceback" not in said and time.monotonic() - begin < 10.0
 
 
-def test_threads_get_answers_of_their_own():
+def test_threads_get_separate_answers():
     def module(size):
         text = ask({"ask": "geometry", "set": [f"geometry.module={size} mm"], "facets": 4})["files"]["dimensions.txt"]
         return f"geometry.module = {size} mm" in text

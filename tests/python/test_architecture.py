@@ -60,13 +60,13 @@ def is_there(span):
 
 
 @pytest.mark.parametrize(("page", "span"), CASES)
-def test_what_the_pages_name_is_in_the_repository(page, span):
+def test_files_named_on_the_pages_are_in_the_repository(page, span):
     assert is_there(span), f"docs/{page}: `{span}` is nowhere"
 
 
 @pytest.mark.parametrize("name", ["src/variables/parameters.rs", "assembly/bodies.rs", "NO_SUCH_CONSTANT", "NoSuchType", "no.such_variable",
                                   "cargo test --release --test tooth_finite_elements"])
-def test_a_name_of_nothing_is_found_out(name):
+def test_an_unknown_name_is_detected(name):
     assert not is_there(name)
 
 

@@ -27,7 +27,7 @@ def numbers(text):
 
 
 @pytest.mark.parametrize("name", sorted({of for _, of in TESTS.values()}))
-def test_scenes_set_nothing_that_changes_nothing(name, fmu_file):
+def test_scenes_set_only_values_that_have_an_effect(name, fmu_file):
     file = scene_file(next(test for test, (_, of) in TESTS.items() if of == name))
     assert read_toml(file)["description"]
     with Scene.load(file, fmu=fmu_file) as scene:
@@ -49,7 +49,7 @@ def test_bias_is_that_of_the_packs(fmu_file, tmp_path):
                                                                rows["torque_bias_ratio_[1]"].max())]
 
 
-def test_breakaway_is_apart_from_bias(fmu_file, tmp_path):
+def test_breakaway_is_reported_separately_from_bias(fmu_file, tmp_path):
     says = bench("breakaway", tmp_path, values=PLAIN, fmu=fmu_file, workers=0)
     for torque, direction, temperature, left, _, _, effect in table(tmp_path / "breakaway.csv").tolist():
         clutch = RATIO * PRELOAD * (1.0 + (COLD - 1.0) * max(0.0, (353.15 - temperature) / 100.0))
@@ -57,7 +57,7 @@ def test_breakaway_is_apart_from_bias(fmu_file, tmp_path):
     assert "1.30 to 1.30 times" in says
 
 
-def test_judder_ends_where_linear_theory_says_that_it_cannot_begin(fmu_file, tmp_path):
+def test_judder_ends_where_linear_theory_excludes_it(fmu_file, tmp_path):
     # T (s - 1) r/v_S exp(-v/v_S) is below the damping of a half-shaft if the wheels differ by more than 3.3 rad/s
     says = bench("judder", tmp_path, fmu=fmu_file)
     swing, slip, rising = numbers(says)[:3]

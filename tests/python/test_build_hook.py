@@ -39,7 +39,7 @@ def complete(tmp_path):
     return tmp_path
 
 
-def test_a_package_with_its_fmu_is_left_alone(hook, complete, monkeypatch):
+def test_a_package_with_its_fmu_is_left_unchanged(hook, complete, monkeypatch):
     monkeypatch.delenv("BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS", raising=False)
     found = {}
     hook(complete).initialize("standard", found)

@@ -144,7 +144,7 @@ def test_flanks_and_fillets_are_the_exact_ones_to_a_micrometre(pair, i):
 
 # two, three and four planets, with and without pins; other tooth shapes have the same positions
 @pytest.mark.parametrize("name", ["study", "nine", "three", "bored"])
-def test_the_assembly_has_all_gears_and_pins_where_they_stand(name):
+def test_the_assembly_has_all_gears_and_pins_in_their_places(name):
     from OCP.BRepCheck import BRepCheck_Analyzer
 
     pair = pair_of(name)

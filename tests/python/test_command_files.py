@@ -62,7 +62,7 @@ def test_an_ending_counts_in_capitals_as_well_and_the_message_names_a_file(kind,
             checked(tmp_path / name, kind)
 
 
-def test_the_package_refuses_them_too(fmu_file, tmp_path):
+def test_the_package_refuses_unknown_endings_too(fmu_file, tmp_path):
     with Scene.load("study_turning", fmu_file, "2 ms") as scene:
         record = scene.run()
         for write in (scene.to_csv, scene.to_parquet, scene.plot):
@@ -90,7 +90,7 @@ def test_a_spreadsheet_is_named_as_such_where_a_table_is_read(spreadsheet, fmu_f
 
 
 @pytest.mark.parametrize("line", ["run", "plan", "report", "pattern", "loads --out a.csv", "tolerance", "optimise", "sweep --plan-file"])
-def test_a_file_that_is_no_toml_is_wrong_use_and_named(line, spreadsheet, capsys, monkeypatch, tmp_path):
+def test_a_file_that_is_not_toml_is_wrong_use_and_named(line, spreadsheet, capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert main([*line.split(), str(spreadsheet)]) == WRONG
     said = capsys.readouterr().err

@@ -81,7 +81,7 @@ def test_the_common_time_counts_and_is_named(tmp_path, capsys):
     assert np.array_equal(by_scene["short"][:, 0], record["time"]) and np.array_equal(by_scene["short"][:, 1], record["carrier.speed"])
 
 
-def test_scenes_of_one_name_are_told_apart_and_warnings_name_theirs(tmp_path, capsys):
+def test_scenes_with_the_same_name_are_distinguished_and_warnings_name_them(tmp_path, capsys):
     before, after = written(tmp_path / "before" / "axle.toml", 100.0), written(tmp_path / "after" / "axle.toml", 150.0, 0.5,
                                                                                more="tooth_errors.side_runout = 1e-5\n")
     other = written(tmp_path / "other.toml", 120.0)
@@ -153,7 +153,7 @@ def test_the_first_scene_with_a_preference_wins(preferred):
     assert row(found, "carrier.speed", "end")["unit"] == unit
 
 
-def test_what_cannot_be_compared_is_refused(tmp_path, capsys):
+def test_values_that_cannot_be_compared_are_refused(tmp_path, capsys):
     own = written(tmp_path / "own.toml", 100.0)
     apart = written(tmp_path / "apart.toml", 100.0, outputs='"efficiency"')
     for arguments, message in (([own, own], "own: it is named twice"), ([own, apart], "no output is recorded by all of own, apart"),

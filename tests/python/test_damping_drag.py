@@ -47,7 +47,7 @@ def lost(drive, spin):
     return (driven.to(8.0 * cycle, cycle)["heat.contact"] - before) / (4.0 * cycle)
 
 
-def test_slow_rolling_loses_what_damping_makes_of_pairs_that_come_and_go(drive, coefficient):
+def test_slow_rolling_loses_the_damping_work_of_pairs_that_enter_and_leave(drive, coefficient):
     assert lost(drive, 1.0) == pytest.approx(coefficient, rel=1e-3)
 
 

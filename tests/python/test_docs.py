@@ -25,13 +25,13 @@ def test_tables_fit_a_page(page):
     assert not wide, wide[0]
 
 
-def test_there_is_no_more_to_read_than_a_user_reads():
+def test_the_pages_are_short():
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
     assert sum(len(text.split()) for text in texts) <= WORDS
     assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= LINES
 
 
-def test_the_readme_begins_with_the_commands_that_set_up_all_and_with_the_picture():
+def test_the_readme_begins_with_the_picture_and_the_commands_that_set_everything_up():
     begin, _, rest = PAGES[0].read_text(encoding="utf-8").partition("## Install")
     for command_line in ("cargo run --release", "cargo test --release"):
         assert re.search(rf"^{command_line} +# \d+ minutes$", begin, re.MULTILINE)

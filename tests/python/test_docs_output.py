@@ -177,11 +177,11 @@ def test_a_file_of_a_page_is_understood_as_it_is_printed(shown, reader):
             assert status == 0, said
 
 
-def test_all_that_pages_show_is_compared():
+def test_every_output_on_a_page_is_compared():
     assert not [str(source) for source in SHOWN if source not in [*COMMANDS, *OF_FMPY, *blocks("python")]]
 
 
-def test_what_is_shown_is_found_by_its_digits_and_not_by_its_times():
+def test_outputs_are_compared_by_their_digits_but_not_by_their_times():
     said = "force 12.5 N\n\nerror 1.0 %; 50 x real time; more\nends\n"
     assert shows("force 12.5 N\n\nerror 1.0 %; 7.25 x real time; more\nends\n", said)
     assert shows("...\nerror 1.0 %; 7.25 x real\ntime; more\n...\n", said)

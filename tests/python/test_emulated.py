@@ -52,7 +52,7 @@ def test_the_host_gives_the_bits_of_this_process_and_takes_every_kind_of_value(f
     assert len(np.unique(wanted, axis=0)) == len(wanted)
 
 
-def test_what_the_library_refuses_is_an_error_with_its_status(far):
+def test_a_call_refused_by_the_library_is_an_error_with_its_status(far):
     with pytest.raises(DifferentialError) as refused:
         far.raw.setReal([10**6], [1.0])
     assert refused.value.status == 3

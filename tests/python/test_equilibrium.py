@@ -62,7 +62,7 @@ def test_after_a_nudge_gears_come_to_rest_where_they_were(drive, law, gears):
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_of_two_equal_wells_it_is_that_at_positive_spin(drive, law):
+def test_of_two_equal_wells_the_one_at_positive_spin_is_chosen(drive, law):
     for sign in (1.0, -1.0):
         spin = drive(scene(law, (2, 10, 16), sign))["planet[1].spin_angle"]
         assert sign * spin >= 0.0

@@ -49,7 +49,7 @@ def test_errors_fall_with_the_square_of_the_step(drive):
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-4])
-def test_loads_reversed_at_once_are_taken_over_by_the_other_flanks(drive, size):
+def test_suddenly_reversed_loads_move_to_the_other_flanks(drive, size):
     driven = drive({"solver.method": "fixed_step", "solver.fixed_step": size, "scene.start": "rolling"}).to(0.05, 1e-3)
     for sign in [-1.0, 1.0, -1.0]:
         driven.load(sign * theory.LOAD)

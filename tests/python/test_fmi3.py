@@ -118,7 +118,7 @@ def test_times_of_events_are_within_the_tolerance_of_those_located_at_1e_10(fmu3
     assert max(abs(a - b) for (a, _), (b, _) in zip(rough, fine)) < 1e-6
 
 
-def test_event_mode_publishes_what_happened(fmu3):
+def test_event_mode_publishes_the_events(fmu3):
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
         unit.initialise(BRAKING)
         unit.raw.updateDiscreteStates()
@@ -134,7 +134,7 @@ def test_event_mode_publishes_what_happened(fmu3):
         assert abs(unit.read([f"{('left', 'right')[place - 1]}.wheel_speed"])[0]) < 0.05
 
 
-def test_at_the_solver_s_steps_the_host_reads_sets_and_returns_and_changes_nothing_by_looking(fmu3, plain_outputs):
+def test_at_the_solver_s_steps_the_host_reads_sets_and_returns_without_changing_results(fmu3, plain_outputs):
     seen, wanted = [], {"at": None}
 
     def look(_environment, time, set_requested, get_allowed, finished, may_return, requested, _return_time):

@@ -123,7 +123,7 @@ def test_the_adjoint_is_the_transpose(unit):
     assert np.count_nonzero(adjoint) >= 5
 
 
-def test_an_adjoint_that_is_no_finite_number_is_refused(unit):
+def test_an_adjoint_that_is_not_a_finite_number_is_refused(unit):
     names, knowns = unknowns(unit), inputs(unit)
     slopes = unit.sensitivity(names, knowns, np.ones(len(names)), adjoint=True)
     assert np.abs(slopes).max() > 1e-3

@@ -323,7 +323,7 @@ def test_a_state_saved_between_two_reports_reports_the_rest(fmu3):
 
 
 @pytest.mark.parametrize("events", [False, True])
-def test_a_state_of_a_host_with_the_other_kind_of_events_is_shown_as_it_is(fmu3, events):
+def test_a_state_of_a_host_with_the_other_kind_of_events_keeps_its_outputs(fmu3, events):
     with opened(fmu3, events, False) as unit, opened(fmu3, not events, False) as other:
         for one in (unit, other):
             begin(one, REST, one is unit and events or one is other and not events)
@@ -422,7 +422,7 @@ def test_in_model_exchange_commands_are_events_too(exchange, level, contact):
     assert unit.reals(HELD).tolist() == [0, 0, 1]
 
 
-def test_a_solver_of_the_host_finds_the_events_of_the_own_one(fmu3, level):
+def test_a_solver_of_the_host_finds_the_events_of_the_fmu_s_solver(fmu3, level):
     values = ROLLING | level("ideal") | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}
     own, _ = stops(fmu3, values, True, 0.3)
     own = [event for reported in own for event in reported]

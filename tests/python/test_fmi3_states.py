@@ -127,7 +127,7 @@ def test_in_co_simulation_no_state_is_set(fmu3, options):
 
 
 @pytest.mark.parametrize("options", [{}, {"eventModeUsed": True, "earlyReturnAllowed": True}])
-def test_the_own_stop_time_and_tolerance_outlast_a_restored_state(fmu3, plain_outputs, options):
+def test_an_instance_keeps_its_stop_time_and_tolerance_when_a_state_is_restored(fmu3, plain_outputs, options):
     def begun(stop, tolerance=None):
         unit = Unit3(fmu3, **options)
         unit.set(WHEELS)

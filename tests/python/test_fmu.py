@@ -47,7 +47,7 @@ def test_straight_ahead_both_sides_turn_with_the_carrier(straight):
     assert willis(part) < 1e-6
 
 
-def test_straight_ahead_the_teeth_carry_what_theory_says(straight):
+def test_straight_ahead_the_teeth_carry_the_load_of_theory(straight):
     part = settled(straight)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
@@ -70,7 +70,7 @@ def willis(part):
     return abs(np.mean(part["left.speed"]) + np.mean(part["right.speed"]) - carrier) / carrier
 
 
-def test_in_the_turn_the_teeth_carry_what_theory_says(turn):
+def test_in_the_turn_the_teeth_carry_the_load_of_theory(turn):
     part = settled(turn)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)

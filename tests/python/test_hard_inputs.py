@@ -92,7 +92,7 @@ def test_a_whole_number_out_of_its_range_is_refused_by_name_value_and_range(fmu)
                 assert_usable_after_reset(opened)
 
 
-def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(fmu):
+def test_an_unknown_choice_is_refused_with_the_list_of_choices(fmu):
     with fmu.open() as opened:
         for variable in fmu.variables.values():
             if variable.kind == "Enumeration":
@@ -103,7 +103,7 @@ def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(fmu):
                     assert_usable_after_reset(opened)
 
 
-def test_all_that_is_wrong_is_told_at_once(fmu):
+def test_all_wrong_values_are_reported_together(fmu):
     wrong = {"geometry.face_width": -1.0, "inertia.carrier": 0.0, "contact.exponent": 7.0, "material.density": 1e9}
     with fmu.open() as opened:
         opened.set(wrong)

@@ -51,7 +51,7 @@ def test_two_instances_step_alternately_and_are_freed_in_any_order(fmu):
 
 
 @pytest.mark.parametrize("name", ["with two spaces", "Größe µ 差速器", "percent %41 # & 'quote'"])
-def test_the_folder_it_is_unpacked_to_may_have_any_name(fmu, tmp_path, name):
+def test_the_folder_of_the_unpacked_fmu_may_have_any_name(fmu, tmp_path, name):
     folder = tmp_path / name
     shutil.copytree(fmu.folder, folder)
     with Loaded(Fmu(folder), name, 400.0) as instance:

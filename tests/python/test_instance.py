@@ -71,7 +71,7 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
             endless.initialise(TURN).restore(first.save()).step(1e-3)
 
 
-def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_reset(fmu):
+def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
     with fmu.open() as opened:
         opened.initialise()
         with pytest.raises(DifferentialError, match="left.load_torque.* N.m is outside") as refused:
@@ -95,7 +95,7 @@ def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_r
     (lambda opened: opened.set_slopes({"left.sped": 1.0}), ["left.sped"]),
     (lambda opened: opened.fmu.open("Exchange"), ["'Exchange'", "CoSimulation, ModelExchange"]),
 ])
-def test_what_cannot_be_is_said_before_the_fmu_is_asked(fmu, use, parts):
+def test_impossible_calls_are_refused_before_the_fmu_is_called(fmu, use, parts):
     with fmu.open() as opened, pytest.raises(DifferentialError) as error:
         use(opened)
     assert error.value.status is None and all(part in str(error.value) for part in parts)

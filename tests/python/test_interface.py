@@ -127,7 +127,7 @@ def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
     (lambda d: d.run(step="1 fortnight"), ["step", "fortnight"]),
     (lambda d: d.run(step=-1e-3), ["step"]),
 ])
-def test_what_cannot_be_is_said_at_once(turn, use, parts):
+def test_impossible_calls_are_refused_immediately(turn, use, parts):
     with pytest.raises(DifferentialError) as error:
         use(turn)
     assert all(part in str(error.value) for part in parts), error.value

@@ -45,7 +45,7 @@ def record(values):
             "tangential": 0.0 * ones, "error": 0.0 * ones, "pairs": ones}
 
 
-def test_errors_are_parted_by_where_exact_teeth_run_evenly():
+def test_errors_are_separated_at_the_times_when_exact_teeth_run_evenly():
     exact = record([(10.0, 100.0)] * 5 + [(12.0, 100.0)])
     found = record([(11.0, 90.0), (10.5, 101.0), (10.5, 102.0), (10.5, 103.0), (11.0, 90.0), (13.0, 140.0)])
     errors = solids_errors.errors(found, exact, 0.0, [10.0, 10.0])

@@ -31,7 +31,7 @@ def tools(fmu_file, tmp_path_factory):
 
 
 @pytest.mark.parametrize("processor, zig", [("x86_64", "x86_64-macos"), ("arm64", "aarch64-macos")])
-def test_a_small_library_is_named_by_its_file_signed_and_exports_what_it_is_told(tools, tmp_path, processor, zig):
+def test_a_small_library_is_named_by_its_file_signed_and_exports_the_given_functions(tools, tmp_path, processor, zig):
     (tmp_path / "small.c").write_text(SOURCE, encoding="utf-8")
     (tmp_path / "list").write_text("_shown\n", encoding="utf-8")
     compiler = [tools / "linux" / "bin" / "python", "-m", "ziglang", "cc", "-target", zig, "-O1", "-g"]

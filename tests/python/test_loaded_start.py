@@ -1,6 +1,6 @@
 """The start `equilibrium` carries its loads with any tooth errors, or the log says that it does not.
 
-Unbalanced torques are inertias times accelerations at t = 0. If the log says that there is no equilibrium, own_statics
+Unbalanced torques are inertias times accelerations at t = 0. If the log reports a missing equilibrium, own_statics
 searches for one. `cargo run -p lab --release -- test-python -k loaded_start --scenes 2000` tries more random scenes."""
 
 import numpy as np
@@ -145,7 +145,7 @@ def test_a_load_for_which_no_equilibrium_is_found_is_carried_nowhere(fmu, planet
         assert statics.carried(np.linspace(-0.5, 0.5, 9) * 2.0 * np.pi / planet_teeth, 1.2 * np.pi / side_teeth) < 1.0
 
 
-def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):
+def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_reported(fmu):
     unequal = {"contact.law": "line", "left.load_torque": 400.0, "right.load_torque": 100.0}
     with fmu.open() as opened:
         [message] = said(opened.initialise(unequal))

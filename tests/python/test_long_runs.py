@@ -22,7 +22,7 @@ def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, s
     assert scene.imbalance() < UNDAMPED
 
 
-def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive):
+def test_a_day_in_a_slow_turn_keeps_the_phase_of_the_teeth(drive):
     # five mesh periods in an hour and a half: 80 in a day
     spin = 80.0 * 2.0 * np.pi / theory.PLANET_TEETH / DAY
     scene = drive(TURN | {"scene.start": "equilibrium", "spin.command": spin})
@@ -39,7 +39,7 @@ def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive)
     assert scene.imbalance() < UNDAMPED
 
 
-def test_ten_minutes_in_the_study_s_turn_leave_the_teeth_as_they_stood_at_the_start(drive):
+def test_ten_minutes_in_the_study_s_turn_keep_the_phase_of_the_teeth(drive):
     # more than three thousand whole mesh periods
     scene = drive(TURN).to(594.0, 0.18)
     assert scene["planet[1].spin_angle"] == pytest.approx(594.0 * np.radians(200.0), rel=1e-11)

@@ -141,7 +141,7 @@ def test_numbers_give_numbers_and_arrays_are_broadcast(loaded):
     ((500.0, float("nan"), 5.0, TEMPERATURE), ["speed = nan rad/s"]),
     (([500.0, 1000.0, 2000.0], 30.0, 5.0, TEMPERATURE), ["torque = 1000 N.m", "(and 1 more)"]),
 ])
-def test_outside_the_map_the_axis_its_unit_and_range_are_told(loaded, point, parts):
+def test_outside_the_map_the_axis_its_unit_and_range_are_reported(loaded, point, parts):
     for call in (loaded.torques, loaded.loss, loaded.efficiency):
         with pytest.raises(DifferentialError) as error:
             call(*point)
@@ -156,7 +156,7 @@ def test_outside_the_map_the_axis_its_unit_and_range_are_told(loaded, point, par
     (lambda lines: [line.replace("power.loss", "loss") for line in lines], ["no column power.loss [W]", "`losses --csv`"]),
     (lambda lines: lines[:4], ["no rows of the kinds map and stuck"]),
 ])
-def test_a_file_that_is_no_map_is_refused(file, tmp_path, change, parts):
+def test_a_file_that_is_not_a_map_is_refused(file, tmp_path, change, parts):
     changed = tmp_path / "changed.csv"
     changed.write_text("\n".join(change(file.read_text(encoding="utf-8").splitlines())), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
@@ -164,7 +164,7 @@ def test_a_file_that_is_no_map_is_refused(file, tmp_path, change, parts):
     assert "changed.csv" in str(error.value) and all(part in str(error.value) for part in parts), error.value
 
 
-def test_a_missing_file_and_a_folder_are_said(tmp_path):
+def test_a_missing_file_and_a_folder_are_reported(tmp_path):
     for name in ("none.csv", "none.parquet", ""):
         with pytest.raises(DifferentialError, match=str(tmp_path)):
             LossMap.load(tmp_path / name)

@@ -101,7 +101,7 @@ def test_tooth_errors_are_averaged_until_all_teeth_have_met(scene):
     task.close()
 
 
-def test_what_the_fmu_refuses_is_said_with_its_point(scene):
+def test_a_point_refused_by_the_fmu_is_reported_with_its_values(scene):
     with pytest.raises(DifferentialError, match=r"(?s)at 300 N.m, 5 rad/s.*oil.viscosity_100"):
         losses(scene.set({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True}), LEVELS,
                workers=0)
@@ -109,7 +109,7 @@ def test_what_the_fmu_refuses_is_said_with_its_point(scene):
 
 # lines
 
-def test_leaving_lines_out_tells_the_error_of_a_parabola():
+def test_omitting_lines_gives_the_error_of_a_parabola():
     lines = [np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.5, 1.0])]
     at = places(lines)
     values = (at[..., 0] ** 2 + 5.0 * at[..., 1] + at[..., 0] * at[..., 1])[None, ..., None]
@@ -126,7 +126,7 @@ def test_axes_begin_with_a_middle_and_with_zero_between_signs():
     assert starting([5.0]).tolist() == [5.0]
 
 
-def test_torques_and_figures_are_the_same_said_twice():
+def test_torques_and_figures_convert_into_each_other():
     points = np.random.default_rng(1).normal(size=(20, 4))
     figures = np.random.default_rng(2).normal(size=(20, 3))
     assert figures_of(torques_of(figures, points), points) == pytest.approx(figures)
@@ -274,7 +274,7 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 
-def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
+def test_ctrl_c_on_the_command_keeps_the_finished_rows(fmu_file, tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
     given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
              "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]

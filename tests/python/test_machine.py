@@ -39,6 +39,6 @@ def test_each_machine_has_a_library_of_answers(on, tmp_path, system, processor, 
     assert machine.answers(tmp_path) == (file.split("/")[0], tmp_path / file)
 
 
-def test_what_an_arm_machine_has_built_for_itself_is_found(on, tmp_path):
+def test_a_library_built_on_an_arm_machine_is_found(on, tmp_path):
     on("linux", "aarch64")
     assert machine.answers(tmp_path) == ("linux64", tmp_path / "linux64" / "libanswers.so")

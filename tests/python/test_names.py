@@ -62,7 +62,7 @@ def faults(names):
     return [fault for name, tree in trees.items() for fault in tree.faults(name)]
 
 
-def test_the_tree_of_names_finds_what_cannot_be():
+def test_the_tree_of_names_finds_conflicts():
     for names, fault in [(["a.b", "a[1]"], ".a is array and record"), (["a", "a.b"], ".a is leaf and record"),
                          (["a", "a[1]"], ".a is array and leaf"), (["a[1].b", "a[2].c"], "elements of .a differ"),
                          (["a[1].b[1].c", "a[2].b[1].d"], "elements of .a differ")]:
@@ -222,7 +222,7 @@ SET = ("--set", "scene.planet_spin=imposed", "--set", "scene.gear_contact=ideal"
      "planet.spin_torque", "--condition", "planet.spin_torque < 1e9", "--workers", "0"),
     ("loads", "study_turning", "--set", "planet.spin_command=3 rad/s", "--set", "stop_time=2ms", "--out", "out.csv"),
 ], ids=lambda arguments: " ".join(arguments[:1]))
-def test_commands_say_once_to_standard_error_what_the_new_name_is(tmp_path, monkeypatch, fmu_file, arguments):
+def test_commands_print_the_new_name_once_to_standard_error(tmp_path, monkeypatch, fmu_file, arguments):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     done = command(*arguments)

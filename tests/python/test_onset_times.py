@@ -122,7 +122,7 @@ def test_the_rounding_of_an_epoch_moves_results_by_no_more_than_their_rates_time
 
 
 @pytest.mark.parametrize("start, onset", CASES.values(), ids=CASES)
-def test_fmi_3_tells_the_event_at_its_time(fmu3, start, onset):
+def test_fmi_3_reports_the_event_at_its_time(fmu3, start, onset):
     found, events = three(fmu3, at(onset), start)
     wanted, others = three(fmu3, at(onset - start), 0.0)
     np.testing.assert_array_equal(found, wanted)

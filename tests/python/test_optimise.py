@@ -243,7 +243,7 @@ def test_a_range_of_a_search_has_no_count(folder, fmu_file):
         Problem.load(file, fmu_file)
 
 
-def test_a_value_that_changes_nothing_makes_no_design_wrong(two):
+def test_a_value_that_changes_nothing_does_not_make_a_design_wrong(two):
     design = {"geometry.module": 4.5e-3, "geometry.face_width": 12e-3}
     plain = DesignTask(two).evaluate(0, design)
     two.scene.set({"geometry.planet_addendum": 1.3})
@@ -264,7 +264,7 @@ def test_designs_that_break_something_are_not_on_the_front(two, folder):
             assert row.values["geometry.face_width"] <= 3.0 * row.values["geometry.module"]
 
 
-def test_the_study_s_gears_stand_where_their_figures_say(two, folder):
+def test_the_study_s_gears_are_compared_with_the_front(two, folder):
     best, _ = found(two.sized(population=20, generations=8), folder / "out")
     task = DesignTask(two, thorough=True)
     row = task.evaluate(-1, two.compare["the study's gears"])
@@ -329,7 +329,7 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
     assert not told.models[model].refused and list(told.models) == [model]
 
 
-def test_a_run_without_a_whole_mesh_cycle_is_no_quiet_design(fmu_file):
+def test_a_run_without_a_whole_mesh_cycle_is_not_a_quiet_design(fmu_file):
     problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
     problem.scene.stop = 0.05
     row = DesignTask(problem, thorough=True).evaluate(0, problem.compare["the study's gears"])
@@ -365,7 +365,7 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "needs a unique name"]),
     ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
 ])
-def test_errors_in_a_file_name_what_is_wrong(folder, fmu_file, old, new, parts):
+def test_errors_in_a_file_name_the_fault(folder, fmu_file, old, new, parts):
     with pytest.raises(DifferentialError) as error:
         changed(folder, fmu_file, old, new)
     assert all(part in str(error.value) for part in parts), error.value
@@ -378,7 +378,7 @@ def test_all_errors_of_a_file_are_reported_at_once(folder, fmu_file):
     assert len(str(error.value).splitlines()) == 3
 
 
-def test_where_nothing_is_feasible_the_checks_say_so(folder, fmu_file):
+def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
     problem = changed(folder, fmu_file, "<= 95 mm", "<= 20 mm").sized(population=8, generations=2)
     with pytest.raises(DifferentialError) as error:
         found(problem, folder / "out")

@@ -46,7 +46,7 @@ def test_a_drive_is_the_same_again_and_has_a_json_form():
         assert json.loads(json.dumps(drive)) == drive == ordinary_drives.drive(SEED, drive["index"], LEVELS)
 
 
-def test_drives_cover_what_they_are_to_cover():
+def test_drives_cover_the_required_cases():
     found = Counter()
     for drive in drawn(DRAWN):
         start = drive["start"]
@@ -91,7 +91,7 @@ def test_a_mirrored_drive_has_the_other_sign_and_the_same_brakes():
         assert ordinary_drives.image(image) == drive
 
 
-def test_a_course_lasts_until_both_wheels_stand():
+def test_a_course_lasts_until_both_wheels_are_at_rest():
     random = np.random.default_rng(1)
     course = Course(random, vehicle(random, False))
     course.rolls(20.0)
@@ -147,7 +147,7 @@ def since_held(drive, played):
 
 
 @pytest.mark.parametrize("requirement", SPOILED)
-def test_what_violates_a_requirement_is_noticed(fmu, stop, requirement):
+def test_a_violated_requirement_is_detected(fmu, stop, requirement):
     drive, played = stop
     assert not judge(fmu, drive, played=played).problems
     spoiled = dataclasses.replace(played, **SPOILED[requirement](drive, played))

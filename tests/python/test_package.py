@@ -86,7 +86,7 @@ def libraries(archive, tmp_path):
     return {PurePosixPath(name).parts[1]: Path(archive.extract(name, tmp_path)) for name in names}
 
 
-def test_nothing_demanded_is_missing(libraries, page):
+def test_every_demanded_library_is_there(libraries, page):
     assert libraries
     for demanded in DEMANDED:
         platform, *version = demanded.split("-glibc-")
@@ -107,7 +107,7 @@ def test_libraries_export_the_functions_of_fmi_and_nothing_else(libraries):
 
 
 @pytest.mark.parametrize("platform, processor", [("linux64", "x86-64"), ("aarch64-linux", "64-bit ARM")])
-def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page, platform, processor):
+def test_the_library_for_linux_needs_no_newer_glibc_than_the_page_states(libraries, page, platform, processor):
     if platform not in libraries:
         pytest.skip("the archive holds no library for Linux on this processor")
     assert binaries.processor_of_linux(libraries[platform]) == PROCESSORS[platform]
@@ -121,7 +121,7 @@ def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page, p
         assert set(needed) <= LINUX_OWN | {"libgcc_s.so.1"}
 
 
-def test_the_library_for_windows_needs_windows_alone(libraries):
+def test_the_library_for_windows_needs_only_windows(libraries):
     if "win64" not in libraries:
         pytest.skip("the archive holds no library for Windows")
     _, needed = binaries.of_windows(libraries["win64"])

@@ -136,6 +136,6 @@ def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slo
         assert turned == pytest.approx(mean * (end - begin), rel=1e-7), begin
 
 
-def test_what_is_no_choice_of_slopes_is_refused(fmu_file):
+def test_a_wrong_choice_of_slopes_is_refused(fmu_file):
     with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
         Scene(outputs=["left.speed"], input_slopes="yes", fmu=fmu_file)

@@ -103,7 +103,7 @@ def test_several_inputs_take_their_values_in_order(opened, pack):
     assert opened.port(DRIVEN, DRIVEN).step(pack([120.0, 700.0]), SIZE, pack([1e3, 2e3])) == pytest.approx([121.0, 702.0], rel=1e-12)
 
 
-def test_outputs_are_numbers_in_a_list_of_their_own(opened):
+def test_outputs_are_numbers_in_a_separate_list(opened):
     port = opened.port(DRIVEN, SHOWN)
     first = port.step([300.0, 900.0], SIZE)
     kept = [*first]

@@ -67,14 +67,14 @@ def test_values_are_spread_over_their_ranges_to_the_ends(fmu):
     assert spread(0.5, 1e-3, 1e3, 1.0) == pytest.approx(1.0)
 
 
-def test_what_is_printed_of_a_failure_reproduces_its_scene(fmu):
+def test_the_printed_failure_reproduces_its_scene(fmu):
     again = [random_scenes.scenes(fmu, "bold", 20, SEED, 7, 8) for _ in range(2)]
     first, second = (next(scenes) for scenes in again)
     assert first == second
     assert eval(repr(first[1])) == first[1]
 
 
-def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one_goes_on(fmu, monkeypatch):
+def test_a_process_that_crashes_or_hangs_is_reported_with_its_scene_and_the_next_one_runs(fmu, monkeypatch):
     crashed = list(scene_runs.attempts("no such folder", "wild", 2, SEED))
     assert [index for index, _ in crashed] == [0, 1]
     assert all("process ended with 1" in record["problems"][0] for _, record in crashed)

@@ -25,7 +25,7 @@ FLOWS = {
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("flow", FLOWS)
-def test_efficiency_is_what_is_not_lost_of_the_power_that_ports_feed(drive, flow, contact, sign):
+def test_efficiency_is_the_part_of_the_input_power_that_is_not_lost(drive, flow, contact, sign):
     values = {name: sign * value if name.endswith(("command", "torque")) else value for name, value in FLOWS[flow].items()}
     driven = drive(CLUTCH | {"effects.thrust_friction": contact != "ideal", "scene.gear_contact": contact} | values)
     driven.to(0.3, 0.01)
@@ -49,7 +49,7 @@ def test_a_wheel_that_drives_the_other_one_loses_the_friction_of_both_packs(driv
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_nothing_fed_is_no_loss_of_it(drive, contact):
+def test_efficiency_is_one_without_input_power(drive, contact):
     # the differential coasts: clutch and inertia, no drive
     driven = drive(CLUTCH | {"scene.gear_contact": contact, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
                              "left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.speed_command": 50.0})

@@ -94,7 +94,7 @@ def test_the_fmu_draws_near_the_reference_as_its_tolerance_is_tightened(errors, 
 
 
 @pytest.mark.parametrize("case", [*CASES])
-def test_files_are_what_the_plain_model_gives(case):
+def test_files_agree_with_the_plain_model(case):
     """The first interval, integrated again by another method."""
     case, columns = CASES[case], make_reference.read(case)[1]
     count = max(11, np.count_nonzero(case.times <= STRETCH))
@@ -105,7 +105,7 @@ def test_files_are_what_the_plain_model_gives(case):
 
 
 @pytest.mark.parametrize("gear", ["planet", "side"])
-def test_the_gap_of_a_tip_corner_is_what_two_flanks_in_space_leave(gear):
+def test_the_gap_of_a_tip_corner_is_that_of_two_flanks_in_space(gear):
     gears, mate = Gears(), MATE[gear]
 
     def flank(of, unwound):

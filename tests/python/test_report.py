@@ -67,7 +67,7 @@ def test_every_scene_has_a_report_whose_figures_show_something(name, fmu_file):
     assert all(len(section.strip()) > 40 for section in page.sections.values())
 
 
-def test_a_quick_report_leaves_out_what_needs_other_runs(monkeypatch):
+def test_a_quick_report_omits_the_parts_that_need_other_runs(monkeypatch):
     in_haste(monkeypatch)
     assert main(["report", "--scene", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
     page = ReportPage(Path("report-study_turning.html").read_text(encoding="utf-8"))
@@ -75,7 +75,7 @@ def test_a_quick_report_leaves_out_what_needs_other_runs(monkeypatch):
     assert "700 N·m" in page.sections["setup"]
 
 
-def test_what_a_scene_says_is_text_and_no_markup(fmu_file, monkeypatch):
+def test_texts_of_a_scene_are_escaped_and_not_markup(fmu_file, monkeypatch):
     in_haste(monkeypatch)
     scene = Scene("a<b>", description="<script>alert(1)</script>", stop=0.01, outputs=["left.speed"], fmu=fmu_file)
     with scene:
@@ -83,7 +83,7 @@ def test_what_a_scene_says_is_text_and_no_markup(fmu_file, monkeypatch):
     assert "<script" not in text and "&lt;script&gt;" in text and "a&lt;b&gt;" in text
 
 
-def test_effects_that_are_off_are_tried_and_refusals_are_the_fmus_own(fmu_file):
+def test_effects_that_are_off_are_tried_and_refusals_come_from_the_fmu(fmu_file):
     worth = ReportPage(text_of("study_turning", fmu_file)).sections["worth"]
     assert "effects.body_compliance: does not work with contact.law = impact" in worth
     assert re.search(r"tooth_errors\s+changes nothing beyond the solver's tolerance, as tooth_errors.accuracy_grade", worth)
@@ -109,13 +109,13 @@ def test_report_and_accuracy_agree_on_the_kinds_of_effects():
     (["--scene", "study_turning", "--set", "left.load_torque"], "write NAME=VALUE"),
     (["--scene", "study_turning", "--set", "geometry.module=0"], "geometry.module"),
 ])
-def test_wrong_use_is_said_in_one_line(arguments, said, capsys):
+def test_wrong_use_is_reported_in_one_line(arguments, said, capsys):
     assert main(["report", *arguments]) == 2
     lines = [line for line in re.split(r"[\r\n]+", capsys.readouterr().err) if said in line]
     assert len(lines) == 1, lines
 
 
-def test_a_missing_package_is_said_with_its_extra(monkeypatch):
+def test_a_missing_package_is_reported_with_its_extra(monkeypatch):
     def missing(name):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 

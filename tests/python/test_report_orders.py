@@ -36,7 +36,7 @@ def swept(orders, turns=64.0, per_turn=400):
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_orders_of_a_known_signal_stand_within_one_line(sense):
+def test_orders_of_a_known_signal_are_within_one_line(sense):
     known = {10.0: 3.0, 20.5: 1.0, 37.3: 0.4}
     angle, values, speed = swept(known)
     spectra = waterfall(sense * angle, values + 5.0, speed, WINDOW, 50.0)
@@ -95,7 +95,7 @@ def orders_of(run):
 
 @pytest.mark.parametrize("values", [{}, {"scene.right_drive": "torque", "scene.carrier_drive": "speed", "right.load_torque": "835 N.m"}])
 def test_a_run_up_with_free_planets_has_the_odd_orders_that_the_scene_has(simulated, values):
-    """With free planets, each planet balances its two meshes, and odd orders do not cancel."""
+    """Each free planet balances its two meshes, and odd orders do not cancel."""
     up, here, there = orders_of(simulated("torque_bias", OUT_OF_PHASE | values))
     assert SPIN not in up.imposed and not up.is_driven_otherwise
     assert np.argmax(here) == np.argmax(there) == 0
@@ -132,7 +132,7 @@ def test_bands_of_lash_of_a_known_record():
     assert bands(times, np.ones(8)) == [] and bands(times, np.zeros(8)) == [(0.0, 7.0)]
 
 
-def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
+def test_rattling_teeth_are_in_the_lash_while_no_pair_is_loaded(simulated):
     run = simulated("rattle")
     free = run.series("planet[1].left_pairs") == 0.0
     found = bands(run.time, run.series("planet[1].left_normal_force"))
@@ -140,7 +140,7 @@ def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
     assert np.array_equal(inside, free) and 0.5 < np.mean(free) < 1.0
 
 
-def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
+def test_a_tooth_at_rest_has_the_contact_strip_of_hertz(simulated):
     run = simulated("study_straight")
     pair = pair_of(run)
     contacts = Contacts.of(run, 1.0, pair)
@@ -157,7 +157,7 @@ def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
     assert contacts.half_width[-1] == pytest.approx(half, rel=1e-3)
 
 
-def test_the_drawn_teeth_touch_where_the_fmu_has_them_touch(simulated):
+def test_the_drawn_teeth_touch_at_the_points_of_the_fmu(simulated):
     run = simulated("study_turning")
     pair, last = pair_of(run), run.record[-1]
     planet, side = pair.gears

@@ -143,7 +143,7 @@ def test_all_outputs_scale_with_each_contact_law_and_effect(fmu, name):
 
 
 @pytest.mark.parametrize("name", CARRIERS)
-def test_what_carries_units_scales_while_they_stay_and_not_when_they_change(fmu, name):
+def test_parts_with_units_scale_only_while_those_units_are_unchanged(fmu, name):
     values, steps, stands, what, constant = CARRIERS[name]
     off, _ = differences(fmu, {"start": values, "steps": steps}, stands)
     assert not wrong(off, what), wrong(off, what)

@@ -183,7 +183,7 @@ QUICK = {"optimise": " --quick --population 8 --generations 1", "tolerance": " -
 
 
 @pytest.mark.parametrize("name", sorted(having("--quick")))
-def test_a_quick_answer_says_what_it_left_out(name, prepared, capsys):
+def test_a_quick_answer_lists_its_omissions(name, prepared, capsys):
     prepared(DONE)
     line = CASES[name][DONE]
     assert main((line if "--quick" in line else line + QUICK.get(name, " --quick")).split()) == DONE
