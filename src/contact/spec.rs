@@ -42,11 +42,11 @@ spec! {
         pub damping: f64 = 5e4,
         /// Penetration of full damping d_max [m].
         pub penetration_depth: f64 = 1e-4,
-        /// Which damping.
+        /// The damping model.
         pub damping_model: DampingModel = DampingModel::Step,
         /// Coefficient of restitution e at the impact speed.
         pub restitution: f64 = 0.8,
-        /// Impact speed at which the restitution holds [m/s].
+        /// Impact speed at which the restitution is valid [m/s].
         pub impact_speed: f64 = 0.1,
         /// Line load at the mean cone distance for the Hertz part of [`ContactLaw::Line`] [N/m].
         pub line_load: f64 = 4e5,
