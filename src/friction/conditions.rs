@@ -3,10 +3,11 @@
 use super::smooth;
 use crate::numeric::{PI, Scalar};
 
-/// Limit of speeds [m/s]; keeps squares finite.
+/// Limit of speeds [m/s], which keeps squares finite.
 const FASTEST: f64 = 1e6;
 
-/// Bounds of line load [N/m] and curvature radius [m]; from 1.5 times the lower to half of the upper they have no effect.
+/// Bounds of line load [N/m] and curvature radius [m]. They have no effect from 1.5 times the lower to half of the
+/// upper bound.
 const LINE_LOAD: [f64; 2] = [1e3, 1e9];
 const RADIUS: [f64; 2] = [1e-4, 1e2];
 
@@ -34,7 +35,7 @@ impl<T: Scalar> Conditions<T> {
         (self.line_load / self.radius * (self.modulus / PI)).sqrt()
     }
 
-    /// The same with positive magnitudes in place of signed or vanishing ones: arguments valid for every law.
+    /// Replaces signed or vanishing values by positive magnitudes, so that the arguments are valid for every law.
     pub(super) fn regularised(&self, slowest: f64) -> Self {
         Self {
             sliding: magnitude(limited(self.sliding), slowest),
@@ -52,7 +53,7 @@ pub(super) fn magnitude<T: Scalar>(v: T, slowest: f64) -> T {
     (v * v + slowest * slowest).sqrt()
 }
 
-/// `v`, or ±[`FASTEST`] beyond.
+/// Limits `v` to ±[`FASTEST`].
 #[inline]
 pub(super) fn limited<T: Scalar>(v: T) -> T {
     if v.value().abs() < FASTEST { v } else { T::constant(FASTEST.copysign(v.value())) }

@@ -1,4 +1,5 @@
-//! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
+//! Validation of gear pairs: errors for pairs that cannot be built, warnings for pairs that a gear engineer would
+//! question.
 
 use super::assembly::between_planets;
 use super::solid::Foot;
@@ -9,28 +10,28 @@ use crate::problem::{Problem, told_apart};
 const NAMES: [&str; 2] = ["planet", "side gear"];
 const MM: f64 = 1e3;
 
-/// Usual upper limit of face width over outer cone distance for straight bevel gears.
+/// Usual upper limit of the ratio of face width to outer cone distance for straight bevel gears.
 const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
-/// Least inner cone distance over the outer one: nearer to the apex teeth have practically no size.
+/// Smallest ratio of inner to outer cone distance. Nearer to the apex, teeth have practically no size.
 const LEAST_INNER_CONE: f64 = 0.1;
-/// Least root angle [rad]: a gear needs a body.
+/// Smallest root angle [rad], because a gear needs a body.
 const LEAST_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
 /// Admissible numbers of planets.
 const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
-/// A fillet smaller than specified by less than this fraction is a rounding error.
+/// Relative reduction of a fillet that is still attributed to rounding.
 const SHARE_OF_FILLET: f64 = 1e-9;
 
-/// Error if the pair cannot form a differential: the geometry of a pair holds for other angles too.
+/// Returns an error if the pair cannot form a differential. The geometry of a pair is valid for other shaft angles too.
 pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
     (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
         problem!(
             "geometry.shaft_angle",
-            "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
-             small errors of assembly are not a nominal shaft angle",
+            "{:.4} deg: two equal coaxial side gears can mesh with the same planet only at 90 deg; \
+             small assembly errors are not a nominal shaft angle",
             spec.shaft_angle.to_degrees()
         )
     })
@@ -110,7 +111,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
 pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     let m = pair.module;
-    // the end clipped at a gear's base circle is where its mate's tip would cut or jam
+    // a path end clipped at a gear's base circle is where the mate's tip would cut or jam
     for (i, gear) in pair.gears.iter().enumerate() {
         let mate = &pair.gears[1 - i];
         if pair.path.clipped[i] {
@@ -183,7 +184,7 @@ fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
     ))
 }
 
-/// Warning if the root fillet of gear `i` does not fit its gaps.
+/// Returns a warning if the root fillet of gear `i` does not fit its gaps.
 fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
     let wanted = spec.root_fillet * pair.module / pair.outer_cone;
     let foot = Foot::new(&pair.gears[i], wanted);
@@ -192,7 +193,7 @@ fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
         let why = if foot.floor > pair.gears[i].root {
             "flanks meet above the root cone"
         } else if foot.centre >= foot.middle {
-            "the gap is rounded out whole"
+            "the whole gap is rounded"
         } else {
             "it would end above the pitch cone"
         };

@@ -1,15 +1,16 @@
-//! Vector instructions: the same arithmetic in fewer instructions.
-//!
-//! Every x86-64 processor adds and multiplies two numbers at a time. Where a number that was written alone is read as one of
-//! two, or the other way round, a processor waits: what is worked on two by two is so throughout.
-//!
-//! Wider ones are used where the processor has them. A task is compiled twice, for what every processor of its kind has and for AVX2. Neither fuses or reorders operations, so
-//! that both give the same bits.
+//! Vector instructions, which do the same arithmetic with fewer instructions.
+//! //!
+//! Every x86-64 processor adds and multiplies two numbers at a time. If a number is written alone and then read as one
+//! of a pair, or conversely, the processor stalls. Data processed in pairs is therefore always read and written in
+//! pairs.
+//! //!
+//! Wider instructions are used if the processor has them. A task is compiled twice: for the baseline instruction set
+//! and for AVX2. Neither version fuses or reorders operations, so both produce the same bits.
 
 #[cfg(target_arch = "x86_64")]
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
-/// Adds `x` times the numbers `of` to those of `to`, two by two.
+/// Adds `x` times the numbers `of` to the numbers `to`, two at a time.
 #[inline(always)]
 pub fn add_times(to: &mut [f64], x: f64, of: &[f64]) {
     let (mut to, mut of) = (to.chunks_exact_mut(2), of.chunks_exact(2));
@@ -32,7 +33,7 @@ pub fn add_times(to: &mut [f64], x: f64, of: &[f64]) {
     }
 }
 
-/// Multiplies the numbers `of` by `x`, two by two.
+/// Multiplies the numbers `of` by `x`, two at a time.
 #[inline(always)]
 pub fn multiply(of: &mut [f64], x: f64) {
     let mut of = of.chunks_exact_mut(2);
@@ -50,7 +51,7 @@ pub fn multiply(of: &mut [f64], x: f64) {
     of.into_remainder().iter_mut().for_each(|of| *of *= x);
 }
 
-/// Writes numbers two by two.
+/// Writes numbers two at a time.
 #[inline(always)]
 pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
     for (from, to) in from.chunks(2).zip(to.chunks_mut(2)) {
@@ -69,16 +70,16 @@ pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
     }
 }
 
-/// Work that gains from wider vectors. Its `run` is to be inlined, and what it calls too, as far as it is to gain.
+/// Work that benefits from wider vectors. Its `run` and the functions called by it must be inlined to benefit.
 pub trait Task {
-    /// What it gives.
+    /// Result of the task.
     type Output;
-    /// Does it.
+    /// Runs the task.
     fn run(self) -> Self::Output;
 }
 
-/// Environment variable that keeps tasks from wider instructions where it is "narrow": for tools that do not know all of
-/// them, and to compare results.
+/// Environment variable that disables wider instructions if its value is "narrow". It serves tools that do not support
+/// all instructions, and comparisons of results.
 pub const VARIABLE: &str = "BEVEL_DIFFERENTIAL_VECTORS";
 
 #[cfg(target_arch = "x86_64")]
