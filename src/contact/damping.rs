@@ -24,7 +24,7 @@ use super::impact::Force;
 use crate::problem::Problem;
 
 /// Smallest accepted coefficient of restitution; D is 20 there.
-const LEAST_RESTITUTION: f64 = 0.05;
+const MIN_RESTITUTION: f64 = 0.05;
 
 /// Damping law of a tooth pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,10 +118,10 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 
 /// Returns the D = λ v₀ that results in the coefficient of restitution `restitution`, from 0.05 to 1.
 pub fn dimensionless_damping(restitution: f64) -> Result<f64, Problem> {
-    if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
+    if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
         return Err(problem!(
             "contact.restitution",
-            "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
+            "{restitution} is out of range; allowed {MIN_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
              damping without bound, since it never stops a body completely"
         ));
     }

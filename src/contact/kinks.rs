@@ -10,7 +10,7 @@ use super::{Engagement, Flank, Spot};
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Largest number of pairs searched in a motion. A motion past more pairs is longer than a whole turn of a gear and
 /// resolves no kink. At absurd speeds the search would not end.
-const MOST_PAIRS: i64 = 256;
+const MAX_PAIRS: i64 = 256;
 /// Number of bisections that locate a kink, to some 1e-5 of the step.
 const HALVINGS: u32 = 15;
 
@@ -38,7 +38,7 @@ impl Engagement {
         let numbers = [self.numbers(flank, position[1], approach[0]), self.numbers(flank, at(1.0)[1], approach[1])];
         let mut first: Option<f64> = None;
         let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
-        if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+        if pairs.end.saturating_sub(pairs.start) > MAX_PAIRS {
             return None;
         }
         for k in pairs {
@@ -70,7 +70,7 @@ impl Engagement {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
             let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
-            if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+            if pairs.end.saturating_sub(pairs.start) > MAX_PAIRS {
                 continue;
             }
             for k in pairs {

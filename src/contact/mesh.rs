@@ -201,13 +201,13 @@ impl Mesh {
     /// Calls [`Self::write_force`] but is never inlined, so that callers other than the steps of plain teeth share one
     /// copy.
     #[inline(never)]
-    pub fn write_force_apart(&self, state: &MeshState, to: &mut MeshForce) {
+    pub fn write_force_not_inlined(&self, state: &MeshState, to: &mut MeshForce) {
         self.write_force(state, to);
     }
 
     /// Calls [`Self::linearise`] but is never inlined, so that other callers share one copy.
     #[inline(never)]
-    pub fn linearise_apart(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+    pub fn linearise_not_inlined(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         self.linearise(state)
     }
 

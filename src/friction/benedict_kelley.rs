@@ -11,7 +11,7 @@ use crate::numeric::Scalar;
 
 /// Smallest argument of the logarithm: one decade. Fast, lightly loaded contacts have a full film, which the disc tests
 /// did not cover. For them the formula would return negative friction.
-const LEAST_DECADE: f64 = 10.0;
+const MIN_DECADE: f64 = 10.0;
 
 /// Largest roughness factor in AGMA 925-A03, reached at R_a = ⅔ · 1.13 µm.
 const ROUGHEST: f64 = 3.0;
@@ -29,7 +29,7 @@ fn argument<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
 
 /// Coefficient at positive speeds, load and radius. With a full film it is 0.0127 times the roughness factor.
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
-    let decades = smooth::floor(argument(spec, at), LEAST_DECADE, 0.5 * LEAST_DECADE).ln() * std::f64::consts::LOG10_E;
+    let decades = smooth::floor(argument(spec, at), MIN_DECADE, 0.5 * MIN_DECADE).ln() * std::f64::consts::LOG10_E;
     decades * (0.0127 * roughness_factor(spec.micrometres()))
 }
 
@@ -38,7 +38,7 @@ pub fn outside(spec: &ToothFrictionSpec, at: &Conditions<f64>) -> Option<Outside
     let roughest = 1.13 * (1.0 - 1.0 / ROUGHEST);
     Outside::test(("roughness R_a", "µm"), spec.micrometres(), [0.0, roughest], "AGMA 925-A03").or_else(|| {
         let film = ("load against film 29700 w/(η v_s v_Σ²)", "1");
-        let low = 1.5 * LEAST_DECADE;
+        let low = 1.5 * MIN_DECADE;
         Outside::test(film, argument(spec, at), [low, f64::INFINITY], "formula falls to zero at 1")
     })
 }

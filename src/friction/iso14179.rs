@@ -11,7 +11,7 @@ use super::{Conditions, Outside, ToothFrictionSpec, smooth};
 use crate::numeric::{Scalar, sqrt};
 
 /// Smallest line load [N/m].
-const LEAST_LOAD: f64 = 150e3;
+const MIN_LOAD: f64 = 150e3;
 
 /// Largest sum speed [m/s].
 const FASTEST: f64 = 34.2;
@@ -20,7 +20,7 @@ const SOURCE: &str = "ISO/TR 14179-2";
 
 /// Coefficient at positive speeds, load and radius.
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
-    let load = smooth::floor(at.line_load, LEAST_LOAD, 0.1 * LEAST_LOAD) * 1e-3; // N/mm
+    let load = smooth::floor(at.line_load, MIN_LOAD, 0.1 * MIN_LOAD) * 1e-3; // N/mm
     let speed = smooth::ceiling(at.sum_speed, FASTEST, 0.1 * FASTEST);
     let radius = at.radius * 1e3; // mm
     // η^−0.05 is combined with the fifth root, and R_a^0.25 is a root of a root: one power instead of three
@@ -31,6 +31,6 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
 
 /// Returns the quantity outside the published range of the formula, or `None`.
 pub fn outside(at: &Conditions<f64>) -> Option<Outside> {
-    Outside::test(("line load w", "N/mm"), at.line_load * 1e-3, [LEAST_LOAD * 1e-3, f64::INFINITY], SOURCE)
+    Outside::test(("line load w", "N/mm"), at.line_load * 1e-3, [MIN_LOAD * 1e-3, f64::INFINITY], SOURCE)
         .or_else(|| Outside::test(("sum speed v_Σ", "m/s"), at.sum_speed, [0.0, FASTEST], SOURCE))
 }

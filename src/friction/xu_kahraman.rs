@@ -18,7 +18,7 @@ const B: [f64; 10] = [0.0, -8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0
 
 /// Upper bound of the slide-to-roll ratio, and half the width of its transition. A surface at rest has the ratio 2; the
 /// largest fitted ratio is 1.
-const MOST_SLIDING: [f64; 2] = [3.0, 1.0];
+const MAX_SLIDING: [f64; 2] = [3.0, 1.0];
 
 /// Upper bound of the roughness [µm]; e^S is meaningless far beyond the fit.
 const ROUGHEST: f64 = 1.5;
@@ -36,7 +36,7 @@ fn rms(spec: &ToothFrictionSpec) -> f64 {
 /// Coefficient at positive speeds, load and radius.
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
     let entraining = at.sum_speed * 0.5;
-    let ratio = smooth::ceiling(at.sliding / entraining, MOST_SLIDING[0], MOST_SLIDING[1]);
+    let ratio = smooth::ceiling(at.sliding / entraining, MAX_SLIDING[0], MAX_SLIDING[1]);
     let pressure = at.pressure() * 1e-9; // GPa
     // below 1 cP the logarithm changes its sign and the exponential grows without bound
     let viscosity = spec.centipoise().max(1.0);

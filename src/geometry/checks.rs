@@ -15,9 +15,9 @@ const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
 /// Smallest ratio of inner to outer cone distance. Nearer to the apex, teeth have practically no size.
-const LEAST_INNER_CONE: f64 = 0.1;
+const MIN_INNER_CONE: f64 = 0.1;
 /// Smallest root angle [rad], because a gear needs a body.
-const LEAST_ROOT_ANGLE: f64 = 0.02;
+const MIN_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
 /// Admissible numbers of planets.
@@ -40,7 +40,7 @@ pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
 /// Reasons why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
-    if pair.inner_cone <= LEAST_INNER_CONE * pair.outer_cone {
+    if pair.inner_cone <= MIN_INNER_CONE * pair.outer_cone {
         found.push(problem!(
             "geometry.face_width",
             "{:.3} mm leaves no teeth at the toe: the outer cone distance is {:.3} mm; use at most a third of it",
@@ -49,7 +49,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     for (i, gear) in pair.gears.iter().enumerate() {
-        if gear.root <= LEAST_ROOT_ANGLE {
+        if gear.root <= MIN_ROOT_ANGLE {
             found.push(problem!(
                 if i == 0 { "geometry.planet_dedendum" } else { "geometry.side_dedendum" },
                 "the {}'s root cone would reach its axis: dedendum {:.3} mm",

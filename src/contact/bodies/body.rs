@@ -47,7 +47,7 @@ impl GearBody {
         let cone = HollowCone { surface: root.polar, held, face, elasticity: *elasticity };
         let area = TAU * sin(root.polar) * sin(root.polar);
         let last = (WAVES * TAU / root.half_azimuth) as usize;
-        let inelastic = || Problem::new("material.poisson_ratio", "the bodies of the gears have no stiffness");
+        let inelastic = || Problem::new("material.poisson_ratio", "the gear bodies have no stiffness");
         let compliance = |n: usize, across: usize| cone.compliance(n, support.turns(), across).ok_or_else(inelastic);
         let [finite, endless] = [compliance(FINITE, ACROSS)?, compliance(FINITE, 1)?];
         let ends = [0, 1, 2].map(|k| finite[(k, k)] / endless[(k, k)] - 1.0);

@@ -14,7 +14,7 @@ use crate::contact::Flank;
 /// Largest number of pairs that pull at one pair at the same time.
 const PULLING: f64 = 3.0;
 /// Largest pull. It is below 1, because a pair yields less to a load on another pair than to its own.
-const MOST_PULL: f64 = 0.9;
+const MAX_PULL: f64 = 0.9;
 /// Distance past the ends of the path beyond which couplings are constant [base pitches].
 const PAST_END: f64 = 0.25;
 /// Number of next pairs on the same flank with a separate coupling. Many small teeth on elastic bodies also touch past
@@ -22,7 +22,7 @@ const PAST_END: f64 = 0.25;
 /// would be no equilibrium.
 const SAME_FLANK_PAIRS: i64 = 16;
 /// Largest magnitude of the sum of the pair numbers on unlike flanks of a mesh.
-const MOST_FACING: i64 = 16;
+const MAX_FACING: i64 = 16;
 /// Search points on each side of the middle for the minimum of a coupling.
 const SEARCH_PLACES: i32 = 8;
 
@@ -135,7 +135,7 @@ impl PairCouplings {
                 with(k as f64 * pitch, &at)
             })
             .collect();
-        let opposite_flank = (-MOST_FACING..=MOST_FACING)
+        let opposite_flank = (-MAX_FACING..=MAX_FACING)
             .map(|k| {
                 let at = |[a, b]: [f64; 2]| {
                     mesh.coupling_of([k, k + 1], &tooth(0, Flank::Drive, a), &tooth(0, Flank::Coast, b))
@@ -164,7 +164,7 @@ impl PairCouplings {
             let most = all.iter().filter(|t| t.varies()).map(Polynomial::least).fold(0.0, f64::min);
             let pull = -PULLING * most / least;
             // the loads that cause the pull can themselves grow by the pull
-            if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
+            if pull < 0.5 { (pull / (1.0 - pull)).min(MAX_PULL) } else { MAX_PULL }
         };
         couplings.pull = Pull {
             same_flank: pull(&couplings.same_flank),
@@ -192,7 +192,7 @@ impl PairCouplings {
         } else if alike {
             (self.same_flank.get(a.number.wrapping_sub(b.number).unsigned_abs().wrapping_sub(1) as usize), true)
         } else {
-            (self.opposite_flank.get(a.number.wrapping_add(b.number).wrapping_add(MOST_FACING) as usize), false)
+            (self.opposite_flank.get(a.number.wrapping_add(b.number).wrapping_add(MAX_FACING) as usize), false)
         };
         let Some(polynomial) = polynomial else { return Coupling::default() };
         // for u = (s − s′)/2, s is the position in the left mesh, or on the drive flank

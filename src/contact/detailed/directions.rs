@@ -49,7 +49,7 @@ pub struct Arms {
 }
 
 /// Smallest tanψ in the curvature of a flank. At its base circle the radius would vanish.
-const LEAST_TANGENT: f64 = 1e-6;
+const MIN_TANGENT: f64 = 1e-6;
 
 /// √x and half its reciprocal, or zeros if x is not safely positive.
 fn root(x: f64) -> [f64; 2] {
@@ -93,11 +93,11 @@ impl Directions {
             let [sin, cos] = arcs.0[i];
             let ratio = self.cos_base[i] / self.sin_base[i];
             (arms.arm[i], arms.arm_slope[i]) = (sin * ratio, way * cos * ratio);
-            if sin > LEAST_TANGENT * cos {
+            if sin > MIN_TANGENT * cos {
                 cot += cos / sin;
                 cot_slope -= way / (sin * sin);
             } else {
-                cot += 1.0 / LEAST_TANGENT;
+                cot += 1.0 / MIN_TANGENT;
             }
         }
         arms.radius = 1.0 / cot;

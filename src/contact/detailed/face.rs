@@ -12,7 +12,7 @@
 //! includes this motion (`carrying`).
 
 use super::carrying::{Moves, Span, carries as carries_at, carrying};
-use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST_NODES, POINTS, nodes};
+use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MAX_NODES, POINTS, nodes};
 use super::{Node, Opening, Slice};
 
 /// Distance past the ends of a face, relative to its length, at which the load must not yet be zero if eight points are
@@ -79,7 +79,7 @@ impl Face {
         match self {
             Self::Whole(_) => 1,
             Self::Cut(..) => POINTS,
-            Self::Sliced(..) => MOST_NODES,
+            Self::Sliced(..) => MAX_NODES,
         }
     }
 
@@ -191,7 +191,7 @@ fn parts<'a, R>(
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cut {
     exact: [Option<[Node; POINTS]>; 2],
-    crowded: [Option<[Node; MOST_NODES]>; 2],
+    crowded: [Option<[Node; MAX_NODES]>; 2],
 }
 
 /// A loaded part of the face.

@@ -36,7 +36,7 @@ pub const GAUSS_EIGHT: [(f64, f64); EIGHT] = [
 pub const EIGHT: usize = 8;
 
 /// Twelve points clustered at the ends: g and its weights at the zeros t of P₁₂⁽²'²⁾.
-pub const CROWDED: [(f64, f64); MOST_NODES] = [
+pub const CROWDED: [(f64, f64); MAX_NODES] = [
     (-0.999_419_541_897_761_4, 0.002_228_893_991_661_38),
     (-0.990_150_086_695_945, 0.021_049_674_820_056_04),
     (-0.943_761_930_424_009_3, 0.080_007_531_037_234_99),
@@ -51,7 +51,7 @@ pub const CROWDED: [(f64, f64); MOST_NODES] = [
     (0.999_419_541_897_761_4, 0.002_228_893_991_661_38),
 ];
 /// Number of points over a part near whose ends the load vanishes.
-pub const MOST_NODES: usize = 12;
+pub const MAX_NODES: usize = 12;
 /// A point of the sum over the face.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Node {

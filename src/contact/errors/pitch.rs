@@ -159,7 +159,7 @@ impl PitchDeviations {
             for (own, given) in own.iter_mut().zip(&given.positions) {
                 if own.len() != given.len() || !given.iter().all(|position| position.is_finite()) {
                     let what =
-                        format!("{} positions of teeth are given; {} finite ones are needed", given.len(), own.len());
+                        format!("{} tooth positions are given; {} finite values are needed", given.len(), own.len());
                     return Err(Problem::new("tooth_errors.accuracy_grade", what));
                 }
                 own.copy_from_slice(given);

@@ -3,9 +3,9 @@
 use crate::problem::Problem;
 
 /// Largest deviation or modification of a flank [m]. First-order formulas are not valid beyond it.
-const MOST: f64 = 1e-3;
+const MAX_DEVIATION: f64 = 1e-3;
 /// Largest error of the shaft angle [rad]. First-order formulas are not valid beyond it.
-const MOST_ANGLE: f64 = 0.02;
+const MAX_ANGLE: f64 = 0.02;
 
 spec! {
     /// Deviations and modifications of all teeth; the default is error-free teeth.
@@ -96,14 +96,14 @@ impl ToothErrorSpec {
             ("tooth_errors.planet_tip_relief", self.planet_tip_relief, 0.0),
             ("tooth_errors.side_tip_relief", self.side_tip_relief, 0.0),
             ("tooth_errors.crowning", self.crowning, 0.0),
-            ("tooth_errors.planet_axial_offset", self.planet_axial_offset, -MOST),
-            ("tooth_errors.side_axial_offset", self.side_axial_offset, -MOST),
-            ("tooth_errors.axis_offset", self.axis_offset, -MOST),
+            ("tooth_errors.planet_axial_offset", self.planet_axial_offset, -MAX_DEVIATION),
+            ("tooth_errors.side_axial_offset", self.side_axial_offset, -MAX_DEVIATION),
+            ("tooth_errors.axis_offset", self.axis_offset, -MAX_DEVIATION),
         ];
         for (variable, value, least) in metres {
-            within(variable, value, [least, MOST], "m")?;
+            within(variable, value, [least, MAX_DEVIATION], "m")?;
         }
-        within("tooth_errors.shaft_angle_error", self.shaft_angle_error, [-MOST_ANGLE, MOST_ANGLE], "rad")?;
+        within("tooth_errors.shaft_angle_error", self.shaft_angle_error, [-MAX_ANGLE, MAX_ANGLE], "rad")?;
         within("tooth_errors.relief_length", self.relief_length, [0.01, 2.0], "base pitches")
     }
 }

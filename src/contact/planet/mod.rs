@@ -178,7 +178,7 @@ pub struct Contact {
 
 /// Work of a section of solid teeth, relative to a mesh of plain teeth: per facet of a flank, and the minimum.
 const SOLID_PER_FACET: usize = 2;
-const LEAST_SOLID: usize = 40;
+const MIN_SOLID: usize = 40;
 /// Maximum work of a planet's meshes on elastic gear bodies, if a dozen pairs move each other.
 const ON_BODIES: usize = 16;
 
@@ -235,7 +235,7 @@ impl Contact {
     pub fn work(&self, facets: usize, groups: usize) -> usize {
         // with few facets, each has many neighbours; with many facets, their number dominates
         if let Some(solid) = &self.solid {
-            return solid.section_count() * (SOLID_PER_FACET * facets).max(LEAST_SOLID);
+            return solid.section_count() * (SOLID_PER_FACET * facets).max(MIN_SOLID);
         }
         let in_detail = if self.in_detail { self.detailed.face.points() } else { 0 };
         let on_bodies = if self.bodies.is_some() { ON_BODIES } else { 0 };

@@ -33,7 +33,7 @@ impl PlanetContact for Plain<'_> {
             if self.is_part_of_steps {
                 mesh.write_force(state, to);
             } else {
-                mesh.write_force_apart(state, to);
+                mesh.write_force_not_inlined(state, to);
             }
         }
     }
@@ -42,8 +42,11 @@ impl PlanetContact for Plain<'_> {
     fn linearise(&self, at: &PlanetState, to: &mut [LinearisedForce; 2]) {
         let mesh = &self.contact.mesh;
         for s in 0..2 {
-            let (force, by) =
-                if self.is_part_of_steps { mesh.linearise(&at.mesh(s)) } else { mesh.linearise_apart(&at.mesh(s)) };
+            let (force, by) = if self.is_part_of_steps {
+                mesh.linearise(&at.mesh(s))
+            } else {
+                mesh.linearise_not_inlined(&at.mesh(s))
+            };
             to[s] = LinearisedForce { force, by };
         }
     }

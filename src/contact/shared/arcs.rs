@@ -14,7 +14,7 @@ const ROUNDS: usize = 50;
 /// Accepted residual if rounding prevents convergence, relative to the largest arc.
 const ROUNDED: f64 = 1e-13;
 /// Smallest arc to which a residual is relative [rad]; it is the arc under a light load.
-const LEAST: f64 = 1e-4;
+const SMALLEST_ARC: f64 = 1e-4;
 
 /// Own arcs of pairs with their loads.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl<const K: usize> OwnArcs<K> {
         let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
         // the residual also contains the rounding of the flanks' openings
-        let scale = arcs[..n].iter().fold(LEAST, |most, arc| most.max(arc.abs()));
+        let scale = arcs[..n].iter().fold(SMALLEST_ARC, |most, arc| most.max(arc.abs()));
         let solved = SOLVED * scale * n.div_ceil(FEW) as f64;
         let (mut last, mut part, mut vain) = (f64::INFINITY, 1.0, 0);
         for step in 0..STEPS {

@@ -9,13 +9,13 @@ const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 const EXPONENT: u32 = 52;
 /// Smallest exponent: e to this power is negligible, but still a normal number.
-const LEAST: f64 = -700.0;
+const MIN_EXPONENT: f64 = -700.0;
 
 /// Inline e^x for x < 700, accurate to two roundings. It is 2^k e^r with whole k and |r| ≤ ln 2 / 2, and e^r is its
 /// Taylor series up to r¹³. Below −700 the result is e⁻⁷⁰⁰.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
-    let x = if x < LEAST { LEAST } else { x };
+    let x = if x < MIN_EXPONENT { MIN_EXPONENT } else { x };
     let whole = x * std::f64::consts::LOG2_E + WHOLE;
     let k = whole - WHOLE;
     let r = (x - k * LN_2[0]) - k * LN_2[1];

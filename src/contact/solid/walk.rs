@@ -5,7 +5,7 @@ use super::turned::Both;
 use super::{SineCosine, Softness, TurningRay};
 
 /// Smallest ratio of the flanks' distance to their height difference near contact.
-const LEAST_METRIC: f64 = 0.8;
+const MIN_METRIC: f64 = 0.8;
 
 /// A corner of one flank over a facet of the other.
 #[derive(Clone, Copy, Default)]
@@ -121,7 +121,7 @@ impl FlankSection<'_> {
         let grows_up = facets[0].slope() > facets[1].slope();
         // between convex flanks, the overlap initially grows fastest
         let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
-        let (reach, least) = (soft.deep(), -soft.excess / LEAST_METRIC);
+        let (reach, least) = (soft.deep(), -soft.excess / MIN_METRIC);
         let farthest = facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room;
         if farthest.is_nan() || farthest <= least {
             return None;

@@ -6,7 +6,7 @@ use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
 
 /// Smallest thickness of a tooth along the load [modules].
-const LEAST_DEPTH: f64 = 0.05;
+const MIN_DEPTH: f64 = 0.05;
 /// Largest angle of the load to the chord [rad].
 const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
 /// The load may cross the middle of the tooth at most this far below the root section [root chords].
@@ -14,7 +14,7 @@ const BELOW_ROOT: f64 = 0.25;
 /// Number of steps of the searches.
 const SEARCH: usize = 128;
 /// Smallest length of the range on which both teeth are beams [base pitches].
-pub const LEAST_RANGE: f64 = 0.02;
+pub const MIN_RANGE: f64 = 0.02;
 
 /// Parameters for the dedenda of planet and side gear.
 pub const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
@@ -27,7 +27,7 @@ fn parameter_at_fault(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static s
         if rolls[i] <= 0.0 {
             return Some(ADDENDUM[1 - i]);
         }
-        if load.depth < LEAST_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
+        if load.depth < MIN_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
             return Some(ADDENDUM[i]);
         }
         if load.lever < -BELOW_ROOT * tooth.root_chord {
@@ -62,7 +62,7 @@ pub fn boundary(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -
 }
 
 /// Longest part of `path` [rad] on which both teeth are beams. Fails with the parameter to change if this part is
-/// shorter than `LEAST_RANGE`.
+/// shorter than `MIN_RANGE`.
 pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
     let fits = |s: f64| are_beams(teeth, teeth.rolls(s * outer_cone));
     let mut best = [0.0, 0.0];
@@ -83,7 +83,7 @@ pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f
         }
         j += 1;
     }
-    if best[1] - best[0] < LEAST_RANGE * base_pitch {
+    if best[1] - best[0] < MIN_RANGE * base_pitch {
         let middle = between(path, SEARCH / 2) * outer_cone;
         return Err(problem!(
             parameter_at_fault(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),

@@ -17,7 +17,7 @@ const RISE: f64 = 1.0 / 16.0;
 /// Smallest number of panels of a span.
 const PANELS: f64 = 32.0;
 /// Chord of a pointed tooth at which the last panel ends [root chords].
-const LEAST_CHORD: f64 = 1.0 / 64.0;
+const MIN_CHORD: f64 = 1.0 / 64.0;
 /// Largest number of Newton steps. Three suffice for a load on the flank.
 const STEPS: usize = 16;
 /// A Newton step below this fraction of a panel leaves an error of its square.
@@ -92,7 +92,7 @@ impl Bending {
         let (mut panels, mut below) = (Vec::new(), Sums::default());
         for &Span { piece, from, to } in spans {
             let (mut u, mut point) = (from, piece.at(from));
-            while u < to && 2.0 * point.half_chord > LEAST_CHORD * root_chord {
+            while u < to && 2.0 * point.half_chord > MIN_CHORD * root_chord {
                 let longest = (u + (to - from) / PANELS).min(to);
                 // on a base circle, the flank does not rise at first
                 let next = longest.min(u + RISE * 2.0 * point.half_chord / piece.at(longest).rise);

@@ -6,7 +6,7 @@
 //! rule, so that both agree at the end of the path.
 
 use super::SectionPair;
-use super::beams::{LEAST_RANGE, are_beams, boundary};
+use super::beams::{MIN_RANGE, are_beams, boundary};
 use crate::geometry::{CornerTravel, Pair};
 
 /// Steps per base pitch, and number of steps, in the search for the end of the corner's travel.
@@ -57,7 +57,7 @@ impl TipCorner {
     }
 
     /// Distance past the end of the path up to which the corner is on its mate's flank and both teeth are beams [rad].
-    /// It is 0 if it is less than `LEAST_RANGE`.
+    /// It is 0 if it is less than `MIN_RANGE`.
     pub fn length(&self, teeth: &SectionPair, base_pitch: f64) -> f64 {
         let fits = |delta: f64| {
             let rolls = self.rolls(delta);
@@ -66,6 +66,6 @@ impl TipCorner {
         let step = |j: i32| base_pitch / SEARCH.0 * f64::from(j);
         let last = (1..=SEARCH.1).take_while(|&j| fits(step(j))).last().unwrap_or(0);
         let length = if last == SEARCH.1 { step(last) } else { boundary(step(last), step(last + 1), fits) };
-        if length < LEAST_RANGE * base_pitch { 0.0 } else { length }
+        if length < MIN_RANGE * base_pitch { 0.0 } else { length }
     }
 }

@@ -128,7 +128,7 @@ impl SectionSpec {
         let middle = |radius: f64| section.fillet_centre(radius).0;
         let mut fillet = radius;
         if middle(fillet) > half_pitch {
-            let mut low = LEAST_FILLET * self.module;
+            let mut low = MIN_FILLET * self.module;
             if low >= radius || middle(low) > half_pitch {
                 return Err(problem!(
                     name,
@@ -164,7 +164,7 @@ impl SectionSpec {
 }
 
 /// Smallest fillet in the search for a narrow gap [modules].
-const LEAST_FILLET: f64 = 1e-3;
+const MIN_FILLET: f64 = 1e-3;
 
 impl ToothSection {
     /// Polar angle of the centre of a fillet arc of `radius` [m], and the roll length at which the arc meets the flank [m].

@@ -11,9 +11,9 @@ use super::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
 /// Length units per metre: millimetres or smaller. The tolerances of parry3d are absolute. The unit is smaller if
-/// moments of inertia in kilograms and this unit would be below about [`LEAST`], as for gears within a centimetre.
+/// moments of inertia in kilograms and this unit would be below about [`MIN_MOMENT`], as for gears within a centimetre.
 const MM: f64 = 1e3;
-const LEAST: f64 = 0.5;
+const MIN_MOMENT: f64 = 0.5;
 /// Facets per flank. Masses and moments of inertia are then within 2e-5 of the limit of many facets.
 const FACETS: usize = 96;
 
@@ -50,7 +50,7 @@ impl GearSolid {
         let reach = self.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
         let moment = density * reach.powi(5);
         let mut unit = MM;
-        while moment > 0.0 && moment * unit * unit < LEAST {
+        while moment > 0.0 && moment * unit * unit < MIN_MOMENT {
             unit *= 10.0;
         }
         let vertices: Vec<Vector> =
