@@ -2,7 +2,7 @@
 
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
-/// Default gears with a face width that nobody questions.
+/// Default gears with an unquestionable face width.
 fn usual() -> GearSpec {
     GearSpec { face_width: 14e-3, ..GearSpec::default() }
 }
@@ -43,10 +43,10 @@ fn usual_gears_give_no_message() {
 
 #[test]
 fn standard_addenda_undercut_a_ten_tooth_planet() {
-    // the side gear's addendum may be 0.787 modules at 20°
+    // at 20°, the side gear's addendum must not exceed 0.787 modules
     let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..usual() };
     assert_warns(&spec, &["undercut of the planet", "1.000 modules", "limit of 0.787 modules"]);
-    // the other way round, a tall planet tip jams in a small side gear
+    // conversely, a tall planet tip jams in a small side gear
     assert_warns(&GearSpec { planet_teeth: 16, side_teeth: 10, ..spec }, &["tip interference in the side gear"]);
 }
 
@@ -58,7 +58,7 @@ fn a_wide_face_a_pointed_tooth_and_a_thin_rim_give_warnings() {
 }
 
 #[test]
-fn a_face_that_is_hardly_too_wide_is_told_apart_from_the_limit() {
+fn a_face_that_is_barely_too_wide_is_distinguished_from_the_limit() {
     let limit = Pair::new(&usual()).outer_cone / 3.0;
     for excess in [1e-2, 1e-4, 1e-7, 1e-12] {
         let warnings = found(&GearSpec { face_width: limit * (1.0 + excess), ..usual() }).1;
@@ -118,7 +118,7 @@ fn gears_that_cannot_be_built_give_errors() {
 fn a_rim_is_measured_along_the_toe_s_front_cone() {
     let spec = GearSpec { planet_bore: 22e-3, ..usual() };
     let pair = Pair::new(&spec);
-    // from the root cone at the toe straight to the bore, at right angles to the root cone's line
+    // from the root cone at the toe straight to the bore, perpendicular to the line of the root cone
     let (sine, cosine) = (pair.gears[0].root.sin(), pair.gears[0].root.cos());
     let (mut near, mut far) = (0.0, 0.1);
     for _ in 0..100 {
