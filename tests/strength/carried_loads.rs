@@ -12,7 +12,7 @@ fn turn() -> (Parameters, Inputs) {
     (p, i)
 }
 
-/// The same simulation without cached loads.
+/// Copies the simulation without its cached loads.
 fn without_kept_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Simulation {
     let watched = Watched { last_loads: None, ..*simulation.watched() };
     Simulation::resume_with(p, i, (*simulation.state(), watched), &Given::default()).unwrap()

@@ -3,7 +3,7 @@
 //! A symmetric compliance C relates the loads ω_k of the pairs to their arcs p_k: p = C ω. Its diagonal q_k is the
 //! compliance of a single pair: teeth, roots and Hertzian contact. Its other entries t_kl are couplings: the load of
 //! one pair moves another through both bodies. Neighbouring teeth are one pitch apart. The pair nearer to the planet's
-//! tip is further against the direction of the load on the planet, and further along the load on the side gear.
+//! tip is behind in the direction of the load on the planet, and ahead in the direction of the load on the side gear.
 
 use nalgebra::{SMatrix, SVector};
 
