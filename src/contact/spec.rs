@@ -31,7 +31,7 @@ spec! {
     pub struct ContactSpec {
         /// The law.
         pub law: ContactLaw = ContactLaw::Impact,
-        /// Stiffness by the study's Hertz formula instead of the given one.
+        /// True if the stiffness is computed by the study's Hertz formula instead of the given value.
         pub stiffness_from_hertz: bool = false,
         /// Stiffness K [N/m^e].
         // 5.77e5 N/mm^1.5 · (1000 mm/m)^1.5
@@ -50,7 +50,7 @@ spec! {
         pub impact_speed: f64 = 0.1,
         /// Line load at the mean cone distance for the Hertz part of [`ContactLaw::Line`] [N/m].
         pub line_load: f64 = 4e5,
-        /// Stiffness of a lumped mesh from the geometry of its teeth instead of the given one.
+        /// True if the stiffness of a lumped mesh is computed from the geometry of its teeth instead of the given value.
         pub mesh_stiffness_from_geometry: bool = true,
         /// Stiffness of a lumped mesh per face width c_γ [N/m²].
         pub mesh_stiffness: f64 = 1.8e10,

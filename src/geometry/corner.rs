@@ -158,7 +158,7 @@ impl CornerGap {
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
             let to = f64::from_bits((first + j as u64) << SHIFT);
-            // beyond the span the gap continues quadratically
+            // beyond the span, the gap continues quadratically
             let right = if to <= span { exact.at(to).gap } else { grow(exact.at(span).gap, to - span) };
             *cell = Cell { knot: from, c: quintic_hermite(left, right, to - from) };
             least_curvature = least_curvature.min(0.5 * right.dd);

@@ -17,7 +17,7 @@ pub fn add_times(to: &mut [f64], x: f64, of: &[f64]) {
     for (to, of) in (&mut to).zip(&mut of) {
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code)]
-        // SAFETY: both are two numbers.
+        // SAFETY: both chunks contain two numbers.
         unsafe {
             use std::arch::x86_64::{_mm_add_pd, _mm_loadu_pd, _mm_mul_pd, _mm_set1_pd, _mm_storeu_pd};
             let (to, of) = (to.as_mut_ptr(), of.as_ptr());
@@ -40,7 +40,7 @@ pub fn multiply(of: &mut [f64], x: f64) {
     for of in &mut of {
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code)]
-        // SAFETY: they are two numbers.
+        // SAFETY: the chunk contains two numbers.
         unsafe {
             use std::arch::x86_64::{_mm_loadu_pd, _mm_mul_pd, _mm_set1_pd, _mm_storeu_pd};
             _mm_storeu_pd(of.as_mut_ptr(), _mm_mul_pd(_mm_loadu_pd(of.as_ptr()), _mm_set1_pd(x)));
@@ -60,7 +60,7 @@ pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
             (&[first, second], to @ [_, _]) => {
                 use std::arch::x86_64::{_mm_set_pd, _mm_storeu_pd};
                 #[allow(unsafe_code)]
-                // SAFETY: they are two numbers.
+                // SAFETY: the chunk contains two numbers.
                 unsafe {
                     _mm_storeu_pd(to.as_mut_ptr(), _mm_set_pd(second, first));
                 }
@@ -97,7 +97,7 @@ pub fn in_lanes<T: Task>(task: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
     if are_wide() {
         #[allow(unsafe_code)]
-        // SAFETY: the processor has the instructions.
+        // SAFETY: the processor has AVX2.
         return unsafe { wide(task) };
     }
     narrow(task)

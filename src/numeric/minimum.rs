@@ -102,7 +102,7 @@ impl Search {
         damping: &mut f64,
     ) -> Option<(DVector<f64>, f64)> {
         let curvature = hessian.diagonal().amax();
-        // on a slope without curvature the damping limits the step
+        // on a slope without curvature, the damping limits the step
         let size = if curvature > 0.0 { curvature } else { gradient.amax() / self.longest };
         for _ in 0..TRIALS {
             let mut damped = hessian.clone();

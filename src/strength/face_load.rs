@@ -29,7 +29,7 @@ pub fn exponent_of(pair: &Pair) -> f64 {
     exponent(ratios[0].min(ratios[1]))
 }
 
-/// K_Fβ at the face load factor K_Hβ ≥ 1 with the exponent N_F.
+/// K_Fβ from the face load factor K_Hβ ≥ 1 and the exponent N_F.
 pub fn root_factor(face_factor: f64, exponent: f64) -> f64 {
     pow(face_factor, exponent)
 }

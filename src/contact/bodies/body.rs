@@ -12,11 +12,11 @@ use crate::geometry::Pair;
 use crate::numeric::{PI, TAU, sin, sin_cos, sqrt};
 use crate::problem::Problem;
 
-/// Waves in half the width of a root at the last harmonic of the series.
+/// Number of waves over half the width of a root at the last harmonic of the series.
 const WAVES: f64 = 4.0;
 /// Harmonics up to which free ends of the face are computed. On shorter waves their effect falls with the wavelength.
 const FINITE: usize = 8;
-/// Nodes across a finite face.
+/// Number of nodes across a finite face.
 const ACROSS: usize = 3;
 /// Harmonics up to which the cone's curvature is computed exactly. For shorter waves the compliance is that of a
 /// half-space with a first-order correction.

@@ -26,7 +26,7 @@ const MAX_FACING: i64 = 16;
 /// Search points on each side of the middle for the minimum of a coupling.
 const SEARCH_PLACES: i32 = 8;
 
-/// Couplings by the elastic bodies of a planet and its side gears.
+/// Couplings through the elastic bodies of a planet and its side gears.
 #[derive(Clone, Debug)]
 pub struct PairCouplings {
     /// Couplings on the same flank of a mesh, indexed by the difference of the pair numbers minus 1.

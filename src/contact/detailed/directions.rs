@@ -25,7 +25,7 @@ pub struct NormalParts {
     pub slopes: [f64; 3],
 }
 
-/// sin and cos of the arcs ψ from both tangent points to the place of contact.
+/// sin and cos of the arcs ψ from both tangent points to the point of contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Arcs([[f64; 2]; 2]);
 

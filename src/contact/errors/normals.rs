@@ -82,12 +82,12 @@ mod tests {
         for flank in [Flank::Drive, Flank::Coast] {
             for s in [-0.2, 0.0, 0.15] {
                 let n = normals.normal(flank, s);
-                // C(s) is T a quarter turn back
+                // C is T at s minus a quarter turn
                 let c = normals.normal(flank, s - std::f64::consts::FRAC_PI_2);
                 for i in 0..2 {
                     let length = n.axial[i].v.powi(2) + n.radial[i].v.powi(2) + n.across.v.powi(2);
                     assert!((length - 1.0).abs() < 1e-14);
-                    // (C × T)·a of each gear: the lever arm sinδ_b of physics and theory
+                    // (C × T)·a of each gear must be the lever arm sinδ_b
                     let lever = c.radial[i].v * n.across.v - c.across.v * n.radial[i].v;
                     assert!((lever - push(flank) * pair.sin_base()[i]).abs() < 1e-14, "{i} {lever}");
                 }

@@ -23,7 +23,7 @@ pub struct TipRelief {
     per_length: f64,
 }
 
-/// h(ξ), 0 below 0 and 1 above 1, with its first two derivatives.
+/// h(ξ), which is 0 for ξ < 0 and 1 for ξ > 1, with its first two derivatives.
 #[inline]
 fn ramp(x: f64) -> [f64; 3] {
     if x <= 0.0 {

@@ -166,7 +166,7 @@ pub struct Contact {
     pub solid: Option<Box<SolidMesh>>,
     /// Elastic bodies that couple tooth pairs.
     pub bodies: Option<Arc<PairCouplings>>,
-    /// The mesh in detail, summed over the face.
+    /// The detailed mesh, summed over the face.
     pub detailed: Detailed,
     /// Gaps of the tooth pairs before and after a tooth breaks.
     pub gaps: [Option<Arc<FlankGaps>>; 2],

@@ -7,7 +7,7 @@ use crate::contact::solid::mesh::SolidMesh;
 use crate::contact::{ToothLoad, Touch};
 use crate::geometry::Pair;
 
-/// A planet of solid teeth.
+/// A planet with solid teeth.
 #[derive(Clone, Copy)]
 pub struct Solid<'a> {
     /// Constants.

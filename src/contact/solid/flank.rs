@@ -93,7 +93,7 @@ fn prolonged(rays: Vec<Ray>) -> Vec<Ray> {
 /// Ray of the forward (`side` = 1) or backward (−1) flank, with its normal out of the material.
 fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
     let direction = gear.flank_point(polar, side);
-    // below the base circle the flank is a meridian
+    // below the base circle, the flank is a meridian
     let normal = if polar < gear.base {
         let azimuth = side * gear.half_angle(polar);
         Vector3::new(-sin(azimuth), cos(azimuth), 0.0) * side

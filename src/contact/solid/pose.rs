@@ -181,8 +181,8 @@ impl Placement {
         about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
     }
 
-    /// Polar angles on the displaced planet and side gear of the point in the direction `point` (rows of a placement)
-    /// at cone distance `cone` [m] [rad].
+    /// Polar angles [rad] of a point on the displaced planet and side gear. `point` is its direction in rows of a
+    /// placement, and `cone` its cone distance [m].
     pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
         let on_gears = [point - self.offset / cone, point];
         [0, 1].map(|gear| {

@@ -18,7 +18,7 @@ pub struct TipCorner {
     own: usize,
     travel: CornerTravel,
     outer_cone: f64,
-    /// Roll length of the own tooth at its tip [m].
+    /// Roll length of the corner's own tooth at its tip [m].
     tip_roll: f64,
     /// Roll length [m] and arc [rad] of the mate at the pitch point, and its roll length at its tip [m].
     mate_pitch: (f64, f64),

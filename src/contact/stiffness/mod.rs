@@ -38,7 +38,7 @@ const LEVEL: f64 = 0.1;
 const TURN: f64 = 4e-3;
 /// Ratio of the contact half-width to the depth to the teeth's middles at the limit of Hertz's logarithm.
 const DEEPEST: f64 = 0.5;
-/// Intervals of Simpson's rule for the mean along the path.
+/// Number of intervals of Simpson's rule for the mean along the path.
 const MEAN_INTERVALS: usize = 1024;
 
 /// Stiffness of the tooth pairs of a gear pair along the path of contact.
