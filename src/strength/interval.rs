@@ -3,7 +3,7 @@
 /// Values of one quantity at the start, in the middle and at the end of an interval.
 pub type Three = [f64; 3];
 
-/// Twice the deviation of the value in the middle from the straight line.
+/// Twice the amount by which the straight line exceeds the value in the middle.
 pub fn second_difference([begin, middle, end]: Three) -> f64 {
     begin - 2.0 * middle + end
 }

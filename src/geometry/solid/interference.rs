@@ -79,7 +79,7 @@ pub struct Interference {
 pub enum Verdict {
     /// Nothing touches.
     Clear,
-    /// Nothing is farther apart or deeper than the resolution.
+    /// The distance or depth is within the resolution.
     Touching,
     /// Something penetrates.
     Interfering,
