@@ -17,8 +17,8 @@
 //! Because e D < 1, a body separates at less than 1/λ for any speed of approach, and D grows without bound as e falls
 //! to zero.
 //!
-//! Source: Hunt, Crossley (1975), J. Appl. Mech. 42, p. 440, for the force; Marhefka, Orin (1999), IEEE Trans. Syst. Man
-//! Cybern. A 29, p. 566, for the integration. The known λ = 3(1 − e)/(2 v₀) is its limit for e → 1.
+//! Source: Hunt, Crossley (1975), J. Appl. Mech. 42, p. 440, for the force; Marhefka, Orin (1999), IEEE Trans. Syst.
+//! Man Cybern. A 29, p. 566, for the integration. The known λ = 3(1 − e)/(2 v₀) is its limit for e → 1.
 
 use super::impact::Force;
 use crate::problem::Problem;

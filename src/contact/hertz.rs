@@ -7,7 +7,8 @@ use crate::numeric::sqrt;
 /// Exponent of the force law with this stiffness.
 pub const EXPONENT: f64 = 1.5;
 
-/// Stiffness K [N/m^1.5] of spheres with the pair's outer pitch radii `r_p`, `r_s` [m], modulus [Pa] and Poisson's ratio.
+/// Stiffness K [N/m^1.5] of spheres with the pair's outer pitch radii `r_p`, `r_s` [m], modulus [Pa] and Poisson's
+/// ratio.
 pub fn stiffness(r_p: f64, r_s: f64, young_modulus: f64, poisson_ratio: f64) -> f64 {
     let radius = r_p * r_s / (r_p + r_s);
     let modulus = young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio));

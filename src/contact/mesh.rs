@@ -41,7 +41,8 @@ macro_rules! with_pairs {
 }
 
 impl Mesh {
-    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to `reach` [rad].
+    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to
+    /// `reach` [rad].
     pub fn new(
         pair: &Pair,
         (spring, damping): (AnySpring, Damping),

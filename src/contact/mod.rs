@@ -1,5 +1,5 @@
-//! Tooth contact: laws of one tooth pair, the elastic potential of a mesh with its forces and derivatives, tooth errors,
-//! friction along the flanks, and contact of solid teeth.
+//! Tooth contact: laws of one tooth pair, the elastic potential of a mesh with its forces and derivatives, tooth
+//! errors, friction along the flanks, and contact of solid teeth.
 //!
 //! Everything in this module is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to
 //! `model`.

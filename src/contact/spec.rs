@@ -10,7 +10,8 @@ choices! {
 }
 
 impl ContactLaw {
-    /// True if the law has the stiffness of the teeth, valid at every cone distance. Other laws have one resultant for the whole face.
+    /// True if the law has the stiffness of the teeth, valid at every cone distance. Other laws have one resultant for
+    /// the whole face.
     pub const fn is_of_teeth(self) -> bool {
         matches!(self, Self::Line | Self::LineWeber)
     }
@@ -50,7 +51,8 @@ spec! {
         pub impact_speed: f64 = 0.1,
         /// Line load at the mean cone distance for the Hertz part of [`ContactLaw::Line`] [N/m].
         pub line_load: f64 = 4e5,
-        /// True if the stiffness of a lumped mesh is computed from the geometry of its teeth instead of the given value.
+        /// True if the stiffness of a lumped mesh is computed from the geometry of its teeth instead of the given
+        /// value.
         pub mesh_stiffness_from_geometry: bool = true,
         /// Stiffness of a lumped mesh per face width c_γ [N/m²].
         pub mesh_stiffness: f64 = 1.8e10,

@@ -19,7 +19,8 @@ const MODULUS: [f64; 2] = [1e5, 1e13];
 pub struct Conditions<T> {
     /// Sliding speed u₁ − u₂ [m/s], signed.
     pub sliding: T,
-    /// Sum speed v_Σ = u₁ + u₂ of the surfaces past the contact [m/s], of either sign; the entraining speed is half of it.
+    /// Sum speed v_Σ = u₁ + u₂ of the surfaces past the contact [m/s], of either sign; the entraining speed is half of
+    /// it.
     pub sum_speed: T,
     /// Line load w: normal force per width [N/m].
     pub line_load: T,

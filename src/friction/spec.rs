@@ -36,8 +36,8 @@ spec! {
         pub oil_viscosity: f64 = 0.02,
         /// True if the viscosity is that of `oil` at its temperature.
         pub viscosity_from_oil: bool = false,
-        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
-        /// phosphate esters, 1.5 traction fluids.
+        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols,
+        /// 1.3 phosphate esters, 1.5 traction fluids.
         pub lubricant_factor: f64 = 1.0,
         /// Roughness R_a, the mean of both flanks [m].
         pub roughness: f64 = 0.4e-6,

@@ -22,7 +22,8 @@ const MIN_INNER_CONE: f64 = 0.1;
 const MIN_ROOT_ANGLE: f64 = 0.02;
 /// Rims thinner than this fraction of the tooth depth should be avoided (ISO 6336-3).
 const THINNEST_RIM: f64 = 0.5;
-/// Rims thicker than this fraction of the tooth depth do not weaken the root (rim thickness factor Y_B = 1 of ISO 6336-3).
+/// Rims thicker than this fraction of the tooth depth do not weaken the root (rim thickness factor Y_B = 1 of ISO
+/// 6336-3).
 const FULL_RIM: f64 = 1.2;
 /// Admissible numbers of planets.
 const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
@@ -196,8 +197,8 @@ pub fn remarks(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found
 }
 
-/// Thickness of gear `i`'s rim between root and bore at the toe, along the front cone, and its tooth depth there [m]; `None`
-/// without a bore.
+/// Thickness of gear `i`'s rim between root and bore at the toe, along the front cone, and its tooth depth there [m];
+/// `None` without a bore.
 fn rim(spec: &GearSpec, pair: &Pair, i: usize) -> Option<[f64; 2]> {
     let (gear, (_, bore)) = (&pair.gears[i], bore(spec, i));
     let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);

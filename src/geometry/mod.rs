@@ -1,5 +1,5 @@
-//! Geometry of a straight bevel pair with spherical-involute flanks, on the unit sphere and scaled with the cone distance R:
-//! cones, line of action, tip corners, assembly of planets, validation of parameters, and solids.
+//! Geometry of a straight bevel pair with spherical-involute flanks, on the unit sphere and scaled with the cone
+//! distance R: cones, line of action, tip corners, assembly of planets, validation of parameters, and solids.
 //!
 //! Forces and motion belong to `contact` and `model`.
 

@@ -118,8 +118,8 @@ impl Pair {
         self.module * f64::from(self.gears[i].teeth)
     }
 
-    /// Tip angle of gear `i` [rad] at which its tip reaches the tangent point on its mate's base circle. Larger angles cause
-    /// interference.
+    /// Tip angle of gear `i` [rad] at which its tip reaches the tangent point on its mate's base circle. Larger angles
+    /// cause interference.
     pub fn limit_tip_angle(&self, i: usize) -> f64 {
         self.gears[i].polar_at(self.line_of_action())
     }

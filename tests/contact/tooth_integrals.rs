@@ -7,7 +7,8 @@ use bevel_differential::contact::stiffness::{PairStiffness, RootSpec, Span, Toot
 use bevel_differential::geometry::Pair;
 use std::f64::consts::PI;
 
-/// Gauss–Legendre quadrature with sixteen points (Abramowitz & Stegun, table 25.4): positive abscissae with their weights.
+/// Gauss–Legendre quadrature with sixteen points (Abramowitz & Stegun, table 25.4): positive abscissae with their
+/// weights.
 const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),

@@ -59,7 +59,8 @@ fn host(level: i32, integers: &[(&str, i32)], values: &[(&str, f64)]) -> Host {
     host
 }
 
-/// Damage after one second at constant speed under loads that grow from `low` to `high` [N·m], in `steps` communication steps.
+/// Damage after one second at constant speed under loads that grow from `low` to `high` [N·m], in `steps` communication
+/// steps.
 fn ramp(level: i32, method: i32, sign: f64, [low, high]: [f64; 2], steps: usize) -> [f64; 4] {
     let integers = [("solver.method", method)];
     let values = [

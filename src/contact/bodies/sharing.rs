@@ -53,8 +53,8 @@ pub struct Pull {
 }
 
 impl Pull {
-    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth` is the
-    /// approach of the flanks by side and flank [rad].
+    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth`
+    /// is the approach of the flanks by side and flank [rad].
     #[inline(always)]
     pub fn margin(&self, depth: &[[f64; 2]; 2], side: usize, flank: usize) -> f64 {
         let [own, other] = [side, 1 - side].map(|side| depth[side].map(|depth| depth.clamp(0.0, 1.0)));

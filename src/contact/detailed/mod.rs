@@ -1,5 +1,5 @@
-//! Detailed mesh: tooth errors over the face, friction along the flanks, axially displaced gears, and bearing loads, with
-//! exact derivatives.
+//! Detailed mesh: tooth errors over the face, friction along the flanks, axially displaced gears, and bearing loads,
+//! with exact derivatives.
 //!
 //! A slice at cone distance R_j penetrates by d_j = R_j (a − g) − e(R_j, s) − w ν(s). w is the side gear's displacement
 //! away from the apex, and ν = cosδ_bs sin(ψ_s − s) is the axial component of the flank's normal. The potential is V =

@@ -52,8 +52,8 @@ impl ToothErrors {
         })
     }
 
-    /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of contact
-    /// or past its ends: the sum of all errors.
+    /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of
+    /// contact or past its ends: the sum of all errors.
     pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64, s: f64) -> f64 {
         let (mesh, pair) = self.in_range(mesh, pair);
         self.opening(mesh, pair, s).at(r)

@@ -1,8 +1,8 @@
 //! Runout: the teeth of a gear are eccentric to its axis of rotation.
 //!
-//! The radial runout F_r is the peak-to-peak reading of a radial probe over one revolution. It is twice the eccentricity ε
-//! (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂ a, fixed to the
-//! gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
+//! The radial runout F_r is the peak-to-peak reading of a radial probe over one revolution. It is twice the
+//! eccentricity ε (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂
+//! a, fixed to the gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
 //!
 //!   e = ∓ε (cosχ T·u + sinχ T·t)
 //!
@@ -49,8 +49,8 @@ impl Runout {
         })
     }
 
-    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, and the azimuth of ê from tooth 0 in the
-    /// direction of the tooth count [rad]. `index` must be in range.
+    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, and the azimuth of ê from tooth 0 in
+    /// the direction of the tooth count [rad]. `index` must be in range.
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         [self.eccentricity[gear], self.direction[gear][index]]
     }

@@ -2,8 +2,8 @@
 
 use crate::numeric::{TAU, sqrt};
 
-/// Weights below e to this power are neglected. Their fraction of a parabola's integral is erfc √18 = 2·10⁻⁹. Their fraction
-/// of the force is smaller still, by the ratio of the depth to ε.
+/// Weights below e to this power are neglected. Their fraction of a parabola's integral is erfc √18 = 2·10⁻⁹. Their
+/// fraction of the force is smaller still, by the ratio of the depth to ε.
 const NEGLIGIBLE: f64 = -18.0;
 
 /// Softness of the maximum overlap.

@@ -167,7 +167,8 @@ impl SectionSpec {
 const MIN_FILLET: f64 = 1e-3;
 
 impl ToothSection {
-    /// Polar angle of the centre of a fillet arc of `radius` [m], and the roll length at which the arc meets the flank [m].
+    /// Polar angle of the centre of a fillet arc of `radius` [m], and the roll length at which the arc meets the flank
+    /// [m].
     fn fillet_centre(&self, radius: f64) -> (f64, f64) {
         let centre = self.root_radius + radius;
         // squared distance from the centre to the base circle along the flank's normal; not positive if the centre is

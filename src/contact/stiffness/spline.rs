@@ -1,4 +1,5 @@
-//! Cubic splines through values at knots of any spacing: twice continuously differentiable, with given slopes at the ends.
+//! Cubic splines through values at knots of any spacing: twice continuously differentiable, with given slopes at the
+//! ends.
 
 use crate::numeric::Jet;
 
