@@ -70,8 +70,8 @@ fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) ->
         .fold(0.0, f64::max);
     (load > LEAST_LOAD && (!preload.settled || left_over > BALANCED * load)).then(|| {
         format!(
-            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and what is not balanced accelerates the gears \
-             at once; peaks and ratings of the run contain this",
+            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and the unbalanced torque accelerates the \
+             gears immediately; peaks and ratings of the run include this",
             found.carried(&teeth.plan),
             carried.teeth[0],
             carried.teeth[1]

@@ -141,7 +141,7 @@ fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
         }
         _ => Some(problem!(
             START,
-            "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not come back to it",
+            "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not cool down to this",
             TEMPERATURES.1 - ZERO
         )),
     }
