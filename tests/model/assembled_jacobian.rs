@@ -1,5 +1,6 @@
-//! The Jacobian of the assembled equations of motion against differences of their rates, with every effect of the teeth: what
-//! adds the meshes of all planets together has no other witness, as a wrong Jacobian only makes steps shorter.
+//! The Jacobian of the assembled equations of motion against differences of their rates, with every effect of the
+//! teeth: what adds the meshes of all planets together has no other witness, as a wrong Jacobian only makes steps
+//! shorter.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
@@ -9,8 +10,8 @@ use bevel_differential::variables::{Access, named};
 const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
 /// Steps of a difference: angles move by a thousandth of a deflection, speeds by a millionth of theirs [rad, rad/s].
 const STEP: [f64; 2] = [3e-8, 3e-5];
-/// What a difference may be off, relative to the largest derivative of its block: the fourth power of step over deflection, and
-/// the rounding of forces over the step.
+/// What a difference may be off, relative to the largest derivative of its block: the fourth power of step over
+/// deflection, and the rounding of forces over the step.
 const WITHIN: f64 = 1e-6;
 
 /// A turn under unequal loads, so that no two meshes are alike, changed by `change`.

@@ -154,7 +154,8 @@ fn what_is_assumed_of_bores_is_in_the_log_with_the_effect_alone() {
     assert!(side.starts_with("geometry.side_bore: 8.000 mm is less than half the root circle at the toe"), "{side}");
 }
 
-/// Straight ahead without backlash under a load that a shaft of half a millimetre carries: transmission error with a side bore [m].
+/// Straight ahead without backlash under a load that a shaft of half a millimetre carries: transmission error with a
+/// side bore [m].
 fn error_on(side_bore: f64) -> f64 {
     let (p, mut inputs) = turn(true, |p| {
         (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
@@ -180,7 +181,8 @@ fn transmission_error_falls_with_the_bore_and_without_one_is_about_that_of_the_w
     assert!((none / widest - 1.0).abs() < 0.1, "{none:e} {widest:e}");
 }
 
-/// Gears of many small teeth under `load`, over face width, module and Young's modulus; spin of the planets imposed [rad/s].
+/// Gears of many small teeth under `load`, over face width, module and Young's modulus; spin of the planets imposed
+/// [rad/s].
 fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, Inputs) {
     let (p, mut inputs) = turn(true, |p| {
         (p.geometry.planet_teeth, p.geometry.side_teeth, p.contact.law) = (teeth[0], teeth[1], law);

@@ -1,5 +1,5 @@
-//! The integrator's steps go on beyond communication points: they do not depend on them, nor do results, and nothing from
-//! beyond a point shows at it.
+//! The integrator's steps go on beyond communication points: they do not depend on them, nor do results, and nothing
+//! from beyond a point shows at it.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{CarrierDrive, Given, Inputs, Parameters, PlanetSpin, Simulation, Start, State};

@@ -1,5 +1,5 @@
-//! Calculated parameters of the gears against closed forms, the volume of the exported solid, and a wheel that is turned
-//! through its lash.
+//! Calculated parameters of the gears against closed forms, the volume of the exported solid, and a wheel that is
+//! turned through its lash.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -137,8 +137,8 @@ fn the_work_of_all_inputs_is_the_gain_of_kinetic_energy() {
     }
 }
 
-/// The ledger of imposed speeds follows from the torques that impose them, so the work of a scene without such torques is compared
-/// with its power at many points.
+/// The ledger of imposed speeds follows from the torques that impose them, so the work of a scene without such torques
+/// is compared with its power at many points.
 #[test]
 fn the_work_of_torques_is_the_integral_of_their_power() {
     let p = scenes().remove(2);

@@ -1,4 +1,5 @@
-//! Peak-to-peak values over mesh cycles against dense recordings through the FMI calls, and what they must not depend on.
+//! Peak-to-peak values over mesh cycles against dense recordings through the FMI calls, and what they must not depend
+//! on.
 
 use std::f64::consts::PI;
 

@@ -81,7 +81,8 @@ fn each_stress_above_its_strength_is_reported_once_with_gear_values_and_time() {
     let (mut p, mut inputs) = rated(false);
     inputs.load_torque = [100.0, 100.0];
     let mut reported = Reported::default();
-    // strengths between the stresses of 100 and those of 200 N·m; root stress grows with the torque, pressure with its root
+    // strengths between the stresses of 100 and those of 200 N·m; root stress grows with the torque, pressure with its
+    // root
     let stresses = |load: f64| {
         let mut inputs = inputs;
         inputs.load_torque = [load; 2];

@@ -1,5 +1,5 @@
-//! Loads of single sections of solid teeth, aligned and displaced: they derive from the energy, they balance the torques,
-//! and they lie where a calculation by slices has them.
+//! Loads of single sections of solid teeth, aligned and displaced: they derive from the energy, they balance the
+//! torques, and they lie where a calculation by slices has them.
 
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::errors::ToothErrorSpec;

@@ -1,8 +1,8 @@
 //! Sensitivity of the model: rates of the state by the exact Jacobian, and directional derivatives of what is read.
 //!
-//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds follow
-//! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
-//! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
+//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds
+//! follow the direction themselves. Forces are read at four points along it, from which central differences of order 4
+//! follow: with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
 
 use super::states::STATES;
 use crate::integrate::SecondOrder;

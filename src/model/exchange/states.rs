@@ -1,5 +1,5 @@
-//! What a solver of the host reads: continuous states, which are the same in every scene, one pair for each body; their rates; and
-//! event indicators. The host sees positions unwrapped.
+//! What a solver of the host reads: continuous states, which are the same in every scene, one pair for each body; their
+//! rates; and event indicators. The host sees positions unwrapped.
 
 use crate::model::assembly::Gears;
 use crate::model::dynamics::with_equations;
@@ -97,7 +97,8 @@ impl Simulation {
         states
     }
 
-    /// Sets positions and velocities by degree of freedom from states. Where planets move as one, the first of them counts.
+    /// Sets positions and velocities by degree of freedom from states. Where planets move as one, the first of them
+    /// counts.
     pub(super) fn set_from_states(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
         let plan = &self.model.ideal.plan;
         for (k, body) in BODIES.iter().enumerate().rev() {

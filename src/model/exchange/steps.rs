@@ -1,7 +1,7 @@
 //! Steps and events of model exchange, in which a solver of the host integrates the states.
 //!
-//! Motions that are imposed follow their commands at once; their states have no effect. Trial steps of the host's solver leave no
-//! trace: ledger, friction and teeth record completed steps, and change at events.
+//! Motions that are imposed follow their commands at once; their states have no effect. Trial steps of the host's
+//! solver leave no trace: ledger, friction and teeth record completed steps, and change at events.
 
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
@@ -107,7 +107,7 @@ impl Simulation {
                 }
                 let mut anchors = equations.acting().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);
-                equations.acting_mut().anchor(&anchors);
+                equations.acting_mut().set_anchors(&anchors);
                 is_due = equations.is_friction_due(&end, 0.0);
                 state.friction = equations.acting().friction_state;
                 outcome

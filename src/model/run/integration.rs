@@ -210,13 +210,13 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 observe(step, Some(motion))
             }),
         };
-        equations.acting_mut().anchor(&anchors);
+        equations.acting_mut().set_anchors(&anchors);
         let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
         // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
             state.thermal.feel();
             course.longest = LONGEST.min(state.thermal.longest);
-            equations.acting_mut().feel(model.body_effects(), state.lock, &state.thermal.felt);
+            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.felt);
         }
         if switched {
             let before = equations.acting().friction_state;

@@ -22,8 +22,8 @@ pub struct Carried {
 }
 
 impl Carried {
-    /// What is carried under `inputs` at the speeds of `state` by gears that move as `ideal`: the ideal differential of the
-    /// scene, or the one whose planets do not spin.
+    /// What is carried under `inputs` at the speeds of `state` by gears that move as `ideal`: the ideal differential of
+    /// the scene, or the one whose planets do not spin.
     pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
         let on_bodies = on_bodies(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
@@ -78,7 +78,8 @@ fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
     })
 }
 
-/// Torques of effects, such as drag, on side gears and carrier at the speeds of `state`, before anything is wound up [N·m].
+/// Torques of effects, such as drag, on side gears and carrier at the speeds of `state`, before anything is wound up
+/// [N·m].
 fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
     let (q, mut v) = ([0.0; MAX_DOF], state.v);
     for (i, to) in model.layout.attached() {

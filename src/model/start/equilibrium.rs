@@ -22,7 +22,8 @@ pub const ROUNDS: usize = 12;
 /// Loads below this are none [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-/// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
+/// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in
+/// mid-gap.
 pub fn press_sides(
     model: &Model,
     equations: &Largest,
@@ -45,8 +46,8 @@ fn not_carried(torque: [f64; 2], s: usize, bent: &str) -> Problem {
     problem!(name, "{:.6} N.m cannot be carried at the start: {bent}", torque[s])
 }
 
-/// Fails where the equilibrium `point` under `torque` lies beyond the deflections for which teeth have a law: softer teeth than
-/// those that were pressed first may lead there.
+/// Fails where the equilibrium `point` under `torque` lies beyond the deflections for which teeth have a law: softer
+/// teeth than those that were pressed first may lead there.
 pub fn check_settled(
     model: &Model,
     equations: &Largest,
@@ -97,14 +98,14 @@ pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) ->
     if found.is_some() || !is_other { found } else { settle_as_they_are(equations, loads) }
 }
 
-/// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
-/// the others.
+/// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll
+/// with the others.
 pub fn settle_as_they_are(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
     minimum(equations, loads, &pressed_as_they_are(equations, loads, 1)?, true)
 }
 
-/// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies of planets
-/// join both sides.
+/// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies
+/// of planets join both sides.
 pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
     let mut pressed = Point::ZERO;
     let carry = |s: usize, at: &Point<LARGEST>| {
@@ -117,12 +118,12 @@ pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) 
     Some(pressed)
 }
 
-/// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
-/// tooth pitch, or `along_valley` within a turn of planets whose teeth differ. What accelerates adds its inertial torque to
-/// the loads.
+/// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within
+/// a tooth pitch, or `along_valley` within a turn of planets whose teeth differ. What accelerates adds its inertial
+/// torque to the loads.
 ///
-/// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
-/// under loads that drive forward, at negative ones under the mirrored loads.
+/// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive
+/// angles under loads that drive forward, at negative ones under the mirrored loads.
 fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_valley: bool) -> Option<Point<LARGEST>> {
     let (teeth, torque) = (equations.teeth, loads.teeth);
     let mut against = [0.0; LARGEST];

@@ -76,7 +76,8 @@ impl Simulation {
     }
 }
 
-/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from rest.
+/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from
+/// rest.
 fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();

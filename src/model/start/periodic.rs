@@ -1,8 +1,8 @@
 //! The check that a motion repeats from one cycle to the next, without which its mean heats belong to no steady state.
 //!
-//! The first cycle settles what the start has shaken; the second and the third are compared. Mean speeds come from angles, so that
-//! the ripple of teeth and shafts hardly counts: it moves an angle by less than [`RIPPLE`] at both ends of a cycle, while a constant
-//! acceleration moves it by α L² from one cycle of length L to the next.
+//! The first cycle settles what the start has shaken; the second and the third are compared. Mean speeds come from
+//! angles, so that the ripple of teeth and shafts hardly counts: it moves an angle by less than [`RIPPLE`] at both ends
+//! of a cycle, while a constant acceleration moves it by α L² from one cycle of length L to the next.
 
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
@@ -34,8 +34,8 @@ struct Means {
 }
 
 impl Simulation {
-    /// Describes what changes from one cycle of `length` [s] to the next at the temperatures `at` [K], and what to do. Returns `None`
-    /// if the motion is periodic.
+    /// Describes what changes from one cycle of `length` [s] to the next at the temperatures `at` [K], and what to do.
+    /// Returns `None` if the motion is periodic.
     pub(super) fn not_periodic(&self, network: &Network<HEATS>, at: &[f64; NODES], length: f64) -> Option<String> {
         let span = length * libm::ceil(SHORTEST / length).max(1.0);
         let Some(means) = self.means(network, at, span) else { return self.runs_away(network, at) };
@@ -52,7 +52,8 @@ impl Simulation {
         })
     }
 
-    /// Describes the speed that changes right after the start at the temperatures `at` [K], where cycles cannot be run, and what to do.
+    /// Describes the speed that changes right after the start at the temperatures `at` [K], where cycles cannot be run,
+    /// and what to do.
     pub(super) fn runs_away(&self, network: &Network<HEATS>, at: &[f64; NODES]) -> Option<String> {
         self.means(network, at, BEFORE_FAILURE)?.changing_speed()
     }

@@ -30,8 +30,8 @@ pub struct Preload {
 /// Presses the meshes together until tooth torques balance the loads, and winds up the half-shafts.
 ///
 /// First a balance without rolling planets is sought, a minimum of the potential V + Σ T α near ψ = 0 (stiffness that
-/// varies along the path holds small imbalances). Where there is none, the planets roll, and the loads are those under the
-/// accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum, or as they are
+/// varies along the path holds small imbalances). Where there is none, the planets roll, and the loads are those under
+/// the accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum, or as they are
 /// pressed at ψ = 0 where none is found.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
@@ -41,7 +41,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
     // where pairs move each other, or slices of the face carry, the balance cannot be found mesh by mesh
-    let not_mesh_by_mesh = !teeth.carry_mesh_by_mesh(state);
+    let not_mesh_by_mesh = !teeth.have_independent_meshes(state);
     let mut settled = true;
     if !plan.spin_imposed || not_mesh_by_mesh {
         let found = settle(equations, &carried, &point);

@@ -1,7 +1,7 @@
 //! The start in thermal equilibrium: temperatures at which the mean heats of a cycle balance what leaves.
 //!
-//! The cycle is that of the inputs at the start. It is run twice with temperatures that stand still: the first passes what the
-//! start has shaken, the second counts.
+//! The cycle is that of the inputs at the start. It is run twice with temperatures that stand still: the first passes
+//! what the start has shaken, the second counts.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -23,8 +23,8 @@ const MOST_ATTEMPTS: f64 = 3e5;
 const START: &str = "scene.start";
 
 impl Simulation {
-    /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
-    /// Apart, as other starts have no room for its simulations on a small stack.
+    /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there
+    /// are several. Apart, as other starts have no room for its simulations on a small stack.
     #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };

@@ -1,4 +1,5 @@
-//! What a scene is said not to feel changes no bit of any output; what it is said to feel changes some output in some scene.
+//! What a scene is said not to feel changes no bit of any output; what it is said to feel changes some output in some
+//! scene.
 
 mod ways;
 
@@ -376,7 +377,8 @@ fn a_value_that_scenes_feel_changes_some_output_on_every_level_of_teeth_and_in_e
     let (mut wrong, mut cases) = (Vec::new(), Cases::default());
     let chosen = std::env::var("FELT_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
-        // what every scene feels need be shown once; a value of which every other one is refused is not taken in silence
+        // what every scene feels need be shown once; a value of which every other one is refused is not taken in
+        // silence
         let always = row.switch.is_none() && row.when.is_none();
         let mut found = Vec::new();
         for level in LEVELS {

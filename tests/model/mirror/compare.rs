@@ -14,8 +14,9 @@ pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
 const CLOSE_IN_SIZE: f64 = 1e-4;
 /// Part of that within which the twin stays.
 const TWIN: f64 = 0.01;
-/// Tolerances to which motions agree that were reached in different steps, at their ends or in between; and what follows from
-/// accelerations: an error of a speed times 8 kHz, at which meshes ring, is a hundred times as large a part of them.
+/// Tolerances to which motions agree that were reached in different steps, at their ends or in between; and what
+/// follows from accelerations: an error of a speed times 8 kHz, at which meshes ring, is a hundred times as large a
+/// part of them.
 const TOLERANCES: f64 = 10.0;
 const RINGING: f64 = 1000.0;
 /// Units whose quantities are measured by the largest among them; others are by their entry in the table.
@@ -117,8 +118,8 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
     for (i, row) in outputs().iter().enumerate() {
         let Some(line) = line_of(row.name) else { continue };
         let Mapped { output: to, factor, added, magnitude } = map[i];
-        // a mesh that carries next to nothing has no certain number of pairs; nor has any after other steps, as the parts of
-        // a face come and go at once, be it with the least force
+        // a mesh that carries next to nothing has no certain number of pairs; nor has any after other steps, as the
+        // parts of a face come and go at once, be it with the least force
         let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
         let carries = |k: usize, load: usize| base.values[k][load] > close(k) * scales[load];
         let certain = |k: usize| load.is_none_or(|load| k < apart && carries(k, load));

@@ -1,4 +1,5 @@
-//! Images of a scene, by the table of symmetries: its parameters and inputs, its start, and where its outputs are found.
+//! Images of a scene, by the table of symmetries: its parameters and inputs, its start, and where its outputs are
+//! found.
 
 use std::f64::consts::TAU;
 
@@ -60,8 +61,8 @@ impl Scene {
         image
     }
 
-    /// Angles by which planets, left and right side gear stand further in the image [rad]: an image that starts in a cycle
-    /// of the teeth that is not the first.
+    /// Angles by which planets, left and right side gear stand further in the image [rad]: an image that starts in a
+    /// cycle of the teeth that is not the first.
     pub fn ahead(&self, view: View) -> [f64; 3] {
         let pitches = match view {
             View::Swapped if self.parameters.geometry.planet_teeth % 2 == 1 => 0.5,

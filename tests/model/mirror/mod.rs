@@ -1,9 +1,9 @@
 //! Symmetry of the whole program: a differential and its mirror images must do the same.
 //!
-//! A differential that is reflected, with all speeds and torques reflected too, is one that could be built, and it must do
-//! what the other does. How each variable maps stands in `tests/data/symmetry.csv`; the images of a scene are simulated,
-//! and every output is compared. Where a motion is chaotic, rounding grows until nothing can be said: twins that are
-//! disturbed by 1e-15 show how far a comparison reaches.
+//! A differential that is reflected, with all speeds and torques reflected too, is one that could be built, and it must
+//! do what the other does. How each variable maps stands in `tests/data/symmetry.csv`; the images of a scene are
+//! simulated, and every output is compared. Where a motion is chaotic, rounding grows until nothing can be said: twins
+//! that are disturbed by 1e-15 show how far a comparison reaches.
 
 mod bias;
 mod compare;
@@ -29,8 +29,8 @@ const ROLLING: usize = 10;
 const SHARE: f64 = 0.7;
 const SHARE_OF_ONE: f64 = 0.2;
 
-/// Per scene, images that take steps of their own where their twins do not: one in twenty, as far as so few scenes tell,
-/// to two standard deviations.
+/// Per scene, images that take steps of their own where their twins do not: one in twenty, as far as so few scenes
+/// tell, to two standard deviations.
 const ALONE: f64 = 0.05;
 const DEVIATIONS: f64 = 2.0;
 
@@ -48,8 +48,8 @@ fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     Some(found.collect())
 }
 
-/// Compares `count` of the scenes that `draw` gives, from number `first` on, with their images in the first view, and some of them with
-/// their images in all `views`. Returns what is found in each view.
+/// Compares `count` of the scenes that `draw` gives, from number `first` on, with their images in the first view, and
+/// some of them with their images in all `views`. Returns what is found in each view.
 fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usize, views: [View; N]) -> [Findings; N] {
     let mut all = views.map(|_| Findings::new());
     for index in first.. {

@@ -45,8 +45,8 @@ pub struct Course {
     pub failure: Option<String>,
 }
 
-/// Rows of the outputs and local variables, and the way to their values. Single tooth pairs are read of one mesh alone, which has
-/// no image: `tests/model/pair_lines.rs` reverses them.
+/// Rows of the outputs and local variables, and the way to their values. Single tooth pairs are read of one mesh alone,
+/// which has no image: `tests/model/pair_lines.rs` reverses them.
 pub fn outputs() -> &'static [&'static Variable] {
     static OUTPUTS: OnceLock<Vec<&'static Variable>> = OnceLock::new();
     let is_mapped = |row: &&'static Variable| matches!(row.access, Access::Output(source) if !matches!(source, OutputSource::Pair(..)));
@@ -116,8 +116,8 @@ impl Scene {
         Ok(course)
     }
 
-    /// Displaces side gears and planets to and fro, in a twin. Its integration then begins anew, and so must that of others,
-    /// which are displaced by nothing.
+    /// Displaces side gears and planets to and fro, in a twin. Its integration then begins anew, and so must that of
+    /// others, which are displaced by nothing.
     fn nudge(&self, simulation: &mut Simulation) {
         let mut states = simulation.states();
         for (k, body) in BODIES.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! How the teeth of a differential are numbered in its images.
 //!
-//! Planet teeth are counted with positive spin, side gear teeth forward; tooth 0 of a planet stands in its left mesh at the
-//! start, or half a pitch forward of it where the meshes are shifted by half a pitch (`assembly::phases`).
+//! Planet teeth are counted with positive spin, side gear teeth forward; tooth 0 of a planet stands in its left mesh at
+//! the start, or half a pitch forward of it where the meshes are shifted by half a pitch (`assembly::phases`).
 
 use bevel_differential::contact::errors::GearTeeth;
 use bevel_differential::geometry::GearSpec;

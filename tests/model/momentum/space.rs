@@ -1,9 +1,10 @@
 //! Where a tooth force acts and in which direction, from the geometry of the teeth alone.
 //!
-//! Frame of a mesh: apex at the origin, z the planet's axis and x the side gear's, both from apex to heel. On the path the
-//! line of action is the great circle through the pitch line P₀ along T₀, which leans by α toward the planet's tip:
-//! C = cos s P₀ + sin s T₀ with the normal dC/ds. A corner beyond an end of the path has turned about its own gear's axis
-//! by Δ/sinδ_b; the normal there is square to its ray, and has about the mate's axis the arm sinδ_b of an involute.
+//! Frame of a mesh: apex at the origin, z the planet's axis and x the side gear's, both from apex to heel. On the path
+//! the line of action is the great circle through the pitch line P₀ along T₀, which leans by α toward the planet's tip:
+//! C = cos s P₀ + sin s T₀ with the normal dC/ds. A corner beyond an end of the path has turned about its own gear's
+//! axis by Δ/sinδ_b; the normal there is square to its ray, and has about the mate's axis the arm sinδ_b of an
+//! involute.
 
 use bevel_differential::contact::pairs::Spot;
 use bevel_differential::geometry::Pair;
@@ -56,8 +57,8 @@ impl UnitForce {
         Self { point, normal: around(&point) * share + away(&point) * rest }
     }
 
-    /// Parts along the planet's axis on the planet, along the side gear's axis on the side gear, both away from the apex,
-    /// and along the carrier's rotation on the side gear `side`.
+    /// Parts along the planet's axis on the planet, along the side gear's axis on the side gear, both away from the
+    /// apex, and along the carrier's rotation on the side gear `side`.
     pub fn parts(&self, side: usize) -> [f64; 3] {
         // y points against the rotation at the left, with it at the right
         let along = if side == 0 { -self.normal.y } else { self.normal.y };
