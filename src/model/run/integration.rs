@@ -193,6 +193,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
+        // the method attempts steps until one passes `now`, or until `observe` stops it
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
@@ -230,6 +231,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         }
         switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
+    // store the result and the pending step
     state.friction = equations.acting().friction_state;
     state.set_point(&course.point);
     clock.time = course.time;

@@ -127,6 +127,7 @@ fn step_past_stop(
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;
+    // one turn per interval of the clock
     loop {
         let at = (&mut clock, begin, way.pauses, change.take());
         let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
@@ -136,11 +137,13 @@ fn step_past_stop(
             reached = clock.now.min(pending_step.end());
         }
         wrap_and_constrain(model, state);
+        // an event has paused the motion before the stop
         if outcome.is_ok() && state.pending_step.is_some() && clock.now < wanted {
             state.pause = Some(Pause { now: shown, time, inputs: *inputs });
             state.move_with_clock(begin + clock.now);
             return Ok(());
         }
+        // the pending step contains the stop, the equations end there, or a step has failed
         if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             let arrived = arrive(state, stop, begin + reached, outcome);
             if way.is_part && state.pending_step.is_some() {
@@ -148,6 +151,7 @@ fn step_past_stop(
             }
             return arrived;
         }
+        // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
         (begin, shown, wanted) = (begin + by, shown - by, wanted - by);
     }

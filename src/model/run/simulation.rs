@@ -169,11 +169,13 @@ impl Simulation {
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
         let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
+        // the pending step may already contain the requested time
         let continues = state.pending_step.is_some() && jump.is_none();
         if continues && timeline::move_within(model, state, (until, way)) {
             progress::wrap_and_constrain(model, state);
             return Ok(());
         }
+        // ideal gears without effects have a closed form
         if let Gears::Ideal(ideal) = &model.gears
             && !ideal.body_effects.act_in(state)
         {
