@@ -60,7 +60,7 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     };
     let friction = |p: &mut Parameters| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true);
     let pins = |p: &mut Parameters| p.effects.pin_compliance = true;
-    // a large carrier in a cold oil
+    // a large carrier in cold oil
     let dragged = |p: &mut Parameters| {
         (p.effects.bearing_drag, p.oil.temperature) = (true, 263.15);
         let drag = &mut p.specs.bearing_drag;

@@ -199,7 +199,7 @@ fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, 
 fn many_small_teeth_carry_their_load_from_the_start() {
     for teeth in [[200, 40], [40, 200], [100, 160], [160, 160], [200, 200]] {
         for law in [ContactLaw::Line, ContactLaw::LineWeber] {
-            // 1e-3 is 19 kN on each tooth of a face of 20 mm
+            // 1e-3 is 19 kN on each tooth with a face of 20 mm
             for load in [1e-4, 1e-3, 3e-3, 1e-2] {
                 let still = many(teeth, law, load, 0.0);
                 let mut simulation = Simulation::start(&still.0, &still.1, 0.0).expect("teeth that carry");

@@ -65,7 +65,7 @@ fn inputs_that_are_applied_before_the_step_give_the_same_state() {
         for (k, (command, expected)) in (1u8..).zip(commands(&inputs)) {
             let until = f64::from(k) * 0.125;
             let [by_step, before, twice] = &mut simulations;
-            // a load that moves the wheels that are free
+            // a load that moves free wheels
             let command = Inputs { load_torque: [0.0, 1e-3], ..command };
             by_step.set_inputs(&command);
             by_step.advance(until).unwrap();

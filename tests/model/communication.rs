@@ -23,7 +23,7 @@ impl Scene {
     }
 }
 
-/// The study's turn, changed by `change`.
+/// Turn of the study, changed by `change`.
 fn turn(name: &'static str, change: impl Fn(&mut Parameters)) -> Scene {
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     parameters.scene.planet_spin = PlanetSpin::Imposed;
@@ -53,7 +53,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Communication points up to `stop` [s].
+/// Sequences of communication points up to `stop` [s].
 fn ways(stop: f64) -> Vec<Vec<f64>> {
     let even = |h: f64| {
         let count = (stop / h).round();
@@ -199,7 +199,7 @@ fn the_ledger_at_a_point_equals_that_of_a_run_that_ends_there() {
             let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| near(x, y));
             assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
             assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
-            // reading leaves no trace
+            // reading does not change the simulation
             let read = (*within.state(), *within.watched());
             within.ledger();
             within.forces();
@@ -225,7 +225,7 @@ fn energy_balances_as_well_as_without_communication_points() {
     }
 }
 
-/// A load that bends the teeth beyond their limit, some time after the start.
+/// Scene with a load that bends the teeth beyond their limit some time after the start.
 fn overload() -> Scene {
     let mut scene = turn("overload", |p| {
         (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
@@ -255,7 +255,7 @@ fn a_failure_beyond_a_communication_point_is_not_reported_at_it() {
     };
     assert!(reached >= 200, "{reached}: {refused}");
     assert!(refused.time >= f64::from(reached) * h * (1.0 - 1e-12), "{refused}");
-    // relieved in time, the run goes on
+    // if the load is removed in time, the run continues
     let mut relieved = scene.start();
     relieved.advance(0.3 * failure.time).unwrap();
     relieved.set_inputs(&Inputs { load_torque: [0.0; 2], ..scene.inputs });

@@ -1,4 +1,4 @@
-//! Half-shafts on ideal gears against the damped oscillation of two bodies, while the loads change at every
+//! Half-shafts on ideal gears, compared with the damped oscillation of two bodies, while the loads change at every
 //! communication step.
 
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Method, Parameters, Simulation};

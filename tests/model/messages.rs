@@ -137,7 +137,7 @@ fn a_planet_that_rolls_has_its_idler_strength() {
     let found = reports(true);
     let strength = format!("strength of {:.1} MPa", 0.7 * 1.2 * stress * 1e-6);
     assert!(found[0].message.contains("root stress of planet[1]") && found[0].message.contains(&strength), "{found:?}");
-    // not before it has rolled half a pitch of 36 deg at 20 rad/s, and within the next pitch
+    // after the planet has rolled half a pitch of 36 deg at 20 rad/s, and within the next pitch
     let time: f64 = found[0].message.split("t = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(time > 0.0157 && time < 0.0157 + 0.0314, "{time}");
 }

@@ -1,4 +1,4 @@
-//! Motion against closed forms and conservation laws.
+//! Motion compared with closed forms and conservation laws.
 
 use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation};
 

@@ -60,8 +60,8 @@ impl Acting {
         }
     }
 
-    /// Adds what effects on bodies contribute at `state`: dry friction, if there may be any, and the viscosity of the
-    /// oil.
+    /// Adds the contribution of effects on bodies at `state`: dry friction, if there may be any, and the viscosity of
+    /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
         self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.felt);
         if body_effects.may_rub_in(state) {
@@ -204,13 +204,13 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
+    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear if the half-shaft is rigid.
     #[inline]
     fn wheel(&self, s: usize) -> usize {
         if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
-    /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
+    /// Numbers of the bodies that may stick: side gears, planet groups, wheels.
     fn bodies_that_stick(&self) -> Chain<Range<usize>, Range<usize>> {
         (0..FRICTION_PLANETS + self.sticking().len()).chain(FRICTION_WHEELS..FRICTION_BODIES)
     }
@@ -412,7 +412,7 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Adapts friction to changed stiffnesses: it starts on bodies that were free, and ends on others.
+    /// Adapts friction to changed stiffnesses. It starts on bodies without friction so far, or ends on others.
     fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64])
     where
         Self: Sized,

@@ -13,13 +13,13 @@ pub enum Happening {
     /// Nothing has happened yet.
     #[default]
     Nothing = 0,
-    /// A brake begins to hold a wheel: the wheel comes to rest, or the brake is applied at standstill.
+    /// A brake starts to hold a wheel: the wheel stops, or the brake is applied at standstill.
     WheelStops = 1,
     /// A brake no longer holds a wheel: the wheel breaks loose, or the brake is released at standstill.
     WheelBreaksLoose = 2,
-    /// A clutch, washer or lock begins to stick, or the lock is closed at standstill.
+    /// A clutch, washer or lock starts to stick, or the lock is closed at standstill.
     ClutchSticks = 3,
-    /// A clutch, washer or lock begins to slip, or the lock is opened while it sticks.
+    /// A clutch, washer or lock starts to slip, or the lock is opened while it sticks.
     ClutchSlips = 4,
     /// The tooth of the tooth fault breaks.
     ToothBreaks = 5,
@@ -30,7 +30,7 @@ pub enum Happening {
 pub struct Event {
     /// Kind of the event.
     pub what: Happening,
-    /// Number of the friction surface: side gears, groups of planets, wheels; 0 for teeth.
+    /// Number of the friction surface: side gears, planet groups, wheels; 0 for teeth.
     pub place: u8,
     /// Time [s].
     pub time: f64,
@@ -38,7 +38,7 @@ pub struct Event {
     pub count: u32,
 }
 
-/// Number of events that a simulation remembers.
+/// Number of events that a simulation stores.
 pub const REMEMBERED: usize = 8;
 
 /// The last events, newest first.

@@ -46,7 +46,7 @@ impl<'a> IdealEquations<'a> {
         self.ideal.layout.count()
     }
 
-    /// Equations under `inputs` at `state`.
+    /// Equations under `inputs`, with friction and temperatures of `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
         let mut equations = Self { ideal, acting: Acting::without_friction(inputs, state) };
@@ -65,7 +65,7 @@ impl<'a> IdealEquations<'a> {
         }
     }
 
-    /// Inputs as they were set.
+    /// Inputs at the time at which they were set.
     #[inline(always)]
     fn now(&self) -> InputsNow<'_> {
         (&self.acting.inputs, &self.acting.input_derivatives.rates[0])
@@ -299,7 +299,7 @@ impl<'a> IdealEquations<'a> {
         0.5 * (0..MOST).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
-    /// Energy of half-shafts and stuck friction [J].
+    /// Energy stored in half-shafts and stuck friction [J].
     fn stored_energy(&self, at: &Point<MOST>) -> f64 {
         let motion = self.motion(at, self.now());
         if self.linear().is_some() && self.acting.is_free() {

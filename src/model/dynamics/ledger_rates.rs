@@ -12,7 +12,7 @@ use crate::numeric::finite;
 pub struct LedgerRates {
     /// Net power of all inputs into the system [W].
     pub input: f64,
-    /// Power turned into heat by cause [W].
+    /// Power converted to heat, by cause [W].
     pub heat: [f64; HEATS],
     /// Torques of the half-shafts [N·m].
     pub shaft: [f64; 2],

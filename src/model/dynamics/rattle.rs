@@ -44,7 +44,7 @@ mod tests {
         // loaded from the start: one impact
         (0..1000).for_each(|_| rattle.add_step(0b11));
         assert_eq!((rattle.impacts, rattle.steps), (1, 64));
-        // the second mesh parts and touches every ten steps
+        // the second mesh separates and touches every ten steps
         (0..1000).for_each(|k| rattle.add_step(if k % 10 < 5 { 0b01 } else { 0b11 }));
         assert_eq!(rattle.impacts, 101);
         assert_eq!(rattle.steps, 64 + 995);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::numeric::finite;
 
-/// Time integrals of the shaft torques over the present mesh cycle, and their means over the last whole one.
+/// Time integrals of the shaft torques over the present mesh cycle, and their means over the last whole cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TorqueMeans {
     /// ∫T dt of left and right since the mesh cycle began [N·m·s].
@@ -107,7 +107,7 @@ mod tests {
     fn a_step_over_several_cycles_gives_their_common_mean() {
         let means = rolled(&[0.0, 0.25, 3.25], |x| if x < 0.2 { [8.0, 0.0] } else { [2.0, 0.0] });
         let ([left, _], took) = means.last.unwrap();
-        // 0.1 s to 0.25, and 2.75 of 3 parts of another 0.1 s to 3
+        // 0.1 s up to 0.25 cycles, and 2.75/3 of another 0.1 s up to 3 cycles
         let second = 0.1 * 2.75 / 3.0;
         assert!((took - (0.1 + second)).abs() < 1e-15);
         assert!((left - (0.1 * 8.0 + second * 2.0) / took).abs() < 1e-12);

@@ -35,13 +35,13 @@ impl<T: Copy, const G: usize> ByGroup<T> for [T; G] {
     }
 }
 
-/// A shape with at most `N` degrees of freedom.
+/// Shape of equations with at most `N` degrees of freedom.
 pub trait Shape<const N: usize>: Copy {
     /// Values of the planet groups.
     type ByGroup<T: Copy>: ByGroup<T>;
     /// True if effects may act.
     const MAY_ACT: bool;
-    /// True if inputs may change while they act.
+    /// True if inputs may change with time.
     const MAY_CHANGE: bool;
     /// True if steps are monomorphised for this shape, with the meshes inlined.
     const HAS_OWN_STEPS: bool;
@@ -64,7 +64,7 @@ pub trait Shape<const N: usize>: Copy {
     fn end(layout: &Layout, s: usize) -> usize;
     /// True if a body is attached.
     fn is_attached(layout: &Layout) -> bool;
-    /// Sets the rates of the twists of attached bodies from the velocities `v`.
+    /// Sets the twist rates of attached bodies from the velocities `v`.
     fn set_twist_rates(layout: &Layout, v: &[f64; N], rates: &mut [f64; N]);
     /// Converts derivatives with respect to twist rates, in a row, to derivatives with respect to velocities.
     fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]);
@@ -205,7 +205,7 @@ fn turn_twist_rates(attached: impl Iterator<Item = (usize, usize)>, row: &mut [f
 
 /// Twist rates of any number of attached bodies, compiled once.
 impl Layout {
-    /// Sets the rates of all twists from the velocities `v`.
+    /// Sets all twist rates from the velocities `v`.
     #[inline(never)]
     pub fn set_twist_rates(&self, v: &[f64], rates: &mut [f64]) {
         set_twist_rates(self.attached(), v, rates);

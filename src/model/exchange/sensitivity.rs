@@ -71,7 +71,7 @@ pub struct StencilReadings<T> {
 impl<T> StencilReadings<T> {
     /// Derivative of the value `of` the readings.
     pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
-        // the slope of a constant is exactly 0
+        // differences from the first value, so that the slope of a constant is exactly 0
         let first = of(&self.read[0]);
         let sum: f64 = STENCIL.iter().zip(&self.read).map(|((_, weight), read)| weight * (of(read) - first)).sum();
         sum / self.apart

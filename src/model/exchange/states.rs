@@ -7,7 +7,7 @@ use crate::model::dynamics::{Acted, Largest};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
 
-/// A body with a position and a velocity among the states.
+/// Body whose position and velocity are states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
     /// Side gear; its angle is relative to the carrier.

@@ -10,7 +10,7 @@ use crate::model::assembly::{Gears, Model};
 pub struct StepFailure {
     /// Last good time [s].
     pub time: f64,
-    /// Description of the error, with its place and a remedy.
+    /// Description of the error, its location and a remedy.
     pub message: String,
 }
 

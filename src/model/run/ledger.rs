@@ -134,7 +134,7 @@ impl Largest<'_> {
             for s in 0..2 {
                 let [from, to] = [start, end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [to[0] - from[0], to[1] - from[1]];
-                // in a very short step JUMP_HALF_WIDTH of the step would be lost in rounding
+                // in a very short step, this fraction of the step would be lost in rounding
                 let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
                 self.teeth.contact.mesh.engagement.jumps(from, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);

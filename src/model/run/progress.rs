@@ -75,6 +75,7 @@ pub fn integrate(
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
+        // an event has paused the motion
         if state.time() < stop.time {
             return Ok(());
         }

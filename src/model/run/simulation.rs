@@ -123,7 +123,7 @@ impl Simulation {
         self.state.time()
     }
 
-    /// The last events.
+    /// Last events.
     pub fn events(&self) -> &Events {
         &self.state.events
     }

@@ -70,7 +70,7 @@ pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
 /// true if the state moved.
 #[inline]
 pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -> bool {
-    // computed before the move
+    // the pause refers to the state before the move
     let pause = if way.is_part {
         state.pending_step.as_ref().map(|step| {
             let [now, time] = last_communication_point(state, &step.clock);

@@ -39,7 +39,7 @@ pub struct LastLoads {
 impl Watched {
     /// True if a simulation can continue from these values.
     pub fn is_valid(&self) -> bool {
-        // the last loads are not saved
+        // the cache is not saved
         let Self { fatigue, mesh_history, last_loads: _ } = self;
         fatigue.is_finite() && mesh_history.is_valid()
     }

@@ -27,11 +27,11 @@ const SPEEDS: [&str; 3] = ["carrier.speed", "left.wheel_speed", "right.wheel_spe
 
 /// Means over a cycle and over the next one.
 struct Means {
-    /// Duration of each [s].
+    /// Duration of each cycle [s].
     span: f64,
     /// Speeds named by [`SPEEDS`] [rad/s].
     speeds: [[f64; 3]; 2],
-    /// Heat that enters the nodes [W].
+    /// Heat flow into the nodes [W].
     heat: [f64; 2],
 }
 

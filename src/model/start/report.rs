@@ -64,7 +64,7 @@ fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) ->
     let left_over = sides
         .chain(planets.map(|i| (i, carried.spin_acceleration)))
         .chain([(CARRIER, carried.carrier_acceleration)])
-        // imposed motions have no inverse
+        // the inverse inertia of imposed motions is zero
         .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
         .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
         .fold(0.0, f64::max);

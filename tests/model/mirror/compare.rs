@@ -74,11 +74,11 @@ fn kind(row: &Variable) -> &'static str {
     shared.copied().unwrap_or_else(|| line_of(row.name).map_or("", |line| lines()[line].pattern))
 }
 
-/// Largest magnitude over the run of the kind of quantity of each output.
+/// Scale of each output: the largest magnitude of its kind of quantity over the run.
 fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
     let largest = |i: usize| course.values.iter().fold(0.0f64, |most, values| most.max(values[i].abs()));
     let kinds: Vec<&str> = outputs().iter().map(|row| kind(row)).collect();
-    // energies are measured by what is turned over, and by what the carrier carries
+    // the scale of energies includes the converted energy and the kinetic energy of the carrier
     let power = [output("power.in"), output("power.out")];
     let turned: f64 = (1..course.times.len())
         .map(|k| (course.times[k] - course.times[k - 1]) * power.map(|i| course.values[k][i].abs()).iter().sum::<f64>())

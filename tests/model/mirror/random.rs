@@ -13,7 +13,7 @@ use fastrand::Rng;
 use super::scene::{Scene, Step};
 use crate::common::random::Draws;
 
-/// Communication steps of a scene.
+/// Number of communication steps of a scene.
 const STEPS: usize = 14;
 /// Module for which loads and sizes are given [m]. They are scaled for other modules.
 const MODULE: f64 = 4.5e-3;

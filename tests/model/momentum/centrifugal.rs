@@ -10,7 +10,7 @@ use bevel_differential::model::{
 
 use super::solids::Solid;
 
-/// Planets that roll at `spin` on a carrier at `carrier` [rad/s], without load.
+/// Scene with planets that roll at `spin` on a carrier that turns at `carrier` [rad/s], without load.
 fn rolling(carrier: f64, spin: f64) -> (Parameters, Inputs) {
     let mut p = Parameters::default();
     (p.scene.planet_spin, p.scene.start, p.effects.thrust_friction) = (PlanetSpin::Imposed, Start::Rolling, true);

@@ -64,8 +64,7 @@ fn unresolved_speeds_count_only_near_rest() {
         let floor =
             |speed: f64, tolerance: f64| equations.energy_floor([&moving_at(speed), &moving_at(speed)], tolerance, 0.0);
         let (tolerance, still) = (1e-6, floor(0.0, 0.0));
-        // the norm does not resolve 1e-6 rad/s: kinetic energy of both wheels, of the gears and the carrier at this
-        // speed
+        // the norm does not resolve 1e-6 rad/s, so the kinetic energy of all bodies at this speed counts
         let [kinetic, _] = equations.energy(&moving_at(tolerance));
         assert!((floor(0.0, tolerance) - still - kinetic).abs() < 1e-6 * kinetic);
         assert_eq!(floor(5e-4, tolerance), floor(0.0, tolerance));
