@@ -376,8 +376,8 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Returns true if body `i` slides at a speed near zero at `at`, `time` [s] after the inputs were set, and does not
-    /// accelerate in the direction in which it slides.
+    /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction, at `at` and
+    /// `time` [s] after the inputs were set.
     fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
         let direction = self.acting().friction_state[i].mode.direction();
         if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {

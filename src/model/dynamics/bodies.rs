@@ -2,7 +2,7 @@
 //! derivatives on the bodies.
 //!
 //! Mesh coordinates are q = sinδ_bs α − σ sinδ_bp ψ, x = σ sinδ_bp ψ + h, and the displacement w of the side gear along
-//! its axis, with σ = +1 left and −1 right. A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the
+//! its axis. The sign σ is +1 left and −1 right. A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the
 //! planet with σ sinδ_bp (F_x − F_q), and on the seat with F_w. Its reaction acts on the carrier, or on the pin if pins
 //! move.
 

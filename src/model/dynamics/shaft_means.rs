@@ -38,9 +38,9 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s] in which the left and the right side gear turned by
-    /// `turned` [rad] against the carrier. Half the difference of both angles is the rolling angle, which does not
-    /// contain deflections of the teeth.
+    /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s]. Left and right side gear turned by `turned` [rad]
+    /// relative to the carrier. Half the difference of both angles is the rolling angle, which does not contain
+    /// deflections of the teeth.
     pub fn add(&self, means: &mut TorqueMeans, turned: [f64; 2], h: f64, torque: [f64; 2]) {
         let by = 0.5 * (turned[0] - turned[1]) / self.pitch;
         let cycles = means.cycles + by;

@@ -1,10 +1,10 @@
 //! Input ramps (`solver.input_ramp`): a jump of an input becomes a linear ramp over the next communication step.
 //!
 //! Between steps, the simulation keeps the inputs that it has reached, and the host's values are not applied yet. At
-//! its start, a step gives each input the rate at which it reaches the host's value at the end of the step, as a host
-//! could do with input derivatives. If a step ends early, the next step continues the ramp. Torques and imposed speeds
-//! ramp. Lock and fault trigger cause events, and outside temperatures act through slow thermal nodes, so these inputs
-//! jump.
+//! its start, a step sets the rate of each input so that the input reaches the host's value at the end of the step. A
+//! host could do the same with input derivatives. If a step ends early, the next step continues the ramp. Torques and
+//! imposed speeds ramp. Lock and fault trigger cause events, and outside temperatures act through slow thermal nodes,
+//! so these inputs jump.
 
 use super::Simulation;
 use crate::model::scene::{InputDerivatives, Inputs};

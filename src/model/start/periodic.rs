@@ -3,7 +3,7 @@
 //!
 //! The first cycle damps the transients of the start; the second and the third cycle are compared. Mean speeds follow
 //! from angles, so that the ripple of teeth and shafts hardly matters. Ripple changes an angle by less than [`RIPPLE`]
-//! at both ends of a cycle, while a constant acceleration α changes it by α L² from one cycle of length L to the next.
+//! at both ends of a cycle. A constant acceleration α changes it by α L² from one cycle of length L to the next.
 
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
