@@ -120,7 +120,8 @@ impl<'a> DryFriction<'a> {
         }
         let direction = state.mode.direction();
         let slides = (direction * slip.speed, count * direction * slip.speed);
-        direction * if self.of.varies_with_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
+        direction
+            * if self.of.varies_with_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
     }
 
     /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each part
