@@ -31,13 +31,13 @@ spec! {
 
 impl SlipSpec {
     /// True if friction changes with temperature.
-    pub fn feels_temperature(&self) -> bool {
+    pub fn varies_with_temperature(&self) -> bool {
         self.cold_factor != 1.0 || self.hot_factor != 1.0
     }
 
     /// Friction at `temperature` [K] over friction at the reference.
     pub fn factor_at(&self, temperature: f64) -> f64 {
-        if !self.feels_temperature() {
+        if !self.varies_with_temperature() {
             return 1.0;
         }
         let (end, factor) =
@@ -48,7 +48,7 @@ impl SlipSpec {
     /// Problem if the temperatures do not increase and friction depends on them. The argument contains the variable
     /// names of the cold, reference and hot temperatures.
     pub fn problem(&self, [cold, reference, hot]: [&'static str; 3]) -> Option<Problem> {
-        if !self.feels_temperature() {
+        if !self.varies_with_temperature() {
             return None;
         }
         if self.cold >= self.reference {
