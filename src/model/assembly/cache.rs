@@ -1,6 +1,6 @@
 //! Cache of values. The key of a value is the exact bits of everything from which it is computed.
 //!
-//! A cache has few entries and reentries the least recently used one. Several threads may share it: one thread computes
+//! A cache has few entries and replaces the least recently used one. Several threads may share it: one thread computes
 //! a value, and the others wait for it.
 
 use std::fmt;

@@ -11,8 +11,8 @@ use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::numeric::{cos, sin};
 
-/// Mesh of `pair` with the gears `spec`, the facets of `teeth`, the tooth errors `errors`, and the elastic law and damping of
-/// a tooth pair.
+/// Mesh of `pair` with the gears `spec`, the facets of `teeth`, the tooth errors `errors`, and the elastic law and
+/// damping of a tooth pair.
 pub fn mesh(
     pair: &Pair,
     (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),

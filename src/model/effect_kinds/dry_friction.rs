@@ -31,7 +31,7 @@ const NOTHING: f64 = 1e-9;
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Torque beyond the limit at which a body at standstill begins to slide, as a fraction of the tolerance. Steps end at
 /// half the tolerance.
-const STANDING: f64 = 0.25;
+const STANDSTILL_TOLERANCE: f64 = 0.25;
 /// Range of step fractions within which a switch is located.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 /// Friction on a body: its parts, and the sources with their laws of sliding.
@@ -165,7 +165,7 @@ impl<'a> DryFriction<'a> {
     /// Returns true if a body is at standstill: its torque, not its speed, then decides whether it begins to slide.
     /// Commanded friction allows a tolerance of the speed. The torque of other friction changes with the motion itself,
     /// so its bodies are at standstill only if their speed is exactly zero.
-    fn stands(&self, slip: &Slip) -> bool {
+    fn is_at_standstill(&self, slip: &Slip) -> bool {
         slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE
     }
 
@@ -174,7 +174,7 @@ impl<'a> DryFriction<'a> {
         let torque = self.torque(state, slip, by);
         // an overwound spring that is being unwound is shortened instead of released; a body at standstill slides in
         // the direction of its torque when its limit is lowered
-        let sense = if self.stands(slip) { torque } else { slip.speed };
+        let sense = if self.is_at_standstill(slip) { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
     }
 
@@ -195,8 +195,8 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Returns the fraction of a step at which it must end to meet a switch. Returns `None` if there is no switch, or
-    /// if the step ends within its tolerance.
+    /// Returns the fraction of a step at which it must end to meet a switch. Returns `None` without a switch, or if the
+    /// step ends within its tolerance.
     pub fn crossing(
         &self,
         state: &FrictionState,
@@ -242,11 +242,13 @@ impl<'a> DryFriction<'a> {
         let torque = self.torque(state, slip, by);
         let due = match state.mode {
             // a body that has just stopped may have exactly the limit torque
-            Mode::Stuck => self.overshoot(state, slip, by) > if self.stands(slip) { STANDING } else { 0.0 },
+            Mode::Stuck => {
+                self.overshoot(state, slip, by) > if self.is_at_standstill(slip) { STANDSTILL_TOLERANCE } else { 0.0 }
+            }
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
-        let stops = stops && self.stands(slip) && slip.speed.abs() <= self.speed_tolerance(by);
+        let stops = stops && self.is_at_standstill(slip) && slip.speed.abs() <= self.speed_tolerance(by);
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {

@@ -55,13 +55,13 @@ pub struct WheelFriction {
 /// Surfaces that a source may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
-    /// Between side gear and carrier.
+    /// Surface between side gear and carrier.
     Side,
-    /// Pin of a planet.
+    /// Surface between a planet and its pin.
     Pin,
-    /// Washer of a planet.
+    /// Surface of a planet's washer.
     PlanetWasher,
-    /// Brake of a wheel.
+    /// Surface of a wheel's brake.
     Wheel,
 }
 

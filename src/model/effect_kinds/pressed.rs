@@ -9,7 +9,8 @@
 //! limit (u = 1) the factor is g = 1 + (b − 1) u² (3 − 2u), which is differentiable everywhere. Temperature changes μ
 //! but not N, so it does not change p v.
 //!
-//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can bear.
+//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can
+//! bear.
 
 use super::SurfaceLoad;
 
@@ -73,10 +74,10 @@ impl PvLimit {
     }
 }
 
-/// A rubbing surface of a side, or of a group of planets.
+/// Rubbing surface of a side, or of a group of planets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
-    /// Between side gear and carrier: its washer, or its clutch pack.
+    /// Surface between side gear and carrier: washer or clutch pack of a side.
     Side(usize),
     /// Pin of a planet.
     Pin(usize),

@@ -8,7 +8,8 @@ use crate::problem::Problem;
 spec! {
     /// Dependence of dry friction on slip speed, temperature and p·v.
     pub struct SlipSpec {
-        /// Stribeck speed, at which the static excess has fallen to 1/e [m/s]; 0 = friction jumps from static to kinetic.
+        /// Stribeck speed, at which the static excess has fallen to 1/e [m/s]; 0 = friction jumps from static to
+        /// kinetic.
         pub stribeck_speed: f64 = 0.0,
         /// Change of the kinetic friction per speed, over its value at standstill [s/m].
         pub slip_slope: f64 = 0.0,

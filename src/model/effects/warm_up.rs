@@ -1,5 +1,5 @@
-//! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the heat of
-//! the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
+//! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the
+//! heat of the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
 //!
 //! Friction that depends on temperature (`effect_kinds::slip_spec`) uses the temperature of its node. Without this
 //! effect, all nodes have the temperature `oil.temperature`.

@@ -1,8 +1,8 @@
 //! Loaded tooth pairs of a mesh at an instant: their position on the planet's flank, force and pressure.
 //!
-//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ = cosδ_b
-//! cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar angle of the
-//! corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
+//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ =
+//! cosδ_b cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar
+//! angle of the corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
 //!
 //! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair
 //! has a uniform w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or

@@ -223,8 +223,8 @@ impl GearStrength {
         fatigue.in_mesh.add(rating, planets, to - from, forces);
     }
 
-    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its idler
-    /// strength while it rolls.
+    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its
+    /// idler strength while it rolls.
     fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         let rating = &self.rating;
         let span = parts[2].part - parts[0].part;

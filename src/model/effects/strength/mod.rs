@@ -1,4 +1,5 @@
-//! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the strength.
+//! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the
+//! strength.
 //!
 //! Passages of teeth through their mesh are counted by relative revolutions (`strength::counting`). Load swings while a
 //! tooth is in mesh are counted by the rainflow method, tooth by tooth (`strength::TeethInMesh`).
