@@ -20,7 +20,7 @@ pub const IMPOSED: usize = 4;
 /// Constants of a scene whose forces are linear, because only half-shafts act.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear {
-    /// Index of their heat in the ledger.
+    /// Index of the half-shafts' heat in the ledger.
     pub heat_index: usize,
     /// Derivatives of the accelerations with respect to positions.
     pub by_position: Matrix<MOST>,

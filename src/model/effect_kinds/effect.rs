@@ -31,7 +31,7 @@ pub struct Heat {
     pub at_wheels: bool,
 }
 
-/// Time at which a reading changes.
+/// Times at which a reading changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Changes {
     /// At any instant, because the reading follows from the state.
@@ -49,7 +49,7 @@ pub struct Reading {
     pub unit: Unit,
     /// Unit in which it is displayed.
     pub display: Option<DisplayUnit>,
-    /// Time at which the reading changes.
+    /// Times at which the reading changes.
     pub changes: Changes,
     /// Description in the interface.
     pub description: &'static str,

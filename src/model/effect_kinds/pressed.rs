@@ -77,7 +77,7 @@ impl PvLimit {
 /// Rubbing surface of a side, or of a group of planets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
-    /// Surface between side gear and carrier: washer or clutch pack of a side.
+    /// Surface between a side gear and the carrier: washer or clutch pack.
     Side(usize),
     /// Pin of a planet.
     Pin(usize),

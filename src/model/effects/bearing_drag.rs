@@ -182,7 +182,8 @@ impl Effect for BearingDragSpec {
         }
         vec![Problem::new(
             "effects.bearing_drag",
-            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or switch the effect off",
+            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
+             switch the effect off",
         )]
     }
 

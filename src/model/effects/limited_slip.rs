@@ -112,8 +112,8 @@ impl Effect for LimitedSlipSpec {
         let problem = || {
             Problem::new(
                 "effects.limited_slip",
-                "the clutches have no torque: set limited_slip.preload, limited_slip.torque_coefficient or both, or switch the \
-                 effect off",
+                "the clutches have no torque: set limited_slip.preload, limited_slip.torque_coefficient or both, or \
+                 switch the effect off",
             )
         };
         if has_torque { Vec::new() } else { vec![problem()] }

@@ -184,8 +184,8 @@ impl Effect for WarmUpSpec {
             if !(coldest..=hottest).contains(&temperature) {
                 found.push(problem!(
                     name,
-                    "{above} K: with oil.temperature = {} K this node would begin at {temperature} K; it must be within {coldest} \
-                     to {hottest} K",
+                    "{above} K: with oil.temperature = {} K this node would begin at {temperature} K; it must be \
+                     within {coldest} to {hottest} K",
                     setting.oil.temperature
                 ));
             }

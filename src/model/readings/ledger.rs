@@ -62,8 +62,8 @@ impl Simulation {
     pub fn account(&self) -> String {
         let s = &self.state.statistics;
         format!(
-            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not finite, {} cut at a switch; \
-             {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not \
+             finite, {} cut at a switch; {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
             s.accepted,
             s.rejected_error,
             s.rejected_ledger,

@@ -83,7 +83,8 @@ impl Simulation {
                 *reported = true;
                 found.push(problem!(
                     variable,
-                    "would set {what} to {commanded:.2} K; {what} is kept at {kept:.2} K, the end of the range; reported once"
+                    "would set {what} to {commanded:.2} K; {what} is kept at {kept:.2} K, the end of the range; \
+                     reported once"
                 ));
             }
         }
@@ -114,8 +115,8 @@ impl Simulation {
         }
         Some(problem!(
             variable,
-            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any differential turns: \
-             look at drives and loads; reported once",
+            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any \
+             differential turns: look at drives and loads; reported once",
             six_digits(speed),
             six_digits(RPM.show(speed)),
             self.state.time(),
@@ -185,9 +186,9 @@ impl Simulation {
         let [root, flank] = [utilisation.root, utilisation.flank].map(|of| (of.safety(), of.time));
         Some(problem!(
             "strength.rate_from",
-            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
-             t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; count them from after the run-in, or choose \
-             scene.start = equilibrium",
+            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the \
+             roots was {:.3} at t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; count them from after the \
+             run-in, or choose scene.start = equilibrium",
             root.0,
             root.1,
             flank.0,

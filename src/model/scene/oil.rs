@@ -82,7 +82,8 @@ impl OilSpec {
         (viscosity_100 >= viscosity_40).then(|| {
             problem!(
                 "oil.viscosity_100",
-                "{viscosity_100:e} m2/s is not below oil.viscosity_40 = {viscosity_40:e} m2/s: an oil thins as it warms up"
+                "{viscosity_100:e} m2/s is not below oil.viscosity_40 = {viscosity_40:e} m2/s: an oil thins as it \
+                 warms up"
             )
         })
     }

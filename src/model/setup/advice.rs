@@ -20,9 +20,9 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
     (rubs && imposed).then(|| {
         Problem::new(
             "torque_bias_ratio",
-            "it is the ratio of left.load_torque and right.load_torque, regardless of friction: with scene.planet_spin = imposed, \
-             friction acts on spin.torque; to see the bias, impose the speeds of the wheels by scene.left_drive and \
-             scene.right_drive",
+            "it is the ratio of left.load_torque and right.load_torque, regardless of friction: with \
+             scene.planet_spin = imposed, friction acts on spin.torque; to see the bias, impose the speeds of the \
+             wheels by scene.left_drive and scene.right_drive",
         )
     })
 }
@@ -66,7 +66,8 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let side = (0..2).find(is_unset)?;
     Some(problem!(
         LOADS[side],
-        "nobody set {}; {} {} N.m {turned}: set the loads, or resist with left.brake_torque and right.brake_torque and loads of 0",
+        "nobody set {}; {} {} N.m {turned}: set the loads, or resist with left.brake_torque and right.brake_torque \
+         and loads of 0",
         names.join(" and "),
         if share < 1.0 { "the share of this wheel in carrier.torque_command," } else { "carrier.torque_command =" },
         torque
@@ -98,9 +99,10 @@ fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     }
     Some(Problem::new(
         "contact.law",
-        "impact has the stiffness of the study's gears, but these gears differ from them: mean speeds and forces are valid \
-         anyway; for deflection, transmission error, ripple and peak forces, choose line_weber with effects.body_compliance, \
-         or line, whose stiffness follows from the gears; or give contact.stiffness a value of your own",
+        "impact has the stiffness of the study's gears, but these gears differ from them: mean speeds and forces are \
+         valid anyway; for deflection, transmission error, ripple and peak forces, choose line_weber with \
+         effects.body_compliance, or line, whose stiffness follows from the gears; or give contact.stiffness a value \
+         of your own",
     ))
 }
 

@@ -73,8 +73,8 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         if contact.law != ContactLaw::Impact {
             found.push(Problem::new(
                 "contact.law",
-                "solid teeth are pressed together by Adams' IMPACT as in the study: with scene.gear_contact = solid choose \
-                 impact",
+                "solid teeth are pressed together by Adams' IMPACT as in the study: with scene.gear_contact = solid \
+                 choose impact",
             ));
         }
         if !p.effects.corner_contact {

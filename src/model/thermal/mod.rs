@@ -95,7 +95,7 @@ impl Thermal {
             || self.update_interval < SHORTER * self.longest
     }
 
-    /// Updates the intervals from the rates of all nodes, whose rises were `begin` [K] before the last `h` [s].
+    /// Sets the update interval from the rates of all nodes, whose rises were `begin` [K] before the last `h` [s].
     fn note_rates(&mut self, begin: &[f64; NODES], h: f64) {
         let rates = self.rises.iter().zip(begin).map(|(end, begin)| (end - begin).abs() / h);
         let fastest = rates.zip(UPDATE_THRESHOLDS).fold(0.0, |most: f64, (rate, threshold)| most.max(rate / threshold));

@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn any_number_of_cycles_is_counted_without_a_loop() {
-        // more cycles than a loop could handle, up to numbers without any resolution of a cycle, in both directions
+        // more cycles than a loop could handle, up to numbers that do not resolve a single cycle, in both directions
         for cycles in [1e6 + 0.5, 1e12 + 0.25, 1e17, 1e40, 1e300] {
             for sign in [1.0, -1.0] {
                 for start in [0.0, 0.375, 3e16] {

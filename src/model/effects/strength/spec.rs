@@ -75,7 +75,8 @@ impl Declare for StrengthSpec {
         temperature(
             "temperature.contact",
             (units::KELVIN, Some(DEG_C)),
-            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash temperature",
+            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash \
+             temperature",
         ),
         Reading {
             name: "safety.scuffing",
