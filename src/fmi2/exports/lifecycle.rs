@@ -70,7 +70,7 @@ fn instantiate(
         let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
         format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
     } else if let (false, Some(Kind::ModelExchange)) = (FULL, made_for) {
-        "this build, for real time, is for co-simulation alone".to_owned()
+        "this build for real-time targets supports co-simulation only".to_owned()
     } else if let Some(kind) = made_for {
         return Some(Instance::new(&INTERFACE, kind, log));
     } else {
