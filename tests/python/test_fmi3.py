@@ -218,8 +218,8 @@ def test_states_go_back_and_are_refused_by_the_other_version(fmu3, fmu, plain_ou
     (lambda unit: unit.raw.fmi3GetFloat64(unit.raw.component, (ctypes.c_uint * 1)(99999), 1, (ctypes.c_double * 1)(), 1),
      "there is no variable with value reference 99999"),
     (lambda unit: unit.raw.fmi3GetFloat64(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_double * 2)(), 2),
-     "have 1 values, and the host has room for 2"),
-    (lambda unit: unit.raw.fmi3GetInt8(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_int8 * 1)(), 1), "is no Int8"),
+     "have 1 values, but the host has room for 2"),
+    (lambda unit: unit.raw.fmi3GetInt8(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_int8 * 1)(), 1), "is not of type Int8"),
 ])
 def test_wrong_calls_are_refused_by_name(fmu3, act, words):
     with Unit3(fmu3) as unit:
