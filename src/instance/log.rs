@@ -18,7 +18,7 @@ pub enum Category {
     Warning = 1,
     /// A call was discarded.
     Discard = 2,
-    /// Description of the simulated scene.
+    /// Description of the simulated scene, and statistics of the solver.
     Events = 3,
 }
 
@@ -28,7 +28,7 @@ impl Category {
         (Self::Error, "Refused or failed calls; logged always"),
         (Self::Warning, "Unusual values; the simulation continues"),
         (Self::Discard, "Refused values and discarded steps"),
-        (Self::Events, "What is simulated"),
+        (Self::Events, "Description of the simulated scene, and statistics of the solver"),
     ];
 
     /// Name in the FMI interface.
