@@ -117,16 +117,16 @@ macro_rules! pair {
         [
             row(
                 concat!($name, ".tooth"),
-                "Tooth number on planet 1, from 0, of a loaded pair with the left side gear; -1 = no such pair; pairs are \
-                 ordered from the planet's root to its tip",
+                "Tooth number on planet 1, from 0, of a loaded pair with the left side gear; -1 = no such pair; pairs \
+                 are ordered from the planet's root to its tip",
             )
             .output(units::ONE, Pair($k, |pair| pair.tooth)),
             row(concat!($name, ".force"), "Normal force of this pair, negative on the coast flank")
                 .output(units::NEWTON, Pair($k, |pair| pair.force)),
             row(
                 concat!($name, ".height"),
-                "Contact position of this pair on the planet's profile, from the pitch circle toward the tip, at the mean \
-                 cone distance",
+                "Contact position of this pair on the planet's profile, from the pitch circle toward the tip, at the \
+                 mean cone distance",
             )
             .output((units::METRE, MM), Pair($k, |pair| pair.height)),
             row(concat!($name, ".toe_pressure"), "Hertz pressure of this pair at the toe")
@@ -169,8 +169,8 @@ pub fn rows() -> Vec<Output> {
             .output(units::WATT, Forces(|f| f.power_loss)),
         row(
             "efficiency",
-            "1 - power.loss / power fed in, which is the sum over those of carrier, left wheel, right wheel and spin drive \
-             that feed power; at least 0, and 1 if none feeds power",
+            "1 - power.loss / power fed in, which is the sum over those of carrier, left wheel, right wheel and spin \
+             drive that feed power; at least 0, and 1 if none feeds power",
         )
         .output(units::ONE, Forces(efficiency)),
         row(
@@ -183,8 +183,8 @@ pub fn rows() -> Vec<Output> {
         .output(units::ONE, Forces(|f| f.torque_bias_ratio)),
         row(
             "locking_value",
-            "Difference over sum of the half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 if \
-             the sum is below 1e-3 N.m; at most 1e6",
+            "Difference over sum of the half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 \
+             if the sum is below 1e-3 N.m; at most 1e6",
         )
         .output(units::ONE, Forces(|f| f.locking_value)),
         row("heat.contact", "Heat of contact damping since the start")

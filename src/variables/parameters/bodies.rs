@@ -62,24 +62,31 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real(units::KG_PER_M3, (100.0, 3e4), |p| &mut p.material.density),
         row(
             "oil.temperature",
-            "Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the initial temperature or that of a given sump",
+            "Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the initial temperature \
+             or that of a given sump",
         )
         .tunable()
         .when("effects.warm_up = false or warm_up.sump_given = true or initialisation")
         .acts_when(OIL_TEMPERATURE_ACTS)
         .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.oil.temperature),
-        row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
-            .when(OILED)
-            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_40),
-        row("oil.viscosity_100", "Kinematic viscosity of the oil at 100 degC")
-            .when(OILED)
-            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_100),
+        row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC").when(OILED).real(
+            (units::M2_PER_S, MM2_PER_S),
+            (1e-6, 0.1),
+            |p| &mut p.oil.viscosity_40,
+        ),
+        row("oil.viscosity_100", "Kinematic viscosity of the oil at 100 degC").when(OILED).real(
+            (units::M2_PER_S, MM2_PER_S),
+            (1e-6, 0.1),
+            |p| &mut p.oil.viscosity_100,
+        ),
         row("oil.density", "Density of the oil at 15 degC")
             .when(DENSE)
             .real(units::KG_PER_M3, (1.0, 1e5), |p| &mut p.oil.density),
-        row("oil.density_fall", "Decrease of the oil density per temperature")
-            .when(DENSE)
-            .real(units::KG_PER_M3_K, (0.0, 1e3), |p| &mut p.oil.density_fall),
+        row("oil.density_fall", "Decrease of the oil density per temperature").when(DENSE).real(
+            units::KG_PER_M3_K,
+            (0.0, 1e3),
+            |p| &mut p.oil.density_fall,
+        ),
         row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
             .switch(|p| &mut p.inertia.from_geometry),
         row("inertia.carrier", "Carrier with ring gear and cross-shaft about its axis, without planets").real(
