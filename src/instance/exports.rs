@@ -41,9 +41,7 @@ macro_rules! getters {
 #[cfg(feature = "full")]
 macro_rules! host_solver {
     ($completed:ident $time:ident $states:ident $argument:literal) => {
-        #[doc = concat!(stringify!($completed),
-                    ". The flag is ignored, because snapshots are complete even if the host goes back in time."
-                )]
+        #[doc = concat!(stringify!($completed), ". The flag is ignored, because snapshots are complete.")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $completed(
             c: ComponentPointer,

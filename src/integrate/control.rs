@@ -51,7 +51,7 @@ finite!(Control { next, last, last_error; on_kink, after_kink, after_jump });
 /// holds the right sizes for the first jump, and scales them by the fifth root of the ratio of the two jumps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AfterJump {
-    /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] if the memory is no longer used.
+    /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] when the memory is not used any more.
     step: u32,
     /// True if the memory determines step sizes. It does not after a jump too small to shorten the next step.
     decides: bool,

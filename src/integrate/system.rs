@@ -235,8 +235,8 @@ pub trait SecondOrder<const N: usize> {
     }
 
     /// Fraction of the step from `start` to `end` to which it must be shortened because a switch of the equations is
-    /// within it. Returns `None` if there is no switch, or if it is already close enough to the end. Both ends include
-    /// their times [s].
+    /// within it. Returns `None` without such a switch, or if the switch is already close enough to the end. Both ends
+    /// include their times [s].
     #[inline]
     fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None
