@@ -29,8 +29,8 @@ impl HostLogger {
 impl Sink for HostLogger {
     fn send(&self, status: Status, category: Category, message: &str) {
         let text = printable(message);
-        // SAFETY: the logger is valid by the host's promise; the strings outlive the call; the message, which the logger uses as a
-        // printf format, contains no conversion and so requires no further argument
+        // SAFETY: the logger is valid by the host's promise; the strings outlive the call; the logger uses the message
+        // as a printf format, which has no conversions and needs no further arguments
         unsafe {
             (self.logger)(self.environment, self.instance.as_ptr(), status, category.name().as_ptr(), text.as_ptr());
         }

@@ -63,8 +63,8 @@ pub fn add_times<const N: usize>(to: &mut [f64; N], x: f64, of: &[f64; N]) {
     }
 }
 
-/// Layout of the degrees of freedom. It is read once per step, because a system may be a trait object, and passed as a
-/// value, which is a constant if the system is known at compile time.
+/// Layout of the degrees of freedom. It is read only once per step, because a system may be a trait object. It is
+/// passed as a value, which is a constant if the system is known at compile time.
 #[derive(Clone, Copy)]
 pub struct Shape {
     first: usize,

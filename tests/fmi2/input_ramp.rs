@@ -334,8 +334,9 @@ fn recursion(ramps: bool, h: f64, count: usize) -> Vec<[f64; 3]> {
 
 #[test]
 fn a_spring_of_the_host_becomes_unstable_at_the_step_size_given_by_the_eigenvalues() {
-    // Jury's criterion on the characteristic polynomials, with C = hc/J and K = h²k/J: held inputs need K < 2C and C <
-    // 2, ramps need K (1 - C/6) < C (1 - C/2). With c = 20, k = 4000 and J = 1, these limits are 10 ms and 4.84 ms.
+    // Limits from Jury's criterion on the characteristic polynomials, with C = hc/J and K = h²k/J. Held inputs need K <
+    // 2C and C < 2, and ramps need K (1 - C/6) < C (1 - C/2). With c = 20, k = 4000 and J = 1, these limits are 10 ms
+    // and 4.84 ms.
     let excess = |h: f64| h * SPRING * (1.0 - h * DAMPER / 6.0) - DAMPER * (1.0 - 0.5 * h * DAMPER);
     let (mut low, mut high) = (0.0, 0.01);
     while high - low > 1e-12 {
