@@ -117,8 +117,8 @@ macro_rules! pair {
         [
             row(
                 concat!($name, ".tooth"),
-                "Tooth number on planet 1, from 0, of a loaded pair with the left side gear; -1 = no such pair; pairs \
-                 are ordered from the planet's root to its tip",
+                "Tooth number of a loaded pair of planet 1 with the left side gear, from 0 on the planet; -1 = no such \
+                 pair; pairs are ordered from the planet's root to its tip",
             )
             .output(units::ONE, Pair($k, |pair| pair.tooth)),
             row(concat!($name, ".force"), "Normal force of this pair, negative on the coast flank")
