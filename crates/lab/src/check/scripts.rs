@@ -124,7 +124,7 @@ pub const MUTANTS: Script = Script {
         vec![
             number("count", "COUNT", "120", "How many changes"),
             number("seed", "SEED", "1", "By which they are drawn"),
-            flag("write", "Also renew the report in docs/architecture.md"),
+            flag("write", "Also renew the report in docs/inside/architecture.md"),
         ]
     },
     needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter, fmpy"]),
@@ -132,7 +132,7 @@ pub const MUTANTS: Script = Script {
     doing: "trying changes",
     folder: Some("mutants/{seed}-{count}"),
     given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
-    sections: &[("docs/architecture.md", "mutants", "")],
+    sections: &[("docs/inside/architecture.md", "mutants", "")],
     ..DEFAULTS
 };
 
