@@ -1,7 +1,7 @@
 //! The program's gap functions and phases against explicit flanks, rotated in space until they touch.
 //!
-//! Axes, signs and the assembled position are those of docs/theory.md; the flanks and the touching are found by vectors
-//! and rotations only (`mesh_explicit`). For every tooth pair near the mesh the side gear's rotation at first touch must
+//! Axes, signs and the assembled position are those of docs/inside/theory.md; the flanks and the touching are found by
+//! vectors and rotations only (`mesh_explicit`). For every tooth pair near the mesh the side gear's rotation at first touch must
 //! be the one at which `Engagement::pairs` begins to visit that pair.
 
 use crate::mesh_explicit::{Differential, Toothed, Touch, gears, pitch_angles, random_spec, roll_at, rolled};
@@ -24,7 +24,8 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, independently from docs/theory.md: the larger gear's is given, the working depth 2 m.
+/// Addenda of planet and side gear, independently from docs/inside/theory.md. The addendum of the larger gear is given, and
+/// the working depth is 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let ratio = f64::from(spec.side_teeth) * d_p.cos() / (f64::from(spec.planet_teeth) * d_s.cos());
@@ -65,7 +66,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// q and x of docs/theory.md at side gear rotation `alpha`.
+    /// q and x of docs/inside/theory.md at side gear rotation `alpha`.
     fn position(&self, alpha: f64) -> [f64; 2] {
         [self.pair.sin_base()[1] * alpha - self.travel, self.x]
     }

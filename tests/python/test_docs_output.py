@@ -55,13 +55,14 @@ ALONE = list({one.words[1]: one for one in reversed(COMMANDS)}.values())
 
 @pytest.fixture
 def reader(fmu_file, tmp_path, monkeypatch):
-    """reader(page): a folder, now the current one, with what a reader of the page has: an FMU, examples and the files that it shows."""
+    """reader(page): a folder, now the current one, with what a reader of the page has: an FMU, examples, the scenes of docs/your-car.md
+    and the files that the page shows."""
 
     def prepared(page):
         shutil.copytree(ROOT / "examples" / "design", tmp_path / "examples" / "design")
         (tmp_path / "target").mkdir()
         (tmp_path / "target" / "fmu").symlink_to(Path(fmu_file).resolve().parent)
-        for name, text in saved(page).items():
+        for name, text in (saved("docs/your-car.md") | saved(page)).items():
             (tmp_path / name).write_text(text, encoding="utf-8")
         monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(Path(fmu_file).resolve()))
         monkeypatch.setenv("MPLBACKEND", "Agg")

@@ -1,6 +1,6 @@
 //! The effects, one file and one line in the list each. From the list follow parameters, switches, rows, heat, readings
-//! and the terms that act in a scene. `effect_kinds` defines what an effect may declare and do; `docs/architecture.md` shows
-//! how to add one.
+//! and the terms that act in a scene. `effect_kinds` defines what an effect may declare and do;
+//! `docs/inside/architecture.md` shows how to add one.
 
 mod bearing_drag;
 mod body_compliance;

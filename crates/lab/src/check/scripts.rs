@@ -59,13 +59,13 @@ pub const ZERO_COST: Script = Script {
     options: || {
         vec![
             flag("quick", "Leave out what each effect costs when it is on").conflicts_with("write"),
-            flag("write", "Also renew the table in docs/effects.md"),
+            flag("write", "Also renew the table in docs/inside/cost.md"),
         ]
     },
     file: "crates/lab/python/zero_cost.py",
     doing: "counting",
     given: &[Given::Target(BUILD), Given::Made(effects_on)],
-    sections: &[("docs/effects.md", "off", "")],
+    sections: &[("docs/inside/cost.md", "off", "")],
     ..DEFAULTS
 };
 /// The folder in which both build the program that steps.
@@ -82,13 +82,13 @@ pub const REAL_TIME: Script = Script {
     options: || {
         vec![
             flag("quick", "Leave out steps of 10 µs").conflicts_with("write"),
-            flag("write", "Also renew the table in docs/cost.md"),
+            flag("write", "Also renew the table in docs/inside/cost.md"),
         ]
     },
     file: "crates/lab/python/real_time.py",
     doing: "counting",
     given: &[Given::Target("real-time"), Given::Target(BUILD), Given::Named("quick")],
-    sections: &[("docs/cost.md", "real-time", "")],
+    sections: &[("docs/inside/cost.md", "real-time", "")],
     ..DEFAULTS
 };
 
@@ -124,7 +124,7 @@ pub const MUTANTS: Script = Script {
         vec![
             number("count", "COUNT", "120", "How many changes"),
             number("seed", "SEED", "1", "By which they are drawn"),
-            flag("write", "Also renew the report in docs/architecture.md"),
+            flag("write", "Also renew the report in docs/inside/architecture.md"),
         ]
     },
     needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter, fmpy"]),
@@ -132,7 +132,7 @@ pub const MUTANTS: Script = Script {
     doing: "trying changes",
     folder: Some("mutants/{seed}-{count}"),
     given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
-    sections: &[("docs/architecture.md", "mutants", "")],
+    sections: &[("docs/inside/architecture.md", "mutants", "")],
     ..DEFAULTS
 };
 
