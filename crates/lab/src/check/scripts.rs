@@ -103,7 +103,7 @@ pub const SOURCES: Script = Script {
     options: || {
         vec![
             flag("quick", "Only gcc -O1, and six scenes"),
-            flag("write", "Also renew docs/fmi.md").conflicts_with("quick"),
+            flag("write", "Also renew docs/inside/hosts.md").conflicts_with("quick"),
         ]
     },
     needs: Needs::Tests,
@@ -111,7 +111,7 @@ pub const SOURCES: Script = Script {
     doing: "comparing",
     folder: Some("sources"),
     given: &[Given::Named("quick"), Given::Folder, Given::Made(sources::arguments)],
-    sections: &[("docs/fmi.md", "sources", "")],
+    sections: &[("docs/inside/hosts.md", "sources", "")],
     ..DEFAULTS
 };
 
@@ -189,7 +189,7 @@ pub const HOSTS: Script = Script {
     options: || {
         vec![
             flag("require", "Fail if a host cannot be loaded"),
-            flag("write", "Also renew docs/fmi.md"),
+            flag("write", "Also renew docs/inside/hosts.md"),
             flag("with-fmi-sim", "Also run fmi-sim (builds for many minutes)"),
         ]
     },
@@ -198,7 +198,7 @@ pub const HOSTS: Script = Script {
     doing: "running hosts",
     folder: Some("hosts"),
     given: &[Given::Fmu, Given::PlainFmu, Given::Folder, Given::Named("require"), Given::Named("with-fmi-sim")],
-    sections: &[("docs/fmi.md", "hosts", "")],
+    sections: &[("docs/inside/hosts.md", "hosts", "")],
     ..DEFAULTS
 };
 
@@ -206,11 +206,11 @@ pub const HOSTS: Script = Script {
 pub const PLATFORMS: Script = Script {
     name: "platforms",
     about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
-    options: || vec![flag("write", "Also renew docs/fmi.md")],
+    options: || vec![flag("write", "Also renew docs/inside/hosts.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",
     doing: "comparing",
     given: &[Given::Made(platforms::arguments)],
-    sections: &[("docs/fmi.md", "platforms", "")],
+    sections: &[("docs/inside/hosts.md", "platforms", "")],
     ..DEFAULTS
 };

@@ -65,13 +65,13 @@ pub const SURVEY: Script = Script {
 pub const SIMULATORS: Script = Script {
     name: "compare-simulators",
     about: "Compares MuJoCo and Drake with this program on the study's cases (a few minutes)",
-    options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/compare.md")],
+    options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/inside/compare.md")],
     needs: Needs::Own(["benches/peers", "peers/venv", "MuJoCo, Drake, fmpy"]),
     file: "benches/peers/run.py",
     doing: "comparing",
     folder: Some("peers"),
     given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/compare.md", "peers", "")],
+    sections: &[("docs/inside/compare.md", "peers", "")],
     has_pictures: true,
     ..DEFAULTS
 };
@@ -80,13 +80,13 @@ pub const SIMULATORS: Script = Script {
 pub const SOLVERS: Script = Script {
     name: "compare-solvers",
     about: "Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)",
-    options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/compare.md")],
+    options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/inside/compare.md")],
     needs: Needs::Own(["benches/foreign", "foreign", "scipy, scikit-SUNDAE"]),
     file: "benches/foreign/compare.py",
     doing: "comparing",
     folder: Some("cost"),
     given: &[Given::Equations, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/compare.md", "foreign", "")],
+    sections: &[("docs/inside/compare.md", "foreign", "")],
     ..DEFAULTS
 };
 
@@ -98,7 +98,7 @@ pub const DRIVETRAIN: Script = Script {
     options: || {
         vec![
             flag("quick", "Ideal gears only, in a minute and a half").conflicts_with("write"),
-            flag("write", "Also renew docs/coupling.md"),
+            flag("write", "Also renew docs/inside/hosts.md"),
         ]
     },
     needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim"]),
@@ -106,7 +106,7 @@ pub const DRIVETRAIN: Script = Script {
     doing: "coupling",
     folder: Some("drivetrain"),
     given: &[Given::PlainFmu, Given::Equations, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/coupling.md", "drivetrain", "")],
+    sections: &[("docs/inside/hosts.md", "drivetrain", "")],
     has_pictures: true,
     ..DEFAULTS
 };
