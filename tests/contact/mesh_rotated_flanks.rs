@@ -1,6 +1,6 @@
 //! The program's gap functions and phases against explicit flanks, rotated in space until they touch.
 //!
-//! Axes, signs and the assembled position are those of docs/theory.md. The flanks and the touching are found only with
+//! Axes, signs and the assembled position are those of docs/inside/theory.md. The flanks and the touching are found only with
 //! vectors and rotations (`mesh_explicit`). For every tooth pair near the mesh, the side gear's rotation at first touch
 //! must be the rotation at which `Engagement::pairs` begins to visit that pair.
 
@@ -25,7 +25,7 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, computed independently from docs/theory.md: the addendum of the larger gear is
+/// Addenda of planet and side gear, computed independently from docs/inside/theory.md: the addendum of the larger gear is
 /// given, and the working depth is 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
@@ -68,7 +68,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// q and x of docs/theory.md at side gear rotation `alpha`.
+    /// q and x of docs/inside/theory.md at side gear rotation `alpha`.
     fn position(&self, alpha: f64) -> [f64; 2] {
         [self.pair.sin_base()[1] * alpha - self.travel, self.x]
     }

@@ -5,7 +5,7 @@ changes their momentum are the drive, the torques of the shafts and drag. Inerti
 drive that imposes the carrier's speed must give follows from the torques of the meshes.
 
 INSTANT   of all terms at an instant: rounding
-SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/theory.md states
+SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/inside/theory.md states
 RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off
 SLIDING   slowest motion that tells in which direction a brake acts [rad/s]
 WARMER    of an oil that warms up: drag follows it by 0.1 K, in steps within which it changes as much [K]"""

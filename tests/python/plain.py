@@ -1,7 +1,7 @@
-"""The `tooth` model in plain Python: slow, in SI, written from the equations of docs/theory.md, not from the program.
+"""The `tooth` model in plain Python: slow, in SI, written from the equations of docs/inside/theory.md, not from the program.
 
 Spherical involute gears, the law of MSC Adams (IMPACT), every planet, both flanks, every pair of teeth, half-shafts.
-Friction and errors of teeth are left out. § names a section of docs/theory.md."""
+Friction and errors of teeth are left out. § names a section of docs/inside/theory.md."""
 
 from dataclasses import dataclass
 from math import acos, asin, atan, atan2, ceil, cos, pi, radians, sin, sqrt, tan

@@ -322,7 +322,7 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
         figures = richest.final([want.name for want in (each.want for each in problem.objectives) if want.name not in QUANTITIES])
     for name, figure in figures.items():
         assert told.models[model].figures[f"{name}:final"] == figure
-    # docs/cost.md: forces are right to 0.1 %, the swing of the transmission error to 9 %; root stress follows the forces and the
+    # docs/accuracy.md: forces are right to 0.1 %, the swing of the transmission error to 9 %; root stress follows the forces and the
     # load over the face
     assert abs(told.difference(model, "planet[1].left_transmission_error_peak_to_peak:final")) < 0.09
     assert abs(told.difference(model, "gears.mass:final")) == 0.0

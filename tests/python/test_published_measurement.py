@@ -1,6 +1,6 @@
 """Measurements that others published (tests/data/published_measurements.toml) against what the FMU makes of the inputs that they state.
 
-Nothing is fitted. docs/sweeps.md shows the figures as they come out, and each test finds its own there."""
+Nothing is fitted. docs/design.md shows the figures as they come out, and each test finds its own there."""
 
 import tomllib
 from math import log10
@@ -13,7 +13,7 @@ from bevel_differential.bench import scene_file
 
 ROOT = Path(__file__).parents[2]
 MEASURED = tomllib.loads((ROOT / "tests/data/published_measurements.toml").read_text(encoding="utf-8"))
-PAGE = (ROOT / "docs/sweeps.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/design.md").read_text(encoding="utf-8")
 # a wheel of usual radius, m: the publication has the speed of the car
 ZERO_CELSIUS, WHEEL = 273.15, 0.31
 # carrier and sides turn at one speed, and nothing but viscous drag takes power

@@ -1,5 +1,5 @@
 """Fatigue of teeth that stand in mesh, against another rainflow count: the package rainflow (ASTM E1049), with the S–N curve and
-the mean stress rule of docs/theory.md, section 10, written here once more."""
+the mean stress rule of docs/inside/theory.md, section 10, written here once more."""
 
 from math import log, pi, sin
 

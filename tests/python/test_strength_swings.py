@@ -3,7 +3,7 @@
 A tooth carries the load of its mesh over one pitch. It comes without load and leaves without load, so that all cycles of its passage
 close; all but the largest add to its damage. The passage itself counts as the mean damage of a cycle. Of a planet's tooth both roots are
 followed through both meshes, which load opposite flanks; a side gear's tooth meets each planet. S–N curve and mean stress are those of
-docs/theory.md, section 10, written once more in `test_strength_fatigue`."""
+docs/inside/theory.md, section 10, written once more in `test_strength_fatigue`."""
 
 from math import ceil, pi
 

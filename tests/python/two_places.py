@@ -1,4 +1,4 @@
-"""Outputs that show the same thing at two places, by the formulas of docs/theory.md and nothing of the program.
+"""Outputs that show the same thing at two places, by the formulas of docs/inside/theory.md and nothing of the program.
 
 Each function yields (what, one, other, scale): two values that must agree within `CLOSE` of the scale. What holds only for some
 scenes is yielded for those alone. `AtMost` in place of a value says that the other must not be below it."""

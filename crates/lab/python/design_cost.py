@@ -47,7 +47,7 @@ def cost(fmu, values, vary, designs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--designs", type=int, default=40, help="designs of each kind")
-    parser.add_argument("--write", action="store_true", help="renew the table of docs/optimisation.md")
+    parser.add_argument("--write", action="store_true", help="renew the table of docs/design.md")
     given = parser.parse_args()
     fmu = Fmu.of()
     rows = [("simulated", *(f"{what} drawn, ms" for what in DRAWN))]
@@ -56,7 +56,7 @@ def main():
         rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken)))
     print("\n".join(aligned(rows, left=1)))
     if given.write:
-        renew("docs/optimisation.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
+        renew("docs/design.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
 
 
 if __name__ == "__main__":

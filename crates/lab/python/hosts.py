@@ -203,7 +203,7 @@ def compared(bench, scenes):
 
 
 def page(results, absent, scenes):
-    """What is written into docs/fmi.md."""
+    """What is written into docs/inside/hosts.md."""
     rows = [["host", "import", "sets before the start", "FMI 2.0", "FMI 3.0"]]
     for host, (version, ran) in results.items():
         rows.append([f"{host.name} {version}", host.loader, host.sets, *(cell(found, scenes) for found in ran)])

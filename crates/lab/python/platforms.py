@@ -3,7 +3,7 @@
 usage: platforms.py SCENES FOLDER TOOL=FILE... NAME=FMU...
 
 Each FMU holds the library for one platform; the first one is what the others are compared with. Tools: wine runs one for win64,
-in fmpy's server; qemu one for aarch64-linux, in far.c, which zig builds in FOLDER. Prints the tables of docs/fmi.md; fails if any
+in fmpy's server; qemu one for aarch64-linux, in far.c, which zig builds in FOLDER. Prints the tables of docs/inside/hosts.md; fails if any
 bits differ, or if a library for macOS is not as it must be. A line "progress FRACTION WHAT" on standard error reports progress.
 """
 

@@ -3,7 +3,7 @@
 usage: solids.py FMU FOLDER [--quick]
 
 Simulates exact teeth, and solids of 4 to 128 facets per flank with two smoothings: nearly the deepest point alone, and the patch.
-Writes CSV files, study.md and pictures, and prints the section of docs/cost.md. Fails if the mean force of solids is too far from
+Writes CSV files, study.md and pictures, and prints the section of docs/inside/cost.md. Fails if the mean force of solids is too far from
 that of exact teeth."""
 
 import math

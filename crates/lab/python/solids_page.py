@@ -1,4 +1,4 @@
-"""What the numbers about facets say: tables and sentences for docs/cost.md and docs/study.md."""
+"""What the numbers about facets say: tables and sentences for docs/inside/cost.md and docs/study.md."""
 
 from bevel_differential.text import markdown
 from solids_errors import fitted
@@ -27,7 +27,7 @@ def percent(part, whole):
 
 
 def page(found):
-    """What is written into docs/cost.md."""
+    """What is written into docs/inside/cost.md."""
     parts = [_sentences(found)]
     for title, which in [("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", 1),
                          ("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", 0)]:

@@ -1,6 +1,6 @@
 //! Effects, each with one file and one line in the list. Parameters, switches, rows, heat, readings and the terms that
 //! act in a scene follow from this list. `effect_kinds` defines what an effect may declare and do;
-//! `docs/architecture.md` shows how to add one.
+//! `docs/inside/architecture.md` shows how to add one.
 
 mod bearing_drag;
 mod body_compliance;

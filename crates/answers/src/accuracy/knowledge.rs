@@ -1,5 +1,5 @@
 //! What even the richest model does not know, by output: a lower bound of its own error beside which an accuracy is to be
-//! read. Figures are those of docs/stiffness.md (3-D finite elements) and of the limitations in docs/theory.md.
+//! read. Figures are those of docs/inside/stiffness.md (3-D finite elements) and of the limitations in docs/inside/theory.md.
 
 use bevel_differential::variables::Variable;
 

@@ -53,7 +53,7 @@ fn measured(on: &str) -> Option<&'static Price> {
     prices().iter().find(|price| price.on == on)
 }
 
-/// Price of an evaluation of `p`: prices of effects add up (docs/cost.md).
+/// Price of an evaluation of `p`: prices of effects add up (docs/accuracy.md).
 fn price_of_evaluation(p: &Parameters) -> f64 {
     let base = match (p.scene.gear_contact, p.contact.law) {
         (GearContact::Lumped, _) => "lumped",

@@ -59,13 +59,13 @@ pub const ZERO_COST: Script = Script {
     options: || {
         vec![
             flag("quick", "Leave out what each effect costs when it is on").conflicts_with("write"),
-            flag("write", "Also renew the table in docs/effects.md"),
+            flag("write", "Also renew the table in docs/inside/cost.md"),
         ]
     },
     file: "crates/lab/python/zero_cost.py",
     doing: "counting",
     given: &[Given::Target(BUILD), Given::Made(effects_on)],
-    sections: &[("docs/effects.md", "off", "")],
+    sections: &[("docs/inside/cost.md", "off", "")],
     ..DEFAULTS
 };
 /// The folder in which both build the program that steps.
@@ -82,13 +82,13 @@ pub const REAL_TIME: Script = Script {
     options: || {
         vec![
             flag("quick", "Leave out steps of 10 µs").conflicts_with("write"),
-            flag("write", "Also renew the table in docs/cost.md"),
+            flag("write", "Also renew the table in docs/inside/cost.md"),
         ]
     },
     file: "crates/lab/python/real_time.py",
     doing: "counting",
     given: &[Given::Target("real-time"), Given::Target(BUILD), Given::Named("quick")],
-    sections: &[("docs/cost.md", "real-time", "")],
+    sections: &[("docs/inside/cost.md", "real-time", "")],
     ..DEFAULTS
 };
 
@@ -103,7 +103,7 @@ pub const SOURCES: Script = Script {
     options: || {
         vec![
             flag("quick", "Only gcc -O1, and six scenes"),
-            flag("write", "Also renew docs/fmi.md").conflicts_with("quick"),
+            flag("write", "Also renew docs/inside/hosts.md").conflicts_with("quick"),
         ]
     },
     needs: Needs::Tests,
@@ -111,7 +111,7 @@ pub const SOURCES: Script = Script {
     doing: "comparing",
     folder: Some("sources"),
     given: &[Given::Named("quick"), Given::Folder, Given::Made(sources::arguments)],
-    sections: &[("docs/fmi.md", "sources", "")],
+    sections: &[("docs/inside/hosts.md", "sources", "")],
     ..DEFAULTS
 };
 
@@ -124,7 +124,7 @@ pub const MUTANTS: Script = Script {
         vec![
             number("count", "COUNT", "120", "How many changes"),
             number("seed", "SEED", "1", "By which they are drawn"),
-            flag("write", "Also renew the report in docs/architecture.md"),
+            flag("write", "Also renew the report in docs/inside/architecture.md"),
         ]
     },
     needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter, fmpy"]),
@@ -132,7 +132,7 @@ pub const MUTANTS: Script = Script {
     doing: "trying changes",
     folder: Some("mutants/{seed}-{count}"),
     given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
-    sections: &[("docs/architecture.md", "mutants", "")],
+    sections: &[("docs/inside/architecture.md", "mutants", "")],
     ..DEFAULTS
 };
 
@@ -189,7 +189,7 @@ pub const HOSTS: Script = Script {
     options: || {
         vec![
             flag("require", "Fail if a host cannot be loaded"),
-            flag("write", "Also renew docs/fmi.md"),
+            flag("write", "Also renew docs/inside/hosts.md"),
             flag("with-fmi-sim", "Also run fmi-sim (builds for many minutes)"),
         ]
     },
@@ -198,7 +198,7 @@ pub const HOSTS: Script = Script {
     doing: "running hosts",
     folder: Some("hosts"),
     given: &[Given::Fmu, Given::PlainFmu, Given::Folder, Given::Named("require"), Given::Named("with-fmi-sim")],
-    sections: &[("docs/fmi.md", "hosts", "")],
+    sections: &[("docs/inside/hosts.md", "hosts", "")],
     ..DEFAULTS
 };
 
@@ -206,11 +206,11 @@ pub const HOSTS: Script = Script {
 pub const PLATFORMS: Script = Script {
     name: "platforms",
     about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
-    options: || vec![flag("write", "Also renew docs/fmi.md")],
+    options: || vec![flag("write", "Also renew docs/inside/hosts.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",
     doing: "comparing",
     given: &[Given::Made(platforms::arguments)],
-    sections: &[("docs/fmi.md", "platforms", "")],
+    sections: &[("docs/inside/hosts.md", "platforms", "")],
     ..DEFAULTS
 };

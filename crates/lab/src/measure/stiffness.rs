@@ -9,7 +9,7 @@ use clap::Args;
 use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::sections;
 
-const DOCUMENT: &str = "docs/stiffness.md";
+const DOCUMENT: &str = "docs/inside/stiffness.md";
 /// The marks around the tables.
 const MARKS: [&str; 2] = ["<!-- stiffness:begin -->", "<!-- stiffness:end -->"];
 /// The reference.
@@ -27,7 +27,7 @@ const PER_MM_UM: f64 = 1e9;
 /// Compares the stiffness of each law with 3-D finite elements of several gears
 #[derive(Args, Clone, Debug)]
 pub struct StiffnessCommand {
-    /// Also renew the tables in docs/stiffness.md
+    /// Also renew the tables in docs/inside/stiffness.md
     #[arg(long)]
     write: bool,
 }

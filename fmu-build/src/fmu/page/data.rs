@@ -95,7 +95,7 @@ fn assignments(settings: &[Setting]) -> Value {
     settings.iter().map(|setting| (setting.row.name.to_owned(), value(setting))).collect::<Map<_, _>>().into()
 }
 
-/// What each effect alone costs, as a multiple of plain teeth, from the last measurement (docs/cost.md).
+/// What each effect alone costs, as a multiple of plain teeth, from the last measurement (docs/accuracy.md).
 fn prices() -> Result<Vec<Value>> {
     let file = paths::workspace().join("crates").join("answers").join("data").join("prices.csv");
     let mut reader =

@@ -1,4 +1,4 @@
-"""Stresses that the rating uses, each with the strength that it is compared with (docs/theory.md, section 10), and safety; and
+"""Stresses that the rating uses, each with the strength that it is compared with (docs/inside/theory.md, section 10), and safety; and
 whether safety and damage are those of the start, where teeth that carried nothing met their load with a blow."""
 
 import math

@@ -179,7 +179,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
              mapper: Callable[..., Iterable[EventDamage]] = map) -> SpectrumResult:
     """Damage and life of the gears over a duty cycle, a `SpectrumResult`.
 
-    `cycle`: a CSV file (docs/spectrum.md), or a sequence of `Event`. `parameters`: {name: value} for all events, of the FMU as
+    `cycle`: a CSV file (docs/design.md), or a sequence of `Event`. `parameters`: {name: value} for all events, of the FMU as
     `Differential` takes them, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene
     whose `[set]` comes before. `order`: of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: evaluates events,
     as `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
