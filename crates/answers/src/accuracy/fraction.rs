@@ -1,11 +1,11 @@
-//! Accuracies as users write them.
+//! Accuracies in the notation of users.
 
 use crate::problem::{Problem, Problems};
 
-/// Finest accuracy that may be asked for: references are computed ten thousand times finer.
+/// Finest accuracy that users may request: references are computed ten thousand times finer.
 const FINEST: f64 = 1e-6;
 
-/// The fraction that `text` says: "1%", "1 %" or "0.01".
+/// Parses a fraction: "1%", "1 %" or "0.01".
 pub fn fraction(text: &str) -> Result<f64, Problems> {
     let problem = |what: &str| {
         Problems::from(Problem::of("within", text, format!("within {text}: {what}; write it as 1% or 0.01")))
