@@ -1,4 +1,4 @@
-// Where lines of contact are drawn, and what the contact pattern keeps: node --test.
+// Tests of contact lines and of the contact pattern: node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
@@ -33,7 +33,7 @@ for (const [planet, side, carrier, sense] of [[0, 1, 0, 1], [0, 1, 0.7, -1], [1,
       near(direction.length(), 1);
       near(direction.angleTo(outward), polar);
       near(direction.dot(normal), 0);
-      // beyond the pitch line toward the planet's tip, contact is nearer to the side gear's axis
+      // from the pitch line toward the planet's tip, contact is closer to the side gear's axis
       assert.ok(direction.angleTo(axis) < line.angleTo(axis) === polar > PITCH);
     }
   });

@@ -1,5 +1,5 @@
-// Every parameter and input can be set from the page and comes back through the link: npm test, with DATA the
-// page's data.json.
+// Every parameter and input can be set in the page and is restored by the link: npm test, with the page's data.json as
+// DATA.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -10,7 +10,7 @@ import { readValue, readValueInSI } from "./value.js";
 const table = new Table(JSON.parse(readFileSync(process.env.DATA, "utf8")));
 const settable = table.variables.filter(({ causality }) => ["parameter", "input"].includes(causality));
 
-// A value of the variable that is not that of the scene.
+// Returns a value of the variable that differs from the scene.
 function other({ kind, start, min, max, literals }) {
   if (kind === "Boolean") return !start;
   if (kind === "Enumeration") return literals.find(({ value }) => value !== start)?.value ?? start;

@@ -1,4 +1,4 @@
-// The guided walk: five set-ups, and what to see in each.
+// Guided walk: five set-ups with explanations.
 
 export const STEPS = [
   {
@@ -38,8 +38,8 @@ export const STEPS = [
 ];
 
 export class Walk {
-  // `host` holds elements by data-walk: title, text, place, back, next, close; `go(step)` sets the page up;
-  // `opened(whether)` makes room for it.
+  // `host` contains elements by data-walk: title, text, place, back, next, close; `go(step)` applies a set-up;
+  // `opened(isOpen)` adapts the layout.
   constructor(host, go, opened) {
     this.opened = opened;
     this.host = host;
