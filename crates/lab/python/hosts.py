@@ -133,7 +133,7 @@ class Bench:
         self.fmu, self.plain, self.folder, self.with_fmi_sim = fmu, plain, folder, with_fmi_sim
         self.three = fmu.with_name(f"{fmu.stem}3.fmu")
         self.needs = {each.name: {each.type, each.causality} for each in read_model_description(str(self.three)).modelVariables}
-        self.fmi_sim = "left out without --with-fmi-sim, as its build takes minutes"
+        self.fmi_sim = "left out without --with-fmi-sim, because its build takes minutes"
         if with_fmi_sim:
             say(0.0, "building fmi-sim (many minutes)")
             root = folder / FMI_SIM

@@ -182,7 +182,7 @@ class MacOS(Platform):
 
     def described(self):
         found = binaries.of_macos(self.binary)
-        assert set(found) == set(binaries.PROCESSORS.values()), f"{self.name} has code for {', '.join(found)} alone"
+        assert set(found) == set(binaries.PROCESSORS.values()), f"{self.name} has code only for {', '.join(found)}"
         for processor, library in found.items():
             assert library.signature == "ad hoc", f"{self.name}, {processor}: signature {library.signature}"
             assert not library.searched and all(name.startswith("@rpath/") for name in library.own_name), f"{self.name}: a path"

@@ -157,7 +157,7 @@ def measure(fmu, folder, plan, begin, end):
             try:
                 samples, counts = case.samples(method, value, plan.patience)
                 found = errors(exact, samples)
-                status, message = ("ok", "") if all(map(math.isfinite, found)) else ("failed", "results are no numbers")
+                status, message = ("ok", "") if all(map(math.isfinite, found)) else ("failed", "results are not finite")
             except DifferentialError as why:
                 status, message, found, counts = "failed", str(why), [math.nan] * 2, ["nan"] * 4
             first = time.process_time() - begun

@@ -105,7 +105,7 @@ def cases_of(fmu, folder, seed, index):
         for within in WITHIN:
             answer = accuracy(scene, want, within, from_=START * scene.stop)
             if answer.use is None:
-                raise DifferentialError("nothing comes to its end")
+                raise DifferentialError("no run finishes")
             reference = answer.answer["reference"]
             if independent is None:
                 # one run for all quantities of a scene, based on the finest of the references

@@ -73,8 +73,8 @@ static void with_allocation(void) {
     for (k = 0; k < MANY; ++k) references[k] = 200;
     stepped(c, 1);
     before = allocator_calls(c);
-    expect(before > 0, "an instance allocates as it begins");
-    expect(fmi2DoStep(c, 1e-3, 1e-3, fmi2True) == fmi2OK && fmi2GetReal(c, references, 100, values) == fmi2OK, "an instance goes on");
+    expect(before > 0, "an instance allocates at its start");
+    expect(fmi2DoStep(c, 1e-3, 1e-3, fmi2True) == fmi2OK && fmi2GetReal(c, references, 100, values) == fmi2OK, "an instance continues");
     expect(allocator_calls(c) == before, "steps allocate nothing");
     expect(fmi2GetReal(c, references, MANY, values) == fmi2OK && allocator_calls(c) > before, "an allocation is noticed");
     fmi2FreeInstance(c);
@@ -86,23 +86,23 @@ static void with_traps(void) {
     fmi2Real before, after = 0.0;
     const fmi2ValueReference reference = 200;
     int k;
-    for (k = 0; k < BD_INSTANCES; ++k) expect((all[k] = made(guid())) != NULL, "there are all instances");
-    expect(!made(guid()) && strstr(last, "BD_INSTANCES"), "one more is refused, and how there are more is told");
+    for (k = 0; k < BD_INSTANCES; ++k) expect((all[k] = made(guid())) != NULL, "all instances are created");
+    expect(!made(guid()) && strstr(last, "BD_INSTANCES"), "one more is refused, and the message names the limit");
     before = stepped(all[0], 3);
     stepped(all[1], 3);
     /* states */
-    expect(fmi2GetFMUstate(all[0], &state) == fmi2OK && state, "a state is kept");
+    expect(fmi2GetFMUstate(all[0], &state) == fmi2OK && state, "a state is saved");
     expect(fmi2SetFMUstate(all[1], state) == fmi2Error, "a state of another instance is refused");
-    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2False) == fmi2OK && fmi2SetFMUstate(all[0], state) == fmi2OK, "a state is gone back to");
-    expect(fmi2GetReal(all[0], &reference, 1, &after) == fmi2OK && after == before, "it is the state of before");
+    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2False) == fmi2OK && fmi2SetFMUstate(all[0], state) == fmi2OK, "a state is restored");
+    expect(fmi2GetReal(all[0], &reference, 1, &after) == fmi2OK && after == before, "it is the saved state");
     expect(fmi2FreeFMUstate(all[0], &state) == fmi2OK && !state, "a state is freed");
     /* a stack at its end: the next call accesses an address outside memory */
     ((bd_unit *)all[1])->machine.g0 = 64;
-    expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal && strstr(last, "access outside"), "a trap is fatal, and told");
+    expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal && strstr(last, "access outside"), "a trap is fatal and reported");
     expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal, "the instance is lost");
-    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2True) == fmi2OK, "another lives on");
+    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2True) == fmi2OK, "another instance still works");
     fmi2FreeInstance(all[1]);
-    expect((all[1] = made(guid())) != NULL && stepped(all[1], 3) == before, "its place is as good as new");
+    expect((all[1] = made(guid())) != NULL && stepped(all[1], 3) == before, "its memory works for a new instance");
     for (k = 0; k < BD_INSTANCES; ++k) fmi2FreeInstance(all[k]);
 }
 

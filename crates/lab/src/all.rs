@@ -57,7 +57,9 @@ impl AllCommand {
     pub fn run(&self) -> Result<()> {
         if let Some(unknown) = self.only.iter().find(|name| COMMANDS.iter().all(|words| words[0] != name.as_str())) {
             let names = COMMANDS.map(|words| words[0]).join(", ");
-            return Err(question_error(format!("{unknown} is no command that is run here; there are {names}")));
+            return Err(question_error(format!(
+                "{unknown} is not a command that is run here; the commands are {names}"
+            )));
         }
         let folder = paths::target().join("all");
         fs::create_dir_all(&folder)?;

@@ -19,7 +19,7 @@ export class Library {
     this.exports = exports;
     this.component = exports.page_instantiate();
     this.said();
-    if (!this.component) throw new Refused("the library makes no instance");
+    if (!this.component) throw new Refused("the library cannot create an instance");
     // also log warnings
     this.exports.fmi2SetDebugLogging(this.component, 1, 0, 0);
     this.rooms = new Map();

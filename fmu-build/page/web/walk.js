@@ -5,7 +5,7 @@ export const STEPS = [
     title: "Straight ahead",
     fragment: "scene=study_straight&show=carrier.speed+left.speed+left.normal_force+right.normal_force",
     text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
-      + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
+      + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all equal.",
   },
   {
     title: "A turn",

@@ -50,7 +50,7 @@ static void bd_side_by_side(const f64 *x, const f64 *y, const f64 *z, f64 *to) {
 
 const char *bd_arithmetic_differs(void) {
     const f64 e = DBL_EPSILON;
-    static const char fused[] = "products and sums are fused; compile with -ffp-contract=off, so that results are those of other machines";
+    static const char fused[] = "products and sums are fused; compile with -ffp-contract=off, so that results equal those of other machines";
     f64 x[3][2], to[2];
     int k;
     for (k = 0; k < 6; ++k) x[k / 2][k % 2] = bd_pairs[k / 2][k % 2];

@@ -102,7 +102,7 @@ fmi2Status bd_died(bd_unit *u, int reason) {
         append(text, sizeof text, *words ? ": " : "");
         append(text, sizeof text, words);
     }
-    append(text, sizeof text, "; this instance is lost, others live on");
+    append(text, sizeof text, "; this instance is lost, the others still work");
     say(u, fmi2Fatal, "logStatusError", text);
     return fmi2Fatal;
 }

@@ -27,7 +27,7 @@ const USE: [&str; 5] = [
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
      half-shaft.",
     "For a turn, set scene.planet_spin to imposed (2) and spin.command to the spin of the planets.",
-    "Parameters of the group effects switch effects on and off; the group with the name of an effect holds its parameters.",
+    "Parameters of the group effects switch effects on and off; the group with the name of an effect contains its parameters.",
     "Read the host's log: each warning and error names the variable, its value and what is allowed.",
 ];
 const UNITS: [&str; 3] = [

@@ -51,7 +51,7 @@ impl ToolchainsCommand {
     pub fn run(&self) -> Result<()> {
         if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
             bail!(
-                "the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone"
+                "the tool chains are programs for Linux on x86-64; elsewhere the FMU contains only this machine's library"
             );
         }
         let wanted = |name: &str| self.platform.as_deref().is_none_or(|only| only == name);

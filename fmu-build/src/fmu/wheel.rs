@@ -29,14 +29,14 @@ const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Builds target/wheel/bevel_differential-VERSION-py3-none-PLATFORMS.whl, the Python package with the FMU in it
 ///
-/// The FMU holds the libraries of the platforms chosen, of all whose tool chains are installed if none is. Tool chains come from
-/// the command `toolchains`.
+/// The FMU contains the libraries of the selected platforms, or of all platforms whose tool chains are installed. The command
+/// `toolchains` installs tool chains.
 #[derive(Args, Clone, Debug)]
 pub struct WheelCommand {
-    /// Platforms that the FMU in the wheel is for
+    /// Platforms of the FMU in the wheel
     #[arg(long, value_enum, value_delimiter = ',')]
     platforms: Vec<Platform>,
-    /// Write what the wheel holds beside Python's files to this folder, and no wheel; `pip install ./python` asks for it
+    /// Instead of a wheel, write its contents other than Python's files to this folder (used by `pip install ./python`)
     #[arg(long, value_name = "FOLDER")]
     parts: Option<PathBuf>,
 }

@@ -25,8 +25,8 @@ pub fn target() -> PathBuf {
 
 /// Path of the dynamic library of a crate that cargo built together with this program.
 pub fn built(package: &str) -> Result<PathBuf> {
-    let program = env::current_exe().context("this program does not know its own file")?;
-    let beside = program.parent().context("this program lies in no folder")?;
+    let program = env::current_exe().context("the path of this program is unknown")?;
+    let beside = program.parent().context("the folder of this program is unknown")?;
     // programs of tests are in the folder of their dependencies
     let deps = if beside.ends_with("deps") { beside.to_path_buf() } else { beside.join("deps") };
     Ok(deps.join([env::consts::DLL_PREFIX, &package.replace('-', "_"), env::consts::DLL_SUFFIX].concat()))

@@ -59,7 +59,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     );
     let text = format!("{head}{document}");
     let again = load::parse(&answer.scene.name, &answer.scene.file, &text).context("the chosen scene")?;
-    ensure!(again.parameters == wanted, "the chosen scene does not come out as it was run");
+    ensure!(again.parameters == wanted, "the written scene differs from the scene that was run");
     Ok(text)
 }
 
@@ -140,13 +140,13 @@ fn stands(set: &Item, name: &str) -> bool {
 /// Sets a variable in its existing entry, or adds an entry.
 fn put(set: &mut Item, name: &str, value: Value) -> Result<()> {
     let inline = set.is_inline_table();
-    let mut table = set.as_table_like_mut().context("set is no table")?;
+    let mut table = set.as_table_like_mut().context("set is not a table")?;
     let mut key = name;
     if let Some((group, last)) = name.split_once('.')
         && !table.contains_key(name)
     {
         let group = table.entry(group).or_insert_with(|| dotted(inline));
-        table = group.as_table_like_mut().with_context(|| format!("{name} stands in no table"))?;
+        table = group.as_table_like_mut().with_context(|| format!("{name} is not in a table"))?;
         key = last;
     }
     let item = table.entry(key).or_insert_with(|| Item::Value(value.clone()));

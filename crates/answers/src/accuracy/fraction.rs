@@ -15,9 +15,9 @@ pub fn fraction(text: &str) -> Result<f64, Problems> {
         Some(number) => (number.trim_end(), 100.0),
         None => (trimmed, 1.0),
     };
-    let value = number.parse::<f64>().map_err(|_| problem("is no number"))? / per;
+    let value = number.parse::<f64>().map_err(|_| problem("is not a number"))? / per;
     if !value.is_finite() {
-        return Err(problem("is no number"));
+        return Err(problem("is not a number"));
     }
     if value < FINEST {
         return Err(problem(if value > 0.0 {

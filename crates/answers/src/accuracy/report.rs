@@ -247,7 +247,7 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
                 None => "were not tried".into(),
             };
             let acts = if *now > 0.0 {
-                format!("changes {} by other steps of the integrator alone", percent(*now))
+                format!("changes {} only through other steps of the integrator", percent(*now))
             } else {
                 "changes nothing".into()
             };

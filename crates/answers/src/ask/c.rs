@@ -38,7 +38,7 @@ pub unsafe extern "C" fn bd_ask(
             return reply(Err(Refusal::unreadable("there is no question: the pointer is null")), &[]);
         }
         if numbers.is_null() && count > 0 {
-            return reply(Err(Refusal::unreadable(format!("{count} numbers are said to be at null"))), &[]);
+            return reply(Err(Refusal::unreadable(format!("the pointer to {count} numbers is null"))), &[]);
         }
         // SAFETY: the caller's promise
         let question = unsafe { CStr::from_ptr(question) };

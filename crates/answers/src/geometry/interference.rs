@@ -46,7 +46,7 @@ impl InterferenceCheck {
         let stopped = AtomicBool::new(false);
         let look = |stance, go_on: &mut dyn FnMut() -> bool| {
             let found = Interference::stoppable(&pair, &spec, stance, go_on);
-            found.context("the gears have no surface to look at")
+            found.context("the gears have no surface to check")
         };
         let (middle, driving) = std::thread::scope(|scope| {
             let driving = scope.spawn(|| look(Stance::Driving, &mut || !stopped.load(Ordering::Relaxed)));
@@ -57,7 +57,7 @@ impl InterferenceCheck {
             (middle, driving.join())
         });
         progress.check_stopped()?;
-        let driving = driving.map_err(|_| anyhow::anyhow!("the check of interference broke off"))??;
+        let driving = driving.map_err(|_| anyhow::anyhow!("the interference check stopped"))??;
         Ok(Self { stances: [middle?, driving], pair, spec, thicken })
     }
 
@@ -82,8 +82,8 @@ impl InterferenceCheck {
             out += &wrapped(&format!("{number}. {heading}: {finding}."));
         }
         out += &wrapped(&format!(
-            "Looked at: {POSITIONS} positions of a tooth pitch of the planet, and more about the worst; outlines of {FACETS} \
-             facets per flank; right to {:.4} mm at the heel. {}",
+            "Checked: {POSITIONS} positions over a tooth pitch of the planet, and more around the worst; outlines of {FACETS} \
+             facets per flank; accurate to {:.4} mm at the heel. {}",
             self.heel(self.stances[0].resolution),
             self.meshes()
         ));
@@ -179,7 +179,7 @@ impl InterferenceCheck {
             all.map(|(i, side, _)| format!("planet {} {side}", i + 1)).collect()
         };
         let (first, second) = (named(0.0), named(0.5));
-        let same = "All meshes pass through the same positions, so one stands for all";
+        let same = "All meshes pass through the same positions, so one represents all";
         if second.is_empty() {
             return format!("{same}; they are in step.");
         }

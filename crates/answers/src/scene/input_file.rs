@@ -92,8 +92,7 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
         }
         match input(name, unit) {
             Ok(row) if columns.iter().any(|column| column.row.name == row.name) => {
-                problems
-                    .push(format!(", column {header_cell}: the input stands here twice; remove one of the columns"));
+                problems.push(format!(", column {header_cell}: the input is here twice; remove one of the columns"));
             }
             Ok(row) => columns.push(Column {
                 place,
@@ -127,14 +126,14 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
 }
 
 fn wrong_time_unit(header_cell: &str, unit: &str) -> String {
-    format!(", column {header_cell}: {unit} is no unit of time; write one of {}", units::times().join(", "))
+    format!(", column {header_cell}: {unit} is not a unit of time; write one of {}", units::times().join(", "))
 }
 
 /// Finds the input `name` if it may be given in `unit`.
 fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
     let row = variable(name)?;
     if !matches!(row.access, Access::Input(_)) {
-        return Err(format!("{name} is not an input; parameters stand in [set]"));
+        return Err(format!("{name} is not an input; parameters belong in [set]"));
     }
     if !unit.is_empty() {
         units::check(row, unit)?;

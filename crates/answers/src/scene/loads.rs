@@ -130,7 +130,7 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
         if planets.len() > 1 {
             writeln!(
                 out,
-                "# planet {} stands for planets {}, whose loads are alike",
+                "# planet {} stands for planets {}, whose loads are equal",
                 group.planet + 1,
                 planets.join(", ")
             )?;

@@ -15,9 +15,9 @@ use crate::text::{numbers, shown};
 /// Description of a cost class.
 fn meaning(cost: CostClass) -> &'static str {
     match cost {
-        CostClass::ClosedForm => "closed form: no teeth, a step is a formula, whatever its length",
+        CostClass::ClosedForm => "closed form: no teeth, a step of any length is a formula",
         CostClass::Ideal => "effects without teeth: integrated, with no motion faster than the effects' own",
-        CostClass::Teeth => "plain teeth: stiff, integrated step by step; nothing is evaluated but the tooth pairs",
+        CostClass::Teeth => "plain teeth: stiff, integrated step by step; only the tooth pairs are evaluated",
         CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
         CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",
     }
@@ -42,7 +42,7 @@ fn cost(scene: &Scene) -> Option<String> {
     let ratio = numbers::significant(simulated / taken, 2);
     let all = numbers::significant(scene.stop_time * taken / simulated, 2);
     Some(format!(
-        "{ratio} x real time on this machine, {all} s for all, as the first {} s take",
+        "{ratio} x real time on this machine, {all} s for the whole scene, extrapolated from the first {} s",
         units::six_digits(simulated)
     ))
 }

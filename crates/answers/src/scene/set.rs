@@ -153,7 +153,7 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
         (Access::Output(_), _) => Err("is an output, which cannot be set; name it under outputs".into()),
         (Access::Real(_) | Access::Input(_), value) => real(row, value).map(SettingValue::Real),
         (Access::Integer(_), Value::Integer(number)) => {
-            let small = i32::try_from(*number).map_err(|_| "is no number that fits".to_owned())?;
+            let small = i32::try_from(*number).map_err(|_| "is not a whole number of 32 bits".to_owned())?;
             check_value(row, f64::from(small)).map_err(|problem| problem.message)?;
             Ok(SettingValue::Integer(small))
         }
@@ -172,8 +172,8 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
             let Value::String(name) = value else { return Err(format!("must be one of {allowed}{removed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
                 Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None if removed.is_empty() => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
-                None => Err(format!("is none of {allowed}{removed}")),
+                None if removed.is_empty() => Err(format!("is not one of {allowed}{}", near::hint(name, names()))),
+                None => Err(format!("is not one of {allowed}{removed}")),
             }
         }
     }

@@ -59,7 +59,7 @@ def built(repository, folder, draw, command):
         if not wrong:
             raise SystemExit(f"the source does not compile: {errors[:3]}")
         refused |= wrong
-    raise SystemExit("too many changes are no programs")
+    raise SystemExit("too many changes do not compile")
 
 
 def _compiled(source, folder, command):

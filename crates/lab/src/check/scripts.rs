@@ -55,7 +55,7 @@ fn newest(folder: &Path, begin: &str) -> Option<PathBuf> {
 /// Cost of inactive effects: bits, and instructions counted by valgrind.
 pub const ZERO_COST: Script = Script {
     name: "zero-cost",
-    about: "Checks that effects that are off cost nothing, by bits and instructions of a build without any (needs valgrind)",
+    about: "Checks that inactive effects cost nothing, compared with a build without effects in bits and instructions (needs valgrind)",
     options: || {
         vec![
             flag("quick", "Leave out what each effect costs when it is on").conflicts_with("write"),
@@ -95,9 +95,9 @@ pub const REAL_TIME: Script = Script {
 /// Check of the unit as sources in C: bits, warnings, calls of the C library, time to compile, traps.
 pub const SOURCES: Script = Script {
     name: "sources",
-    about: "Checks that the unit as sources in C gives the same bits by several compilers, on x86-64 and on ARM under qemu",
+    about: "Checks that the unit as sources in C gives the same bits with several compilers, on x86-64 and on ARM under qemu",
     more: Some(
-        "It takes the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
+        "It needs the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
          libc6-dev-arm64-cross qemu-user. What is not there is left out.",
     ),
     options: || {
@@ -119,11 +119,11 @@ pub const SOURCES: Script = Script {
 /// compiled together, and tested one by one.
 pub const MUTANTS: Script = Script {
     name: "mutants",
-    about: "Changes the source in one place at a time and lists the changes that no test notices (goes on where it was stopped)",
+    about: "Changes the source in one place at a time and lists the changes that no test notices (continues where it was stopped)",
     options: || {
         vec![
-            number("count", "COUNT", "120", "How many changes"),
-            number("seed", "SEED", "1", "By which they are drawn"),
+            number("count", "COUNT", "120", "Number of changes"),
+            number("seed", "SEED", "1", "Seed of the draw"),
             flag("write", "Also renew the report in docs/architecture.md"),
         ]
     },
@@ -142,8 +142,8 @@ pub const COEFFICIENTS: Script = Script {
     about: "Makes coefficients of the physics 2 % larger, one at a time, and lists what `verify` notices",
     options: || {
         vec![
-            number("count", "COUNT", "20", "How many coefficients"),
-            number("seed", "SEED", "1", "By which they are drawn"),
+            number("count", "COUNT", "20", "Number of coefficients"),
+            number("seed", "SEED", "1", "Seed of the draw"),
             flag("write", "Also renew docs/coefficients.csv"),
         ]
     },
@@ -161,11 +161,11 @@ pub const COEFFICIENTS: Script = Script {
 pub const DRIVES: Script = Script {
     name: "drives",
     about: "Checks random ordinary drives: launches, stops, holds, turns and parking of vehicles from a pedal car to a truck",
-    more: Some("Drives come by turns from three seeds. A drive that violates a requirement is written as JSON."),
+    more: Some("Drives alternate between three seeds. A drive that violates a requirement is written as JSON."),
     options: || {
         let index = Arg::new("index").long("index").value_name("INDEX").value_parser(value_parser!(u64));
         vec![
-            number("count", "COUNT", "1000", "How many drives"),
+            number("count", "COUNT", "1000", "Number of drives"),
             number("seed", "SEED", "1", "The first of the three seeds"),
             index.help("Only this drive of the first seed, in detail"),
         ]
@@ -206,7 +206,7 @@ pub const HOSTS: Script = Script {
 /// Comparison of the libraries for all platforms that something here can run: bits of all outputs, and times.
 pub const PLATFORMS: Script = Script {
     name: "platforms",
-    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
+    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects the one for macOS",
     options: || vec![flag("write", "Also renew docs/fmi.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",

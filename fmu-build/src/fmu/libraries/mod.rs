@@ -39,7 +39,7 @@ pub fn build() -> Result<Libraries> {
     }
     built.push(old_linux.map_or_else(own::for_this_machine, Ok)?);
     if !CROSS {
-        left_out.push(format!("the FMU holds {} alone", HOST.0));
+        left_out.push(format!("the FMU contains only {}", HOST.0));
         return Ok(Libraries { built, left_out, ships });
     }
     let others = [("win64", windows::x86_64()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)];

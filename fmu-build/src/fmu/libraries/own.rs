@@ -63,7 +63,7 @@ pub fn beside_program() -> Result<PathBuf> {
 /// Finds the library of `package` that cargo built next to this program.
 fn beside(package: &str) -> Result<PathBuf> {
     ensure!(!cfg!(debug_assertions), "this program was built without --release");
-    let program = env::current_exe().context("this program does not know its own file")?;
+    let program = env::current_exe().context("the path of this program is unknown")?;
     let library = paths::built(package)?;
     // one compilation links program and library, the program last, so a newer library is from another compilation
     let written = |file: &Path| -> Result<SystemTime> {

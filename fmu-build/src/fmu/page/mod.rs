@@ -36,8 +36,8 @@ const PACK: &str = "import lzma, sys; from pathlib import Path; \
 
 /// Builds target/page/BevelDifferential.html, the differential live in a browser
 ///
-/// The page is one file that needs no server. It takes the tool chain `toolchains wasm`, and node with npm, which gets three.js,
-/// uPlot and esbuild.
+/// The page is one file that needs no server. It needs the tool chain `toolchains wasm`, and node with npm, which downloads
+/// three.js, uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
 pub struct PageCommand {
     /// Compile the library in less time: slower in the browser, the same results
@@ -55,7 +55,9 @@ impl PageCommand {
             );
         };
         if Command::new("npm").arg("--version").output().is_err() {
-            bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
+            bail!(
+                "npm, which downloads three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)"
+            );
         }
         let progress = Progress::start("building the library for browsers");
         let _alone = Lock::of(&paths::page())?;
@@ -85,7 +87,7 @@ fn bundle(library: &Path) -> Result<PathBuf> {
     write_whole(&data, &serde_json::to_vec(&data::data()?)?)?;
     let mut npm = Command::new("npm");
     npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
-    finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
+    finish(&mut npm, "three.js and uPlot cannot be downloaded (check the network)")?;
     let page = folder.join(FILE);
     make_whole(&page, |part| {
         let mut node = Command::new("node");

@@ -95,7 +95,7 @@ pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> Cal
     let outcome = outcome.unless(c.is_null() && is_silent, "refused without a line in the log");
     outcome.unless(
         c.is_null() == is_right,
-        if is_right { "refused though all is right" } else { "made though something is wrong" },
+        if is_right { "refused although everything is valid" } else { "created although something is invalid" },
     )
 }
 
