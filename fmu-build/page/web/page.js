@@ -83,9 +83,9 @@ export class Page {
     this.shownScene = this.setup.scene.name;
     this.look(this.setup.view);
     this.changed();
-    this.odd = odd.length > 0 ? `The address has what this page does not know: ${odd.join(", ")}. ` : "";
+    this.odd = odd.length > 0 ? `The address contains unknown words: ${odd.join(", ")}. ` : "";
     for (const { name, text } of faults) this.controls.complain(name, text);
-    if (faults.length > 0) this.odd += `The address has values that are left out: ${faults.map(({ name }) => name).join(", ")}. `;
+    if (faults.length > 0) this.odd += `The address contains invalid values, which are left out: ${faults.map(({ name }) => name).join(", ")}. `;
     if (this.odd) this.notice.say(this.odd, true);
   }
 
@@ -166,7 +166,7 @@ export class Page {
   trapped(text) {
     this.isOver = true;
     this.shapes.standIn();
-    this.notice.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true);
+    this.notice.say(`The simulation failed and was restarted; your set-up is kept. Change a value to try again. (${text})`, true);
   }
 
   refuse(text) {

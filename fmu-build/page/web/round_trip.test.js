@@ -19,7 +19,7 @@ function other({ kind, start, min, max, literals }) {
   return value === start ? min + (max - min) / 7 : value;
 }
 
-test("every parameter and input comes back through the link to the last bit", () => {
+test("the link restores every parameter and input to the last bit", () => {
   assert.ok(settable.length > 100);
   for (const variable of settable) {
     const [here, there] = [new Setup(table), new Setup(table)];
@@ -32,7 +32,7 @@ test("every parameter and input comes back through the link to the last bit", ()
   }
 });
 
-test("all of them at once, with view, colours, traces and duration", () => {
+test("the link restores all of them together, with view, colours, traces and duration", () => {
   const [here, there] = [new Setup(table), new Setup(table)];
   here.choose("clunk");
   for (const variable of settable) here.set(variable.name, other(variable));
@@ -43,7 +43,7 @@ test("all of them at once, with view, colours, traces and duration", () => {
   assert.deepEqual(there.compiled(), here.compiled());
 });
 
-test("what is no value stays out with a message that names the variable, and what is unknown is named", () => {
+test("invalid values are left out with a message that names the variable, and unknown words are named", () => {
   const setup = new Setup(table);
   const { odd, faults } = setup.read("#scene=nowhere&geometry.module=big&effects.strength=perhaps&geometry.planet_teeth=9.5"
     + "&scene.gear_contact=glue&view=inside&constructor=1&stop_time=Infinity&left.speed=3&show=nothing");
@@ -54,7 +54,7 @@ test("what is no value stays out with a message that names the variable, and wha
   for (const name of names) assert.ok(!setup.isOwn(name));
 });
 
-test("what only the library can judge goes to it: NaN, and numbers out of range", () => {
+test("NaN and numbers out of range are left to the library", () => {
   const module = table.find("geometry.module");
   assert.ok(Number.isNaN(readValueInSI(module, "NaN").value));
   assert.equal(readValue(module, "-1e3").value, -1e3 / module.factor);

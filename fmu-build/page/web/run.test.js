@@ -31,7 +31,7 @@ function called(slopes) {
   return calls;
 }
 
-test("a run asks for the schedule of its scene and makes its calls in order", () => {
+test("a run requests the schedule of its scene and executes its calls in order", () => {
   assert.deepEqual(called(true), [
     ["schedule", [1, 0.5, 3, 0, 0.2, 0.2, 2, 0, 0, 0, 1, 0, 8, 1, 0.5, 0, 0, 5], 8],
     ["start", [[7, 3], [1, 0], [2, 5]], 1],

@@ -21,7 +21,7 @@ function rolling(angles) {
   });
 }
 
-test("planets roll once they have turned half a pitch, and not while they stand or rock within a pitch", () => {
+test("planets roll after they have turned half a pitch, but not while they stand still or rock within a pitch", () => {
   assert.deepEqual(rolling([0, 0.4 * PITCH, 0.6 * PITCH, 0.8 * PITCH]).slice(2), [true, true]);
   assert.equal(rolling([0, 0.4 * PITCH, 0.4 * PITCH])[1], false);
   assert.ok(rolling([0, 0.4, -0.4, 0.4, -0.4].map((share) => share * PITCH)).every((each) => !each));
@@ -34,14 +34,14 @@ const VALUES = {
 };
 const setup = { value: (name) => VALUES[name] };
 
-test("the radius at the pitch point is that of two involutes, and Hertz's pressure of the study follows", () => {
+test("the radius at the pitch point follows from two involutes and gives Hertz's pressure of the study", () => {
   const { modulus, face, radius } = contactOf(setup);
   // one pair at the pitch point transmits 16 144 N at the mean cone
   const pressure = Math.sqrt((16144 * modulus) / (Math.PI * face * radius));
   assert.ok(Math.abs(pressure / 2384.6e6 - 1) < 1e-4, `${pressure}`);
 });
 
-test("a scale ends at the largest pressure outside the seam, where the radius has fallen below a quarter", () => {
+test("a scale ends at the largest pressure outside the seam, in which the radius is below a quarter", () => {
   const contact = contactOf(setup);
   const pressure = (force, share) => Math.sqrt((force * contact.modulus) / (Math.PI * contact.face * contact.radius * share));
   for (const [share, is] of [[1, false], [0.26, false], [0.24, true]]) {

@@ -120,7 +120,7 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
     writeln!(out, "# {}", run.simulation.describe())?;
     writeln!(
         out,
-        "# one line per loaded tooth pair (per slice of it where loads differ over the face) every {every} s"
+        "# one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s"
     )?;
     for group in plan.groups() {
         let planets: Vec<String> = (0..plan.planets)
@@ -139,17 +139,17 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
     let degrees = |i: usize| pair.gears[i].tooth_pitch() * 180.0 / PI;
     let text = format!(
         "\
-# share: part of the face that the line stands for; s: place on the path of contact, an arc from the pitch point toward
+# share: fraction of the face that the line covers; s: position on the path of contact, an arc from the pitch point toward
 #   the planet's tip; cone: distance of the point from the apex; spot: on the path, or a tip corner on the mate's flank
 # normal: normal force; friction: along the flank, positive toward the planet's root on the planet
 # frames: right-handed, apex at the origin, z along the gear's own axis from apex to heel, x along the middle of its tooth 0;
 #   they turn with the gears
-# planet tooth k stands at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
+# planet tooth k is at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
 #   (planet teeth count with positive spin, side gear teeth with forward rotation)
-# x, y, z: point on the undeformed flank (a tip corner where it is one); nx, ny, nz: unit normal into the gear's material;
+# x, y, z: point on the undeformed flank (or a tip corner); nx, ny, nz: unit normal into the gear's material;
 #   Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
-# sums of r x F about z are the tooth torques; with contact.law line and line_weber stiffness that varies along the path adds
-#   a torque on the planet that no force at the flank carries, and friction of tip corners has the arms of the prolonged path
+# sums of r x F about z are the tooth torques; with contact.law line and line_weber the varying stiffness along the path adds a torque on the
+#   planet without a force on the flank, and friction of tip corners has the lever arms of the extended path
 ",
         degrees(0),
         degrees(1)
