@@ -23,7 +23,7 @@ fn parameters(name: &str) -> Parameters {
     p
 }
 
-/// A separate function, so that its instructions can be counted. A simulation started on its own caches nothing.
+/// A separate function, so that its instructions can be counted. `Simulation::start` uses no cache.
 #[inline(never)]
 fn one_start(p: &Parameters, i: &Inputs) {
     black_box(Simulation::start(p, i, 0.0).expect("the scene starts"));

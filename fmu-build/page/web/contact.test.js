@@ -56,7 +56,7 @@ test("a pattern contains the largest pressure of each position that contact has 
   assert.equal(pattern.most, 7);
 });
 
-test("a tooth that comes into contact again adds no pressure between its positions", () => {
+test("a new tooth in contact adds no pressure at positions that no tooth touched", () => {
   const pattern = new Pattern(-0.002, 0.002);
   pattern.add([{ tooth: 0, height: -0.002, pressures: [1, 1, 1] }]);
   pattern.add([{ tooth: 1, height: 0.002, pressures: [1, 1, 1] }]);

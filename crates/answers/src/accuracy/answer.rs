@@ -23,7 +23,7 @@ const BUDGET_UNCERTAIN: f64 = 15.0;
 const LEAST_POINTS: f64 = 2.5;
 /// An effect whose parameters are zero has no influence if the result changes by less than this fraction of the
 /// accuracy. Such small changes come from different step sizes.
-const NOTHING: f64 = 0.01;
+const NEGLIGIBLE: f64 = 0.01;
 
 /// Result of the search.
 pub struct Answer {
@@ -197,9 +197,9 @@ fn acting(bench: &mut Bench, switch: &Switch, [without, with]: [usize; 2], chose
     let by = change(bench, without, with);
     let typical = switch.typical(&bench.trials[with].scene);
     // with all values at zero, only different step sizes change the result
-    let nothing = if switch.is_at_zero(&bench.trials[with].scene) { within } else { NOTHING * within };
+    let nothing = if switch.is_at_zero(&bench.trials[with].scene) { within } else { NEGLIGIBLE * within };
     if by <= nothing && !chosen && !typical.is_empty() {
-        neutral(bench, switch, with, typical, if by <= NOTHING * within { 0.0 } else { by })
+        neutral(bench, switch, with, typical, if by <= NEGLIGIBLE * within { 0.0 } else { by })
     } else {
         Role::Acts { by, chosen }
     }

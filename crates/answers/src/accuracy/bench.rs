@@ -10,8 +10,8 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 
 /// Limits of a run: a multiple of the reference's cost, but at least this number of evaluations.
-const PATIENCE: f64 = 1.5;
-const FREE: f64 = 1e4;
+const MOST_REFERENCE_RUNS: f64 = 1.5;
+const ALWAYS_ALLOWED: f64 = 1e4;
 
 /// A run that finished.
 #[derive(Clone)]
@@ -100,8 +100,8 @@ impl<'a, 'w> Bench<'a, 'w> {
         self.progress.begin_task(self.spent / self.limit, reason);
         // fixed steps may cost more than the reference, up to the remaining limit
         let is_fixed = p.solver.method == Method::FixedStep;
-        let patience = if is_fixed { self.limit - self.spent } else { PATIENCE * self.reference.cost };
-        let most = FREE.max(price::evaluations(&p, patience));
+        let patience = if is_fixed { self.limit - self.spent } else { MOST_REFERENCE_RUNS * self.reference.cost };
+        let most = ALWAYS_ALLOWED.max(price::evaluations(&p, patience));
         let figures = Record::of(scene, self.from, most, self.progress).and_then(|record| {
             let cost = price::cost(&p, &record.effort);
             self.spent += cost;

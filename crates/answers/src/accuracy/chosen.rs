@@ -46,7 +46,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         if let [Some(before), Some(after)] = values
             && before.to_string() != after.to_string()
         {
-            let former = former_names::of(row.name).filter(|former| stands(set, former));
+            let former = former_names::of(row.name).filter(|former| contains(set, former));
             put(set, former.as_deref().unwrap_or(row.name), after)?;
         }
     }
@@ -131,7 +131,7 @@ fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
 }
 
 /// True if `set` contains this variable.
-fn stands(set: &Item, name: &str) -> bool {
+fn contains(set: &Item, name: &str) -> bool {
     let has =
         |item: Option<&Item>, key| item.and_then(Item::as_table_like).is_some_and(|table| table.contains_key(key));
     has(Some(set), name) || name.split_once('.').is_some_and(|(group, last)| has(set.get(group), last))

@@ -118,10 +118,7 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
     let (plan, pair) = (run.simulation.plan(), run.simulation.pair());
     writeln!(out, "# mesh forces of scene {}: {}", scene.name, scene.description)?;
     writeln!(out, "# {}", run.simulation.describe())?;
-    writeln!(
-        out,
-        "# one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s"
-    )?;
+    writeln!(out, "# one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s")?;
     for group in plan.groups() {
         let planets: Vec<String> = (0..plan.planets)
             .filter(|&i| plan.groups()[plan.group_of[i]] == *group)

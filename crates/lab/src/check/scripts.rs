@@ -23,7 +23,7 @@ pub const WHEEL: Script = Script {
         vec![Arg::new("wheel").value_name("WHEEL").help(help).value_parser(value_parser!(PathBuf))]
     },
     file: "crates/lab/python/wheel.py",
-    doing: "making a fresh Python environment",
+    doing: "creating a new Python environment",
     given: &[Given::Made(wheel), Given::Target("wheel")],
     ..DEFAULTS
 };

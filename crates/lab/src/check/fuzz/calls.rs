@@ -177,7 +177,7 @@ pub fn get<T: Value>(s: &mut Site, wanted: VariableKind, function: Getter<T>) ->
 
 /// Sets numbers: parameters and inputs, in model exchange also states.
 pub fn set_reals(s: &mut Site, function: Setter<f64>) -> CallResult {
-    let is_state = s.instance.making.kind == Kind::ModelExchange && s.r.chance(2);
+    let is_state = s.instance.options.kind == Kind::ModelExchange && s.r.chance(2);
     let wanted = if is_state { VariableKind::State } else { VariableKind::Settable };
     let vr = references(s.r, wanted);
     let values = s.reals(&vr, wanted);

@@ -10,7 +10,7 @@ use bevel_differential::variables::guid;
 
 use super::arguments::{CallResult, VariableKind as V};
 use super::calls::*;
-use super::host::{Host, Making, Recorder};
+use super::host::{Host, InstanceOptions, Recorder};
 use super::interface::Interface;
 use super::site::Site;
 use super::states;
@@ -124,11 +124,11 @@ pub static VERSION: Version = Version {
     },
 };
 
-fn make(making: &Making, host: &Host) -> ComponentPointer {
+fn make(options: &InstanceOptions, host: &Host) -> ComponentPointer {
     let (token, callbacks) = (CString::new(guid()).unwrap_or_default(), host.recorder.callbacks());
-    let logs = i32::from(making.logs);
+    let logs = i32::from(options.logs);
     // SAFETY: all pointers are valid during the call, and the host as long as the instance
-    unsafe { fmi2Instantiate(c"unit".as_ptr(), making.kind as i32, token.as_ptr(), ptr::null(), &callbacks, 0, logs) }
+    unsafe { fmi2Instantiate(c"unit".as_ptr(), options.kind as i32, token.as_ptr(), ptr::null(), &callbacks, 0, logs) }
 }
 
 fn discrete(s: &mut Site) -> CallResult {

@@ -11,7 +11,7 @@ use bevel_differential::variables::{Access, guid, table};
 
 use super::arguments::{CallResult, VariableKind as V, row};
 use super::calls::*;
-use super::host::{Host, Line, Making};
+use super::host::{Host, InstanceOptions, Line};
 use super::interface::Interface;
 use super::site::Site;
 use super::states;
@@ -191,16 +191,16 @@ fn environment(host: &Host) -> *mut c_void {
     ptr::from_ref(host).cast_mut().cast()
 }
 
-fn make(making: &Making, host: &Host) -> ComponentPointer {
+fn make(options: &InstanceOptions, host: &Host) -> ComponentPointer {
     let (name, token) = (c"unit".as_ptr(), CString::new(guid()).unwrap_or_default());
-    let (place, logs) = (environment(host), u8::from(making.logs));
+    let (place, logs) = (environment(host), u8::from(options.logs));
     // SAFETY: all pointers are valid during the call, and the host as long as the instance
     unsafe {
-        if making.kind == Kind::ModelExchange {
+        if options.kind == Kind::ModelExchange {
             return fmi3InstantiateModelExchange(name, token.as_ptr(), ptr::null(), 0, logs, place, Some(log));
         }
-        let updates = making.updates.then_some(update as IntermediateUpdate);
-        let [events, early] = [making.events, making.early].map(u8::from);
+        let updates = options.updates.then_some(update as IntermediateUpdate);
+        let [events, early] = [options.events, options.early].map(u8::from);
         let token = token.as_ptr();
         fmi3InstantiateCoSimulation(
             name,

@@ -14,7 +14,7 @@ pub use recorder::{Line, Recorder};
 
 /// Options of an instance.
 #[derive(Clone, Copy, Debug)]
-pub struct Making {
+pub struct InstanceOptions {
     /// Model exchange or co-simulation.
     pub kind: Kind,
     /// True if debug logging is on from the start.
@@ -27,7 +27,7 @@ pub struct Making {
     pub updates: bool,
 }
 
-impl Making {
+impl InstanceOptions {
     /// Draws all options except the kind.
     pub fn drawn(r: &mut Rng, kind: Kind) -> Self {
         Self { kind, logs: r.chance(2), events: r.chance(2), early: r.chance(2), updates: r.chance(3) }

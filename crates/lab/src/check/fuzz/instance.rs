@@ -5,7 +5,7 @@ use std::ptr;
 
 use bevel_differential::instance::{ComponentPointer, FmuState, Status};
 
-use super::host::{Host, Line, Making, Recorder};
+use super::host::{Host, InstanceOptions, Line, Recorder};
 use super::interface::Interface;
 
 /// Instance of the fuzzer.
@@ -15,7 +15,7 @@ pub struct FuzzedInstance {
     /// Pointer to the instance.
     pub component: ComponentPointer,
     /// Options of the instance.
-    pub making: Making,
+    pub options: InstanceOptions,
     /// The host's side.
     pub host: Box<Host>,
     /// True if the log is filtered by category.
@@ -30,19 +30,19 @@ pub struct FuzzedInstance {
 
 impl FuzzedInstance {
     /// Creates an instance; none if it is refused.
-    pub fn new(interface: &'static Interface, making: Making) -> Option<Self> {
+    pub fn new(interface: &'static Interface, options: InstanceOptions) -> Option<Self> {
         let host = Box::new(Host {
             recorder: Recorder::default(),
             updates: Cell::new(0),
             component: Cell::new(ptr::null_mut()),
             broken: RefCell::new(None),
         });
-        let component = (interface.make)(&making, &host);
+        let component = (interface.make)(&options, &host);
         host.component.set(component);
         (!component.is_null()).then(|| Self {
             interface,
             component,
-            making,
+            options,
             host,
             is_filtered: false,
             comparison_state: ptr::null_mut(),

@@ -2,14 +2,14 @@
 
 use bevel_differential::instance::{ComponentPointer, FmuState, Kind, Status};
 
-use super::host::{Host, Making};
+use super::host::{Host, InstanceOptions};
 
 /// Functions of one version of FMI.
 pub struct Interface {
     /// Major version of FMI.
     pub number: u32,
     /// Creates an instance; NULL if it is refused.
-    pub make: fn(&Making, &Host) -> ComponentPointer,
+    pub make: fn(&InstanceOptions, &Host) -> ComponentPointer,
     /// Frees an instance.
     pub free: unsafe fn(ComponentPointer),
     /// Resets an instance.

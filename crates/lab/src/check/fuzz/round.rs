@@ -8,7 +8,7 @@ use fastrand::Rng;
 
 use super::arguments::{CallResult, Flaws};
 use super::choice::{VERSIONS, draw};
-use super::host::{Line, Making};
+use super::host::{InstanceOptions, Line};
 use super::instance::FuzzedInstance;
 use super::scenes;
 use super::site::{HeldStates, Site};
@@ -48,8 +48,8 @@ pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally
     // a host that handles events cannot restore a state of one that does not
     let events = r.bool();
     for (i, kind) in KINDS.into_iter().enumerate() {
-        let making = Making { events, ..Making::drawn(&mut r, kind) };
-        let make = || FuzzedInstance::new(&version.interface, making).ok_or_else(|| outside("no instance was made"));
+        let options = InstanceOptions { events, ..InstanceOptions::drawn(&mut r, kind) };
+        let make = || FuzzedInstance::new(&version.interface, options).ok_or_else(|| outside("no instance was made"));
         expected.push(scenes::study(&make()?).ok_or_else(|| outside("the study's scene does not run"))?);
         let instance = make()?;
         if i > 0 {
@@ -95,7 +95,7 @@ fn make_call(
     let is_other = r.chance(OTHER);
     let version = VERSIONS.into_iter().find(|v| (v.interface.number != instance.interface.number) == is_other);
     let version = version.unwrap_or(VERSIONS[0]);
-    let function = draw(r, version, instance.making.kind);
+    let function = draw(r, version, instance.options.kind);
     let c = match r.below(150) {
         0 => ptr::null_mut(),
         1 => instance.component.wrapping_byte_add(1),
@@ -170,7 +170,8 @@ fn check(
         let bad = outcome.numbers.iter().position(|x| !x.is_finite());
         return bad.map_or(Ok(()), |i| Err(format!("OK, but number {i} is {}", outcome.numbers[i])));
     }
-    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(function.said));
+    let is_reported =
+        lines.iter().any(|line| line.status == status && line.message.starts_with(function.message_prefix));
     if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 

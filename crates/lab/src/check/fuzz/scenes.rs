@@ -46,7 +46,7 @@ fn initialised(instance: &FuzzedInstance) -> bool {
     let is_initialised = unsafe { (instance.interface.initialise)(instance.component) } == [Status::Ok; 2];
     if is_initialised {
         // SAFETY: as above
-        unsafe { (instance.interface.run)(instance.component, instance.making.kind) };
+        unsafe { (instance.interface.run)(instance.component, instance.options.kind) };
     }
     is_initialised
 }
@@ -98,7 +98,7 @@ pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
     unsafe {
         let mut statuses = vec![(interface.reset)(c)];
         let fine = initialised(instance);
-        if instance.making.kind == Kind::ModelExchange {
+        if instance.options.kind == Kind::ModelExchange {
             let (rates, indicators) = numbers.split_at_mut(STATES);
             statuses.push((interface.get_rates)(c, rates.as_mut_ptr(), rates.len()));
             statuses.push((interface.get_indicators)(c, indicators.as_mut_ptr(), indicators.len()));

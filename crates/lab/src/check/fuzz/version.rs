@@ -15,7 +15,7 @@ pub struct Function {
     /// Kind of instance for this function; none for both kinds.
     pub kind: Option<Kind>,
     /// Prefix of its messages: its name, or the name of a family of functions.
-    pub said: &'static str,
+    pub message_prefix: &'static str,
     /// Calls the function with random arguments.
     pub call: fn(&mut Site) -> CallResult,
 }
@@ -31,17 +31,17 @@ pub struct Version {
 /// Creates a table of functions: name, weight, kind of instance, call, and the prefix of messages if it is not the
 /// name.
 macro_rules! functions {
-    ($($name:ident $weight:literal $kind:expr, $call:expr $(, $said:expr)?;)+) => {
+    ($($name:ident $weight:literal $kind:expr, $call:expr $(, $prefix:expr)?;)+) => {
         &[$(Function {
             name: stringify!($name),
             weight: $weight,
             kind: $kind,
-            said: functions!(@said $name $($said)?),
+            message_prefix: functions!(@prefix $name $($prefix)?),
             call: $call,
         }),+]
     };
-    (@said $name:ident) => { stringify!($name) };
-    (@said $name:ident $said:expr) => { $said };
+    (@prefix $name:ident) => { stringify!($name) };
+    (@prefix $name:ident $prefix:expr) => { $prefix };
 }
 
 pub(super) use functions;
