@@ -1,6 +1,6 @@
-//! Measures the cost of the FMI interface: a step of the ideal level with the calls of a host around it, and the calls
-//! from instantiation to the first step, the first time and after fmi2Reset. The functions are looked up in the shared
-//! library, as a C host does.
+//! Measures the cost of the FMI interface: a step of the ideal level with the calls of a host around it, and a start.
+//! The start consists of the calls from instantiation to the first step, the first time and after fmi2Reset. The
+//! functions are looked up in the shared library, as a C host does.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

@@ -8,8 +8,8 @@
    x                       initialises
    d TIME SIZE             a step
    g                       reads all outputs, 8 bytes each
-   A failed call ends the program. With MEMORY, in the sources, the program prints at its end the memory of the instances in bytes, and the
-   number of allocator calls after the initialisation, except those of calls that log a message. */
+   A failed call ends the program. With MEMORY, in the sources, the program prints two numbers at its end: the memory of the instances in
+   bytes, and the allocator calls after the initialisation. Calls that log a message are not counted. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -29,8 +29,8 @@ const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Builds target/wheel/bevel_differential-VERSION-py3-none-PLATFORMS.whl, the Python package with the FMU in it
 ///
-/// The FMU contains the libraries of the selected platforms, or of all platforms whose tool chains are installed. The command
-/// `toolchains` installs tool chains.
+/// The FMU contains the libraries of the selected platforms, or of all platforms whose tool chains are installed. The
+/// command `toolchains` installs tool chains.
 #[derive(Args, Clone, Debug)]
 pub struct WheelCommand {
     /// Platforms of the FMU in the wheel

@@ -23,7 +23,7 @@ struct Price {
 }
 
 impl Price {
-    /// Price of an evaluation, without its share of the communication step's cost that occurs without teeth.
+    /// Price of an evaluation, without its share of the cost that a communication step has even without teeth.
     fn evaluation_alone(&self) -> f64 {
         self.per_evaluation * (1.0 - step_without_teeth() / self.per_step).max(0.0)
     }

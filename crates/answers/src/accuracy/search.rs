@@ -57,7 +57,7 @@ pub struct Found {
 }
 
 /// True if run `i` is accurate enough: its error plus the reference's uncertainty is within the accuracy. If the
-/// reference is uncertain, twice its uncertainty is allowed as well.
+/// reference is uncertain, an error up to the accuracy or up to twice the uncertainty is allowed.
 pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
     let errors = bench.trials[i].errors.iter().zip(&bench.reference.errors);
     errors.into_iter().all(|(&error, &stray)| {

@@ -2,8 +2,8 @@
 //! surfaces, masses, and the orientation of each gear in the assembly. Units are metres and radians.
 //!
 //! All faces of teeth are cones with their apex in the pitch apex, so a curve on the unit sphere describes a face. The
-//! ends are those of `geometry::solid::manifold`: at each azimuth a straight line from the outline on the sphere down
-//! to the root circle, and from there the plane of the root circle to the bore.
+//! ends are those of `geometry::solid::manifold`. At each azimuth, they are a straight line from the outline on the
+//! sphere down to the root circle, followed by the plane of the root circle to the bore.
 
 use bevel_differential::geometry::involute::direction;
 use bevel_differential::geometry::solid::mass::gear_mass;

@@ -25,7 +25,7 @@ use crate::text::csv_file::CsvFile;
 const INSTANTS: f64 = 200.0;
 /// Tooth pitches after which the speed is known well enough to choose the steps.
 const PITCHES: f64 = 3.0;
-/// Fraction of a base pitch over which a pair with a contact law must be loaded to count as followed through.
+/// Fraction of a base pitch over which a pair with a contact law must be loaded for a complete engagement.
 const THROUGH: f64 = 0.9;
 /// Relative tolerance for equal instants of teeth with a contact law: they move by less than this fraction of a base
 /// pitch, and their forces change by less than this fraction.

@@ -23,7 +23,7 @@ use bevel_differential::strength::LineContact;
 const SECTIONS_OF_SOLIDS: usize = 8;
 /// Number of sections of the face for teeth with a contact law.
 const SECTIONS: usize = 32;
-/// A load over more than this fraction of the face is over the whole face.
+/// A load over more than this fraction of the face counts as a load over the whole face.
 const WHOLE: f64 = 1.0 - 1e-9;
 
 /// A tooth pair: true if the drive flanks touch, and the indices of the planet's and the side gear's tooth.

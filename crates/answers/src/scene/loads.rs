@@ -145,8 +145,8 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
 #   (planet teeth count with positive spin, side gear teeth with forward rotation)
 # x, y, z: point on the undeformed flank (or a tip corner); nx, ny, nz: unit normal into the gear's material;
 #   Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
-# sums of r x F about z are the tooth torques; with contact.law line and line_weber the varying stiffness along the path adds a torque on the
-#   planet without a force on the flank, and friction of tip corners has the lever arms of the extended path
+# sums of r x F about z are the tooth torques; with contact.law line and line_weber, stiffness that varies along the path adds
+#   a torque on the planet without a force on the flank, and friction of tip corners has the lever arms of the extended path
 ",
         degrees(0),
         degrees(1)

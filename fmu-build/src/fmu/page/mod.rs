@@ -36,8 +36,8 @@ const PACK: &str = "import lzma, sys; from pathlib import Path; \
 
 /// Builds target/page/BevelDifferential.html, the differential live in a browser
 ///
-/// The page is one file that needs no server. It needs the tool chain `toolchains wasm`, and node with npm, which downloads
-/// three.js, uPlot and esbuild.
+/// The page is one file that needs no server. It needs the tool chain `toolchains wasm`, and node with npm, which
+/// downloads three.js, uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
 pub struct PageCommand {
     /// Compile the library in less time: slower in the browser, the same results
