@@ -63,11 +63,7 @@ fn what_is_usual_for_forged_gears_is_a_remark_and_not_a_warning() {
     for (width, is_remarked) in [(14e-3, false), (15e-3, true), (20e-3, true), (21.2e-3, true), (21.3e-3, false)] {
         let spec = GearSpec { face_width: width, ..usual() };
         let remarks: Vec<String> = checks::remarks(&spec, &Pair::new(&spec)).iter().map(ToString::to_string).collect();
-        assert_eq!(
-            remarks.iter().any(|text| text.starts_with("geometry.face_width")),
-            is_remarked,
-            "{width} {remarks:?}"
-        );
+        assert_eq!(remarks.iter().any(|text| text.starts_with("geometry.face_width")), is_remarked, "{width} {remarks:?}");
         assert_eq!(found(&spec).1.is_empty(), width < 21.23e-3, "{width}");
     }
     // a pin of 16 mm leaves a rim of 4.4 mm, where the teeth are 6.6 mm deep
