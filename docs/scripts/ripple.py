@@ -38,7 +38,7 @@ TIP_P, TIP_S = (d + np.arctan2(h, R_E) for d, h in ((PITCH_P, 2 * MODULE - ADDEN
 
 
 def gap(delta, pitch, base, tip, mate_pitch, mate_base):
-    """Gap of a tip corner to the mate's flank, the arc Δ past the end of the path [rad]; docs/theory.md."""
+    """Gap of a tip corner to the mate's flank, the arc Δ past the end of the path [rad]; docs/inside/theory.md."""
     arc = lambda b, polar: np.arccos(np.cos(polar) / np.cos(b))  # noqa: E731
     inv = lambda b, polar: arc(b, polar) / np.sin(b) - np.arctan2(np.tan(arc(b, polar)), np.sin(b))  # noqa: E731
     at_end, at_pitch = (np.arctan2(np.tan(arc(base, polar)), np.sin(base)) for polar in (tip, pitch))

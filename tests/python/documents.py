@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/*.md")), *sorted(ROOT.glob("examples/*/README.md"))]
+# pages for users; those in docs/inside are for makers
+FOR_USERS = sorted(ROOT.glob("docs/*.md"))
+PAGES = [ROOT / "README.md", *FOR_USERS, *sorted(ROOT.glob("docs/inside/*.md")), *sorted(ROOT.glob("examples/*/README.md"))]
 LINK = re.compile(r'\]\(([^)\s]+)\)|(?:src|href)="([^"]+)"')
 # a command may be in an HTML comment if the page's text describes it in other words
 COMMAND = re.compile(r"^(?: {4}|\$ |<!-- )?((?:bevel-differential|cargo run|target/python/bin/fmpy) (?:.*\\\n)*.*?)(?: -->)?$", re.MULTILINE)

@@ -5,7 +5,7 @@ momentum changes by the drive, the torques of the shafts and drag. Inertias are 
 drive that imposes the carrier's speed follows from the torques of the meshes.
 
 INSTANT   relative rounding error of all terms at an instant
-SOLIDS    relative error of the inertias of the program's faceted solids, as stated in docs/theory.md
+SOLIDS    relative error of the inertias of the program's faceted solids, as stated in docs/inside/theory.md
 RUN       allowed error of the momentum of a run, in solver tolerances of the momentum turned over
 SLIDING   slowest motion that shows in which direction a brake acts [rad/s]
 WARMER    temperature change of an oil that warms up: drag follows in steps of 0.1 K, and the oil may change by as much

@@ -88,7 +88,7 @@ class Gear:
 
 
 def depths(system, of, teeth):
-    """Addenda and dedenda of planet and side gear in modules (docs/theory.md, section 1)."""
+    """Addenda and dedenda of planet and side gear in modules (docs/inside/theory.md, section 1)."""
     if system == "explicit":
         return [[of(f"{gear}_{what}") for gear in ["planet", "side"]] for what in ["addendum", "dedendum"]]
     virtual = (max(teeth) / min(teeth)) ** 2

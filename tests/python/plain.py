@@ -1,7 +1,7 @@
-"""Model `tooth` in plain Python: slow, in SI, and written from the equations of docs/theory.md instead of the program.
+"""Model `tooth` in plain Python: slow, in SI, and written from the equations of docs/inside/theory.md instead of the program.
 
 It has spherical involute gears, the law of MSC Adams (IMPACT), every planet, both flanks, every pair of teeth, and half-shafts.
-Friction and tooth errors are left out. § names a section of docs/theory.md."""
+Friction and tooth errors are left out. § names a section of docs/inside/theory.md."""
 
 from dataclasses import dataclass
 from math import acos, asin, atan, atan2, ceil, cos, pi, radians, sin, sqrt, tan

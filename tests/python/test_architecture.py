@@ -1,4 +1,5 @@
-"""Names in docs/architecture.md and docs/theory.md exist: files, folders, types, constants, functions, variables, test programs."""
+"""Names in docs/inside/architecture.md and docs/inside/theory.md exist: files, folders, types, constants, functions, variables, test
+programs."""
 
 import re
 from pathlib import Path
@@ -24,7 +25,7 @@ def spans(page):
     return sorted({" ".join(span.split()) for span in re.findall(r"`([^`]+)`", prose)})
 
 
-CASES = [(page, span) for page in ("architecture.md", "theory.md") for span in spans(page)]
+CASES = [(page, span) for page in ("inside/architecture.md", "inside/theory.md") for span in spans(page)]
 
 
 def on_disk(path):
@@ -71,7 +72,7 @@ def test_an_unknown_name_is_detected(name):
 
 
 def test_numbers_of_the_page_are_those_of_the_source():
-    page = " ".join((ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").split())
+    page = " ".join((ROOT / "docs" / "inside" / "architecture.md").read_text(encoding="utf-8").split())
 
     def constant(file, name):
         return re.search(rf"const {name}: usize = (\d+);", FILES[file].read_text(encoding="utf-8"))[1]

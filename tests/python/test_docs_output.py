@@ -35,14 +35,14 @@ QUICKER = {
 }
 # opens a browser, and needs a file that only a build creates (test_page_command.py)
 NOT_RUN = "page"
-# file contents on pages that do not name the file: its name, and the command that reads it
+# file contents on pages that do not name the file, by a word that they contain: the name, and the command that reads the file
 FILES = {
-    ("docs/optimisation.md", "toml"): ("problem.toml", ["optimise"]),
-    ("docs/scenes.md", "toml"): ("scene.toml", ["run"]),
-    ("docs/scenes.md", "csv"): ("cycle.csv", None),
-    ("docs/spectrum.md", "csv"): ("cycle.csv", ["spectrum"]),
-    ("docs/sweeps.md", "toml"): ("plan.toml", ["sweep", "--plan-file"]),
-    ("docs/tolerances.md", "toml"): ("tolerances.toml", ["tolerance"]),
+    "stop_time": ("scene.toml", ["run"]),
+    "objectives": ("problem.toml", ["optimise"]),
+    "[factors]": ("tolerances.toml", ["tolerance"]),
+    "plan =": ("plan.toml", ["sweep", "--plan-file"]),
+    "name,count": ("events.csv", ["spectrum"]),
+    "time [s]": ("cycle.csv", None),
 }
 SHOWN = {}
 for source, block in printed():
@@ -55,13 +55,14 @@ ALONE = list({one.words[1]: one for one in reversed(COMMANDS)}.values())
 
 @pytest.fixture
 def reader(fmu_file, tmp_path, monkeypatch):
-    """reader(page): folder, now the current one, with all that a reader of the page has: an FMU, examples and the files on the page."""
+    """reader(page): folder, now the current one, with all that a reader of the page has: an FMU, examples, the scenes of
+    docs/your-car.md and the files on the page."""
 
     def prepared(page):
         shutil.copytree(ROOT / "examples" / "design", tmp_path / "examples" / "design")
         (tmp_path / "target").mkdir()
         (tmp_path / "target" / "fmu").symlink_to(Path(fmu_file).resolve().parent)
-        for name, text in saved(page).items():
+        for name, text in (saved("docs/your-car.md") | saved(page)).items():
             (tmp_path / name).write_text(text, encoding="utf-8")
         monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(Path(fmu_file).resolve()))
         monkeypatch.setenv("MPLBACKEND", "Agg")
@@ -69,6 +70,11 @@ def reader(fmu_file, tmp_path, monkeypatch):
         return tmp_path
 
     return prepared
+
+
+def file_of(block):
+    """Name of the file that a block of a page shows, and words of the command that reads it."""
+    return next(found for word, found in FILES.items() if word in block.text)
 
 
 def called(words, alone=False):
@@ -167,11 +173,11 @@ def test_a_file_of_a_page_is_understood_as_it_is_printed(shown, reader):
     if shown.text in saved(shown.page).values():
         # a command of the page names the file
         return
-    name, words = FILES[shown.page, shown.kind]
+    name, words = file_of(shown)
     with chdir(folder / "examples" / "design"):
         for other in blocks("toml", "csv"):
-            if other.page == shown.page:
-                Path(FILES[other.page, other.kind][0]).write_text(other.text, encoding="utf-8")
+            if other.page == shown.page and other.text not in saved(shown.page).values():
+                Path(file_of(other)[0]).write_text(other.text, encoding="utf-8")
         if words:
             status, said = called([*words, name, *QUICKER.get(words[0], [])])
             assert status == 0, said

@@ -171,7 +171,7 @@ def test_a_missing_file_and_a_folder_are_reported(tmp_path):
 
 
 def test_the_example_of_the_page_runs(file, loaded, monkeypatch):
-    page = Path(__file__).resolve().parents[2] / "docs" / "sweeps.md"
+    page = Path(__file__).resolve().parents[2] / "docs" / "design.md"
     code = next(code for code in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL) if "LossMap" in code)
     assert '"losses.csv"' in code
     monkeypatch.chdir(file.parent)

@@ -1,6 +1,6 @@
 """Published measurements (tests/data/published_measurements.toml) against results of the FMU with the published inputs.
 
-Nothing is fitted. docs/sweeps.md shows the results, and each test finds its result there."""
+Nothing is fitted. docs/design.md shows the results, and each test finds its result there."""
 
 import tomllib
 from math import log10
@@ -13,7 +13,7 @@ from bevel_differential.bench import scene_file
 
 ROOT = Path(__file__).parents[2]
 MEASURED = tomllib.loads((ROOT / "tests/data/published_measurements.toml").read_text(encoding="utf-8"))
-PAGE = (ROOT / "docs/sweeps.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/design.md").read_text(encoding="utf-8")
 # usual radius of a wheel, m, because the publication gives the speed of the car
 ZERO_CELSIUS, WHEEL = 273.15, 0.31
 # carrier and sides turn at one speed, and only viscous drag takes power

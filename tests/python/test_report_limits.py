@@ -60,7 +60,7 @@ def test_the_scale_of_the_pattern_ends_at_the_largest_pressure_outside_the_seam(
     run = simulated(fmu_file, STEADY_TURN, 0.6)
     pair = pair_of(run)
     contacts = pattern.Contacts.of(run, 1.0, pair)
-    # one pair at the pitch point has 2385 MPa (docs/theory.md, section 10), and the pressure under IMPACT is that at the mean cone
+    # one pair at the pitch point has 2385 MPa (docs/inside/theory.md, section 10), and the pressure under IMPACT is that at the mean cone
     toe = np.sqrt(0.5 * (pair.inner_cone + pair.outer_cone) / pair.inner_cone)
     single = 2384.6e6
     assert contacts.pressure.max() > 2.0 * toe * single

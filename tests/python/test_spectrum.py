@@ -12,7 +12,7 @@ from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.spectrum.picture import curves, rolling_spectrum, standing_spectrum
 from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
 
-# the FMU's start values, by the standards cited in docs/theory.md
+# the FMU's start values, by the standards cited in docs/inside/theory.md
 BENDING, BENDING_CYCLES, BENDING_SLOPE = 1000e6, 3e6, log(3e6 / 1e3) / log(2.5)
 CONTACT, CONTACT_CYCLES, CONTACT_SLOPE = 1500e6, 5e7, log(5e7 / 1e5) / log(1.6)
 IDLER, SENSITIVITY = 0.7, 0.4

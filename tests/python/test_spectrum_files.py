@@ -33,7 +33,7 @@ def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
 
 
 def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
-    text = (ROOT / "docs" / "spectrum.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
     lines = iter(spectrum(DUTY_CYCLE, fmu=fmu_file).markdown())
     # the worst events in their order

@@ -1,5 +1,5 @@
 """Fatigue of teeth in mesh that do not roll, against another rainflow count: the package rainflow (ASTM E1049). The S–N curve and
-the mean stress rule of docs/theory.md, section 10, are written here a second time."""
+the mean stress rule of docs/inside/theory.md, section 10, are written here a second time."""
 
 from math import log, pi, sin
 

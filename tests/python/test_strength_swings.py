@@ -3,7 +3,7 @@
 A tooth carries the load of its mesh over one pitch. It enters and leaves without load, so that all cycles of its passage close. All
 except the largest add to its damage. The passage itself counts as the mean damage of a cycle. For a planet's tooth, both roots are
 followed through both meshes, which load opposite flanks; a side gear's tooth meets each planet. The S–N curve and the mean stress
-rule of docs/theory.md, section 10, are those of `test_strength_fatigue`."""
+rule of docs/inside/theory.md, section 10, are those of `test_strength_fatigue`."""
 
 from math import ceil, pi
 

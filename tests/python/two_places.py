@@ -1,4 +1,4 @@
-"""Pairs of outputs that show the same quantity, by the formulas of docs/theory.md without code of the program.
+"""Pairs of outputs that show the same quantity, by the formulas of docs/inside/theory.md without code of the program.
 
 Each function yields (what, one, other, scale): two values that must agree within `CLOSE` of the scale. A pair that agrees only in some
 scenes is yielded only for them. `AtMost` in place of a value means that the other must not be below it."""

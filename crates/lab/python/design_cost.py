@@ -1,4 +1,4 @@
-"""What a design costs by what is simulated: final values of a 0.5 s turn in one long step, on one core.
+"""Cost of a design by simulated model: final values of a 0.5 s turn in one long step, on one core.
 
     python crates/lab/python/design_cost.py [--designs N] [--write]
 
@@ -35,7 +35,7 @@ DRAWN = {"loads": {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_to
 
 
 def cost(fmu, values, vary, designs):
-    """Median time of a design, s."""
+    """Median time of a design [s]."""
     with Scene("turn", stop=0.5, set={**TURN, **values}, fmu=fmu.file) as scene:
         task = Task(scene, ["left.speed", "efficiency"])
         rows = [task.evaluate(*design) for design in Plan.parse(Space.parse(fmu, vary), "random", designs + 1, 1).designs()]
@@ -47,7 +47,7 @@ def cost(fmu, values, vary, designs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--designs", type=int, default=40, help="designs of each kind")
-    parser.add_argument("--write", action="store_true", help="renew the table of docs/optimisation.md")
+    parser.add_argument("--write", action="store_true", help="renew the table of docs/design.md")
     given = parser.parse_args()
     fmu = Fmu.of()
     rows = [("simulated", *(f"{what} drawn, ms" for what in DRAWN))]
@@ -56,7 +56,7 @@ def main():
         rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken)))
     print("\n".join(aligned(rows, left=1)))
     if given.write:
-        renew("docs/optimisation.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
+        renew("docs/design.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-//! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
-//! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
-//! `evidence`, `toolchains`.
+//! Builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation, the
+//! archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`, `evidence`,
+//! `toolchains`.
 
 pub mod archive;
 pub mod dependencies;
@@ -18,6 +18,7 @@ pub mod plain_types;
 pub mod sources;
 pub mod terminals;
 pub mod toolchains;
+mod variables_page;
 pub mod wasm;
 pub mod wheel;
 

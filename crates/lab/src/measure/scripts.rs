@@ -10,13 +10,13 @@ pub const COST: Script = Script {
         vec![
             flag("quick", "Take under a minute: fewer tolerances, steps and runs"),
             flag("decisions", "Make only the tables of decisions and laws").conflicts_with("quick"),
-            flag("write", "Also renew docs/cost.md and its figures"),
+            flag("write", "Also renew the tables in docs/accuracy.md and docs/inside/cost.md, and their figures"),
         ]
     },
     file: "crates/lab/python/cost.py",
     folder: Some("cost"),
     given: &[Given::Fmu, Given::Folder, Given::Named("quick"), Given::Named("decisions")],
-    sections: &[("docs/cost.md", "decisions", "decisions.md"), ("docs/cost.md", "cost", "summary.md")],
+    sections: &[("docs/accuracy.md", "decisions", "decisions.md"), ("docs/inside/cost.md", "cost", "summary.md")],
     has_pictures: true,
     ..DEFAULTS
 };
@@ -29,13 +29,13 @@ pub const SOLIDS: Script = Script {
     options: || {
         vec![
             flag("quick", "Only 4 to 32 facets over 0.1 s").conflicts_with("write"),
-            flag("write", "Also renew docs/cost.md, the table in docs/study.md and the figures"),
+            flag("write", "Also renew the tables in docs/inside/cost.md and docs/study.md and the figures"),
         ]
     },
     file: "crates/lab/python/solids.py",
     folder: Some("solids"),
     given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/cost.md", "solids", ""), ("docs/study.md", "solids", "study.md")],
+    sections: &[("docs/inside/cost.md", "solids", ""), ("docs/study.md", "solids", "study.md")],
     has_pictures: true,
     ..DEFAULTS
 };
@@ -65,13 +65,13 @@ pub const SURVEY: Script = Script {
 pub const SIMULATORS: Script = Script {
     name: "compare-simulators",
     about: "Compares MuJoCo and Drake with this program on the study's cases (a few minutes)",
-    options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/compare.md")],
+    options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/inside/compare.md")],
     needs: Needs::Own(["benches/peers", "peers/venv", "MuJoCo, Drake, fmpy"]),
     file: "benches/peers/run.py",
     doing: "comparing",
     folder: Some("peers"),
     given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/compare.md", "peers", "")],
+    sections: &[("docs/inside/compare.md", "peers", "")],
     has_pictures: true,
     ..DEFAULTS
 };
@@ -80,13 +80,13 @@ pub const SIMULATORS: Script = Script {
 pub const SOLVERS: Script = Script {
     name: "compare-solvers",
     about: "Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)",
-    options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/compare.md")],
+    options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/inside/compare.md")],
     needs: Needs::Own(["benches/foreign", "foreign", "scipy, scikit-SUNDAE"]),
     file: "benches/foreign/compare.py",
     doing: "comparing",
     folder: Some("cost"),
     given: &[Given::Equations, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/compare.md", "foreign", "")],
+    sections: &[("docs/inside/compare.md", "foreign", "")],
     ..DEFAULTS
 };
 
@@ -98,7 +98,7 @@ pub const DRIVETRAIN: Script = Script {
     options: || {
         vec![
             flag("quick", "Ideal gears only, in a minute and a half").conflicts_with("write"),
-            flag("write", "Also renew docs/coupling.md"),
+            flag("write", "Also renew docs/inside/hosts.md"),
         ]
     },
     needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim"]),
@@ -106,7 +106,7 @@ pub const DRIVETRAIN: Script = Script {
     doing: "coupling",
     folder: Some("drivetrain"),
     given: &[Given::PlainFmu, Given::Equations, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/coupling.md", "drivetrain", "")],
+    sections: &[("docs/inside/hosts.md", "drivetrain", "")],
     has_pictures: true,
     ..DEFAULTS
 };
@@ -141,13 +141,29 @@ pub const PRICES: Script = Script {
             path("against", "FMU", "The FMU of another build: prints the ratios of this build's times to its own")
                 .conflicts_with("write"),
             flag("quick", "Three runs of each instead of nine, and no pairs").conflicts_with("write"),
-            flag("write", "Also renew the tables in docs/cost.md and the prices that `accuracy` uses"),
+            flag("write", "Also renew the tables in docs/accuracy.md and the prices that `accuracy` uses"),
         ]
     },
     file: "crates/lab/python/prices.py",
     doing: "timing",
     folder: Some("prices"),
     given: &[Given::Named("against"), Given::Fmu, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/cost.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
+    sections: &[("docs/accuracy.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
+    ..DEFAULTS
+};
+
+/// Wording that readers stumble over, counted in doc comments and pages. It is a tool for writers and never fails.
+pub const WORDS: Script = Script {
+    name: "words",
+    about: "Counts wording that readers stumble over: openings of doc comments, compressed phrases, long sentences",
+    options: || {
+        vec![
+            path("within", "PATH", "Only this folder or file of the repository"),
+            flag("places", "Also print each place"),
+        ]
+    },
+    file: "crates/lab/python/words.py",
+    doing: "reading",
+    given: &[Given::Named("within"), Given::Named("places")],
     ..DEFAULTS
 };

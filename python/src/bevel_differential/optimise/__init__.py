@@ -1,1 +1,1 @@
-"""Optimisation of the gears by several objectives at once: docs/optimisation.md."""
+"""Optimisation of the gears by several objectives at once: docs/design.md."""

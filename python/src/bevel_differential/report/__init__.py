@@ -1,1 +1,1 @@
-"""Report of a scene: one HTML file with figures, tables and explanations (docs/report.md)."""
+"""Report of a scene: one HTML file with figures, tables and explanations (docs/results.md)."""

@@ -1,4 +1,4 @@
-"""Rated stresses with their strengths (docs/theory.md, section 10), and safety. Warns if safety and damage belong to the start, when
+"""Rated stresses with their strengths (docs/inside/theory.md, section 10), and safety. Warns if safety and damage belong to the start, when
 unloaded teeth met their load with an impact."""
 
 import math

@@ -179,7 +179,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
              mapper: Callable[..., Iterable[EventDamage]] = map) -> SpectrumResult:
     """Calculates damage and life of the gears over a duty cycle.
 
-    `cycle`: a CSV file (docs/spectrum.md), or a sequence of `Event`. `parameters`: {name: value} for all events: of the FMU, as for
+    `cycle`: a CSV file (docs/design.md), or a sequence of `Event`. `parameters`: {name: value} for all events: of the FMU, as for
     `Differential`, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene whose `[set]`
     `parameters` override. `order`: order of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: function like `map`
     that evaluates events; that of a pool evaluates them in parallel. Raises `DifferentialError`."""

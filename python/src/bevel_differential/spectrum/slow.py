@@ -3,7 +3,7 @@
 Every occurrence of an event is a history of root stress [Pa], which is positive on the drive flank. It begins and ends without
 load. Cycles are counted for a duty cycle that repeats, so that all of them close.
 
-S–N curves of the gears and the effect of mean stress are those of the FMU (docs/theory.md, section 10):
+S–N curves of the gears and the effect of mean stress are those of the FMU (docs/inside/theory.md, section 10):
 
 ```text
 N_f = N_ref (S/σ)^k,   k = ln(N_ref/N_static)/ln Y_N            ISO 6336-2, -3, -5; the same slope below the knee
