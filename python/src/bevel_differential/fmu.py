@@ -119,7 +119,8 @@ class Fmu:
     def sha256(self) -> str:
         """SHA-256 of the file. A folder has none, so an `Fmu` of a folder cannot be sent to other processes."""
         if self.file.is_dir():
-            raise DifferentialError(f"{self.file}: an extracted folder has no hash by which another process could find it; open the .fmu file")
+            raise DifferentialError(f"{self.file}: an extracted folder has no hash by which another process could find it; open the .fmu "
+                                    "file")
         return hashlib.sha256(self.file.read_bytes()).hexdigest()
 
     def variable(self, name: str) -> Variable:

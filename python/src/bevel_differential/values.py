@@ -130,8 +130,8 @@ class Variable:
         return number
 
     def differences(self) -> Self:
-        """Variable for differences between values of this one, without the offsets of units and without a range. Differences are shown in SI
-        if the usual unit has an offset: 5 K between two temperatures in degC."""
+        """Variable for differences between values of this one, without the offsets of units and without a range. Differences are shown
+        in SI if the usual unit has an offset: 5 K between two temperatures in degC."""
         found = copy.copy(self)
         found.is_relative, found.start, found.minimum, found.maximum = True, None, None, None
         found.units = {name: (factor, 0.0) for name, (factor, _) in self.units.items()}
@@ -191,8 +191,8 @@ class Variable:
         return self.shown(values) if (self.unit or "") in preferred else (self.unit or "", values)
 
     def column(self, name: str, values: Iterable[Any], preferred: Mapping[str, str]) -> tuple[str, list[Any]]:
-        """Head and cells of a column of SI `values`. With `preferred` units, the head contains the unit, as in "left.speed:mean [rpm]". Empty
-        cells stay empty."""
+        """Head and cells of a column of SI `values`. With `preferred` units, the head contains the unit, as in "left.speed:mean [rpm]".
+        Empty cells stay empty."""
         if not preferred or self.kind != "Real":
             return name, list(values)
         unit, _ = self.in_files(0.0, preferred)

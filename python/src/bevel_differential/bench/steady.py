@@ -30,9 +30,8 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
     says = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
-            f"{of_torque.text(torques[-1])}: "
-            "preload determines it at small torque, friction that grows with the torque at large torque. Left and right agree where solid and "
-            "dashed lines meet")
+            f"{of_torque.text(torques[-1])}: preload determines it at small torque, friction that grows with the torque at large torque. "
+            "Left and right agree where solid and dashed lines meet")
     return _written(scene, out, rows, says, "differentiating", 5)
 
 

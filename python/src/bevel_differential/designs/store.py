@@ -159,10 +159,10 @@ class Store:
         except (OSError, ValueError, KeyError):
             found = None
         if found != self.metadata["hash"]:
-            raise DifferentialError(f"{self.folder}: it holds parts of another plan; name another file, or remove them with "
+            raise DifferentialError(f"{self.folder}: it contains parts of another plan; name another file, or remove them with "
                                     "--force (force=True)")
         if not resume:
-            raise DifferentialError(f"{self.folder}: it holds parts of this plan; go on with --resume (resume=True), or start "
+            raise DifferentialError(f"{self.folder}: it contains parts of this plan; continue with --resume (resume=True), or start "
                                     "over with --force (force=True)")
 
     def _begin(self):

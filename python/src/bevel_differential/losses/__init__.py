@@ -71,7 +71,8 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
     lines, model = [starting(levels[name]) for name in VARIABLES], ""
     if lines[2][0] <= 0.0:
-        raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it must be above 0; both directions and zero difference are run anyway")
+        raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it must be above 0; both directions and zero difference are run "
+                                "anyway")
     if within is not None:
         chosen = _chosen(scene, lines, within)
         model, corners = chosen.run.setting, scene.value(CORNERS)

@@ -282,8 +282,8 @@ def error(made: MeasuredMap) -> Picture:
     worst = made.errors.max(axis=1)
     place, half = int(np.argmax(worst)), float(np.median(worst))
     return Picture("error", _error(made),
-                   f"Errors at {len(made.unseen)} random points that were not used for the map, over the bound; beyond the red line they are "
-                   f"larger than it. Left: share of the points whose error is at most this large; half have "
+                   f"Errors at {len(made.unseen)} random points that were not used for the map, over the bound; beyond the red line they "
+                   f"are larger than it. Left: share of the points whose error is at most this large; half have "
                    f"{words.number(half, 2)} or less. Right: the largest error of each point over its difference of speeds; the worst, "
                    f"{words.number(float(worst[place]), 2)}, is at {axes_of(made.scene)[SLIP_AXIS].text(made.unseen[place, SLIP_AXIS], 3)}.")
 

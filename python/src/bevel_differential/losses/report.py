@@ -64,8 +64,8 @@ def _head(made):
     rows = [(name, *(_shown(made, axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
              ", ".join(words.number(_value(made, axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
     found.add(Table(("axis", "from", "to", "lines", "at"), rows,
-                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines are closer where the map has "
-                    "more curvature.",
+                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines are closer where the map "
+                    "has more curvature.",
                     left=5))
     return found
 

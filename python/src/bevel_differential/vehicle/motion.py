@@ -64,7 +64,7 @@ class Motion:
         ]
 
     def advance(self, size: float, speeds: Speeds, request: Callable[[float], float], steer: Callable[[float], float]) -> None:
-        """Integrates over `size` (s). The times of `speeds` (carrier and wheels), `request` and `steer` count from the start of the step."""
+        """Integrates over `size` (s). `speeds` (carrier and wheels), `request` and `steer` count time from the start of the step."""
         count = max(1, -int(-size // LONGEST))
         h, x = size / count, self.x
         for k in range(count):
