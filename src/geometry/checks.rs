@@ -9,16 +9,20 @@ use crate::problem::{Problem, told_apart};
 const NAMES: [&str; 2] = ["planet", "side gear"];
 const MM: f64 = 1e3;
 
-/// Usual upper limit of face width over outer cone distance for straight bevel gears.
-const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
+/// Usual maximum of face width over outer cone distance for cut straight bevel gears (ISO 23509).
+const USUAL_FACE: f64 = 1.0 / 3.0;
+/// Maximum of face width over outer cone distance for forged differential gears, which commonly have 0.35 to 0.5.
+const WIDEST_FACE: f64 = 0.5;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
 /// Least inner cone distance over the outer one: nearer to the apex teeth have practically no size.
 const LEAST_INNER_CONE: f64 = 0.1;
 /// Least root angle [rad]: a gear needs a body.
 const LEAST_ROOT_ANGLE: f64 = 0.02;
-/// A rim thinner than this many modules at the toe weakens the root.
-const RIM: f64 = 2.0;
+/// Rims thinner than this fraction of the tooth depth are to be avoided (ISO 6336-3).
+const THINNEST_RIM: f64 = 0.5;
+/// Rims thicker than this fraction of the tooth depth do not weaken the root (rim thickness factor Y_B = 1 of ISO 6336-3).
+const FULL_RIM: f64 = 1.2;
 /// Admissible numbers of planets.
 const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
 /// A fillet smaller than specified by less than this fraction is a rounding error.
@@ -111,8 +115,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     let m = pair.module;
     // the end clipped at a gear's base circle is where its mate's tip would cut or jam
-    for (i, gear) in pair.gears.iter().enumerate() {
-        let mate = &pair.gears[1 - i];
+    for (i, mate) in pair.gears.iter().rev().enumerate() {
         if pair.path.clipped[i] {
             let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
             let [modules, limit] = told_apart([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
@@ -136,14 +139,12 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
                 land / m
             ));
         }
-        let (name, bore) = bore(spec, i);
-        let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);
-        let toe_module = m * pair.inner_cone / pair.outer_cone;
-        if bore > 0.0 && rim < RIM * toe_module {
-            let [rim, least] = told_apart([rim * MM, RIM * toe_module * MM], 2);
+        if let Some([rim, depth]) = rim(spec, pair, i).filter(|[rim, depth]| *rim < THINNEST_RIM * depth) {
+            let [rim, least] = told_apart([rim * MM, THINNEST_RIM * depth * MM], 2);
             found.push(problem!(
-                name,
-                "the {}'s rim at the toe is {rim} mm, thinner than 2 modules there ({least} mm)",
+                bore(spec, i).0,
+                "the {}'s rim at the toe is {rim} mm, thinner than half the tooth depth there ({least} mm): ISO 6336-3 \
+                 gives no root stress for it",
                 NAMES[i]
             ));
         }
@@ -151,9 +152,12 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found.extend((0..2).filter_map(|i| cut_fillet(spec, pair, i)));
     found.extend(striking_planets(spec, pair));
     let share = spec.face_width / pair.outer_cone;
-    if share > FACE_WIDTH_LIMIT {
-        let [width, usual] = told_apart([spec.face_width * MM, pair.outer_cone * FACE_WIDTH_LIMIT * MM], 2);
-        found.push(problem!("geometry.face_width", "{width} mm is {share:.3} R_e, above the usual R_e/3 = {usual} mm"));
+    if share > WIDEST_FACE {
+        let [width, widest] = told_apart([spec.face_width * MM, pair.outer_cone * WIDEST_FACE * MM], 2);
+        found.push(problem!(
+            "geometry.face_width",
+            "{width} mm is {share:.3} R_e, wider than differential gears are made (R_e/2 = {widest} mm)"
+        ));
     }
     if pair.path.contact_ratio < 1.0 && pair.path.contact_ratio > 0.0 {
         found.push(problem!(
@@ -163,6 +167,41 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     found
+}
+
+/// Remarks about a pair that a gear engineer would not question, for reports on its geometry.
+pub fn remarks(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for i in 0..2 {
+        let is_thin = |[rim, depth]: &[f64; 2]| (THINNEST_RIM * depth..FULL_RIM * depth).contains(rim);
+        if let Some([rim, depth]) = rim(spec, pair, i).filter(is_thin) {
+            found.push(problem!(
+                bore(spec, i).0,
+                "the {}'s rim at the toe is {:.2} mm, below 1.2 tooth depths there ({:.2} mm), which weakens the root",
+                NAMES[i],
+                rim * MM,
+                FULL_RIM * depth * MM
+            ));
+        }
+    }
+    let share = spec.face_width / pair.outer_cone;
+    if share > USUAL_FACE && share <= WIDEST_FACE {
+        let [width, usual] = told_apart([spec.face_width * MM, pair.outer_cone * USUAL_FACE * MM], 2);
+        found.push(problem!(
+            "geometry.face_width",
+            "{width} mm is {share:.3} R_e: usual for forged differential gears, wide for cut gears (R_e/3 = {usual} mm)"
+        ));
+    }
+    found
+}
+
+/// Thickness of gear `i`'s rim between root and bore at the toe, along the front cone, and its tooth depth there [m]; `None`
+/// without a bore.
+fn rim(spec: &GearSpec, pair: &Pair, i: usize) -> Option<[f64; 2]> {
+    let (gear, (_, bore)) = (&pair.gears[i], bore(spec, i));
+    let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);
+    let depth = (gear.addendum + gear.dedendum) * pair.inner_cone / pair.outer_cone;
+    (bore > 0.0).then_some([rim, depth])
 }
 
 fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {

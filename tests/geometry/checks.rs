@@ -52,18 +52,34 @@ fn standard_addenda_undercut_a_ten_tooth_planet() {
 
 #[test]
 fn a_wide_face_a_pointed_tooth_and_a_thin_rim_give_warnings() {
-    assert_warns(&GearSpec::default(), &["geometry.face_width", "0.471 R_e", "above the usual R_e/3"]);
+    assert_warns(&GearSpec { face_width: 22e-3, ..usual() }, &["geometry.face_width", "0.518 R_e", "R_e/2 = 21.23"]);
     assert_warns(&explicit([1.75, 0.5], [0.25, 2.0]), &["pointed planet teeth"]);
-    assert_warns(&GearSpec { planet_bore: 22e-3, ..usual() }, &["geometry.planet_bore", "thinner than 2 modules"]);
+    assert_warns(&GearSpec { planet_bore: 22e-3, ..usual() }, &["geometry.planet_bore", "half the tooth depth"]);
+}
+
+#[test]
+fn what_is_usual_for_forged_gears_is_a_remark_and_not_a_warning() {
+    // the outer cone distance is 42.45 mm: faces of 0.35 to 0.5 R_e are forged
+    for (width, is_remarked) in [(14e-3, false), (15e-3, true), (20e-3, true), (21.2e-3, true), (21.3e-3, false)] {
+        let spec = GearSpec { face_width: width, ..usual() };
+        let remarks: Vec<String> = checks::remarks(&spec, &Pair::new(&spec)).iter().map(ToString::to_string).collect();
+        assert_eq!(remarks.iter().any(|text| text.starts_with("geometry.face_width")), is_remarked, "{width} {remarks:?}");
+        assert_eq!(found(&spec).1.is_empty(), width < 21.23e-3, "{width}");
+    }
+    // a pin of 16 mm leaves a rim of 4.4 mm, where the teeth are 6.6 mm deep
+    let spec = GearSpec { planet_bore: 16e-3, ..usual() };
+    let remarks = checks::remarks(&spec, &Pair::new(&spec));
+    assert!(remarks.len() == 1 && remarks[0].to_string().contains("the planet's rim"), "{remarks:?}");
+    assert_eq!(found(&spec).1, Vec::<String>::new());
 }
 
 #[test]
 fn a_face_that_is_hardly_too_wide_is_told_apart_from_the_limit() {
-    let limit = Pair::new(&usual()).outer_cone / 3.0;
+    let limit = Pair::new(&usual()).outer_cone / 2.0;
     for excess in [1e-2, 1e-4, 1e-7, 1e-12] {
         let warnings = found(&GearSpec { face_width: limit * (1.0 + excess), ..usual() }).1;
         let text = warnings.iter().find(|text| text.starts_with("geometry.face_width")).expect("a warning");
-        let mut numbers = text.split(' ').filter_map(|word| word.parse::<f64>().ok());
+        let mut numbers = text.split([' ', ')']).filter_map(|word| word.parse::<f64>().ok());
         // the width, its share of R_e, the limit
         let (width, limit) = (numbers.next().expect("a width"), numbers.nth(1).expect("a limit"));
         assert!(width > limit, "{text}");

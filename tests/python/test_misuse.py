@@ -144,7 +144,8 @@ def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
 
 def test_a_closed_instance_says_so_and_not_an_old_warning(fmu):
     with fmu.open() as instance:
-        # the face width of the study is warned of
+        # a face that is wider than gears are made gives a warning
+        instance.set({"geometry.face_width": "25 mm"})
         instance.initialise()
         assert instance.messages
     for use in (lambda: instance.get("left.speed"), lambda: instance.step(1e-3), instance.reset, instance.save):

@@ -2,6 +2,7 @@
 
 import math
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ def compiled(folder):
     """calls.c, built in a folder."""
     program = Path(folder) / "calls"
     try:
-        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
+        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl", "-lm"], check=True)
     except FileNotFoundError:
         raise SystemExit("a C compiler builds the host that is timed: install one (apt-get install gcc)") from None
     return program
@@ -37,6 +38,21 @@ def write_start(file, fmu, values, later=None):
             variable = fmu.variable(name)
             lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
     file.write_text("\n".join(lines))
+
+
+@dataclass(frozen=True)
+class Sine:
+    """An input that a coupled host sets before each step: a sine. `how`: "held" through the step, or "lines" with its slope."""
+
+    how: str
+    input: str
+    mean: float
+    amplitude: float
+    frequency: float
+
+    def argument(self, fmu):
+        """The argument of calls.c, in SI units."""
+        return f"{self.how}:{fmu.variable(self.input).reference}:{self.mean!r}:{self.amplitude!r}:{self.frequency!r}"
 
 
 def in_turn(runs, rounds, take, bar, what):
@@ -61,12 +77,13 @@ class Calls:
     def __init__(self, folder):
         self.folder, self.program = Path(folder), compiled(folder)
 
-    def seconds(self, fmu, values, outputs, stretches, runs=1, later=None):
+    def seconds(self, fmu, values, outputs, stretches, runs=1, later=None, moving=None):
         """Seconds of each run of `fmu`, and those of the processor that its steps took. `stretches`: pairs of their end and step [s],
-        None for one long step; inputs `later` are set after initialisation."""
+        None for one long step; inputs `later` are set after initialisation; `moving`: a `Sine`, or None if inputs are constant."""
         write_start(self.folder / "set", fmu, values, later)
         parts = ",".join(f"{end!r}:{step or 0.0!r}" for end, step in stretches)
         references = [str(fmu.variable(name).reference) for name in outputs]
-        command = [self.program, library_of(fmu), fmu.description.guid, self.folder / "set", parts, str(runs), *references]
+        command = [self.program, library_of(fmu), fmu.description.guid, self.folder / "set", parts, str(runs),
+                   moving.argument(fmu) if moving else "constant", *references]
         printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return [tuple(map(float, line.split())) for line in printed.splitlines()]

@@ -21,6 +21,7 @@ static struct {
     int (*get_real)(Component, const Reference *, size_t, double *);
     int (*get_integer)(Component, const Reference *, size_t, int *);
     int (*get_boolean)(Component, const Reference *, size_t, int *);
+    int (*slopes)(Component, const Reference *, size_t, const int *, const double *);
     int (*step)(Component, double, double, int);
 } fmi;
 
@@ -74,7 +75,7 @@ static Component made(const char *path, const char *guid) {
 #define LOAD(field, name) fmi.field = find(library, "fmi2" name)
     LOAD(instantiate, "Instantiate"); LOAD(reset, "Reset"); LOAD(setup, "SetupExperiment"); LOAD(enter, "EnterInitializationMode");
     LOAD(leave, "ExitInitializationMode"); LOAD(set_real, "SetReal"); LOAD(set_integer, "SetInteger"); LOAD(set_boolean, "SetBoolean");
-    LOAD(get_real, "GetReal"); LOAD(get_integer, "GetInteger"); LOAD(get_boolean, "GetBoolean"); LOAD(step, "DoStep");
+    LOAD(get_real, "GetReal"); LOAD(get_integer, "GetInteger"); LOAD(get_boolean, "GetBoolean"); LOAD(slopes, "SetRealInputDerivatives"); LOAD(step, "DoStep");
 #undef LOAD
     Component it = fmi.instantiate("host", 1, guid, "", NULL, 0, 0);
     if (!it) { fprintf(stderr, "no instance\n"); exit(1); }

@@ -13,7 +13,7 @@ from pathlib import Path
 from bevel_differential import Differential, Fmu
 from bevel_differential.text import markdown
 
-from calls import TEN, Calls
+from calls import TEN, Calls, Sine
 from effects_list import effects
 from tools import machine, say, significant
 
@@ -28,6 +28,8 @@ LONG, FEWEST, MOST = 0.1, 100, 20_000
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_contact": "lumped"}, "line": {"contact.law": "line"},
           "line_weber": {"contact.law": "line_weber"}, "solid": {"scene.gear_contact": "solid", "solid.facets": 32}}
+# a coupled host moves this load: amplitude [N·m] and frequency [Hz]
+LOAD, AMPLITUDE, FREQUENCY = "left.load_torque", 100.0, 2.0
 # what the richest scene of gears in service has on
 ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag", "strength",
        "tooth_errors"]
@@ -40,21 +42,21 @@ class Bench:
     def __init__(self, folder, runs):
         self.calls, self.runs = Calls(folder), runs
 
-    def _per_step(self, fmu, values, steps, outputs):
-        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, [(steps * STEP, STEP)])
+    def _per_step(self, steps, fmu, values, outputs, moving=None):
+        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, [(steps * STEP, STEP)], moving=moving)
         return seconds / steps
 
-    def _steps(self, fmu, values, outputs):
-        return round(min(max(LONG / self._per_step(fmu, values, FEWEST, outputs), FEWEST), MOST))
+    def _steps(self, *one):
+        return round(min(max(LONG / self._per_step(FEWEST, *one), FEWEST), MOST))
 
     def compare(self, first, second):
-        """Seconds of a communication step of both, (FMU, values, outputs) each, and the quartiles of their ratio."""
+        """Seconds of a communication step of both, (FMU, values, outputs[, Sine]) each, and the quartiles of their ratio."""
         pairs = [(*one, self._steps(*one)) for one in (first, second)]
         taken = [[], []]
         for run in range(self.runs):
             for place in (0, 1) if run % 2 == 0 else (1, 0):
-                fmu, values, outputs, steps = pairs[place]
-                taken[place].append(self._per_step(fmu, values, steps, outputs))
+                *one, steps = pairs[place]
+                taken[place].append(self._per_step(steps, *one))
         ratios = [b / a for a, b in zip(*taken)]
         quartiles = statistics.quantiles(ratios, n=4) if len(ratios) > 1 else 3 * ratios
         return [statistics.median(one) for one in taken], quartiles
@@ -89,6 +91,12 @@ class Prices:
         of_one = over[1] * self.evaluations / counted[2] if counted[2] else 0.0
         return counted, taken, over, of_one
 
+    def moving(self, values):
+        """× real time while a load moves, held through each step and along lines."""
+        sines = [Sine(how, LOAD, float(self.fmu.variable(LOAD).start), AMPLITUDE, FREQUENCY) for how in ("held", "lines")]
+        taken, _ = self.bench.compare(*((self.fmu, values, [], sine) for sine in sines))
+        return [significant(STEP / each, 2) for each in taken]
+
     def row(self, name, values):
         (steps, rejected, evaluations), taken, over, of_one = self.of(values)
         return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", significant(1e6 * taken, 3), within(over),
@@ -106,12 +114,12 @@ def prices(bench, fmu, switches, with_pairs, folder):
     pairs = [(a, b) for k, a in enumerate(["line", *switches]) for b in ["line", *switches][k + 1:]] if with_pairs else []
     stages = 2 + len(singles) + len(pairs)
     priced = Prices(bench, fmu)
-    rows = [["on", "steps", "rejected", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "× real time"]]
+    rows = [["on", "steps", "rejected", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "× real time", "load held", "along lines"]]
     known, data = {}, []
     for done, (name, values) in enumerate({"nothing": {}, **singles}.items()):
         say(done / stages, f"timing {name}")
         row, of_one, over = priced.row("nothing" if name == "nothing" else f"`{name}`", values)
-        rows.append(row)
+        rows.append([*row, *priced.moving(values)])
         known[name] = of_one
         data.append([name, significant(of_one, 4), significant(over * priced.evaluations / (COUNTED / STEP), 4)])
     every = OF_ALL.copy()
@@ -119,7 +127,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
         every = singles[name] | every
     say((1 + len(singles)) / stages, "timing all together")
     row, of_all, _ = priced.row("all together", every)
-    rows.append(row)
+    rows.append([*row, *priced.moving(every)])
     write(folder, "prices.csv", [["on", "evaluation", "communication_step"], *data])
     write(folder, "alone.csv", rows)
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)

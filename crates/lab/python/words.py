@@ -1,9 +1,9 @@
 """Finds wording that readers stumble over: in doc comments, docstrings and pages. A tool for writers; it never fails.
 
-usage: words.py [--places] [PATH...]
+usage: words.py [--places] [--within PATH]
 
 Counts openings of doc comments that do not name a thing or an action, compressed phrases, and sentences that are too long on the
-README and the pages in docs/. `--places` also prints each place. PATH limits the search to these folders or files."""
+README and the pages in docs/. `--places` also prints each place. PATH limits the search to a folder or a file."""
 
 import argparse
 import ast
@@ -60,9 +60,9 @@ def sentences(begin, lines):
         yield begin, re.findall(r"[^\W_][\w'’.,−-]*", sentence)
 
 
-def places(paths):
+def places(within):
     """All places: file, line, kind of pattern, pattern and text."""
-    names = subprocess.run(["git", "ls-files", *paths], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
+    names = subprocess.run(["git", "ls-files", within], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
     for name in names:
         read = {".rs": rust_comments, ".py": docstrings}.get(Path(name).suffix)
         is_page = name == "README.md" or name.startswith("docs/") and name.endswith(".md")
@@ -84,9 +84,9 @@ def places(paths):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--places", action="store_true")
-    parser.add_argument("paths", nargs="*")
+    parser.add_argument("--within", default=".")
     given = parser.parse_args()
-    found = list(places(given.paths))
+    found = list(places(given.within))
     if given.places:
         for name, line, kind, pattern, text in found:
             print(f"{name}:{line}: {kind} \"{pattern}\": {text[:120]}")

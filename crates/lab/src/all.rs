@@ -18,7 +18,7 @@ use fmu_build::tools::progress::Progress;
 const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 23] = [
+const COMMANDS: [&[&str]; 24] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time", "--quick"],
@@ -42,6 +42,7 @@ const COMMANDS: [&[&str]; 23] = [
     &["test-python"],
     &["mutants", "--count", "8"],
     &["coefficients", "--count", "8"],
+    &["words"],
 ];
 
 /// Runs every command here in its short form and prints one table of how they went (about an hour)

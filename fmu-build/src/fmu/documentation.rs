@@ -135,7 +135,7 @@ fn of(causality: Causality) -> impl Iterator<Item = &'static Variable> {
 }
 
 /// Parameters by the first part of their names.
-fn parameter_groups() -> Vec<(&'static str, Vec<&'static Variable>)> {
+pub(super) fn parameter_groups() -> Vec<(&'static str, Vec<&'static Variable>)> {
     let mut groups: Vec<(&str, Vec<&Variable>)> = Vec::new();
     for row in of(Causality::Parameter) {
         let name = row.name.split('.').next().unwrap_or(row.name);
@@ -246,7 +246,8 @@ pub fn start(row: &Variable) -> String {
     }
 }
 
-fn allowed(row: &Variable) -> String {
+/// Range of a variable, as hosts show it.
+pub(super) fn allowed(row: &Variable) -> String {
     row.range
         .map_or(String::new(), |range| [range.min, range.max].map(|limit| shown(row, limit, LIMIT_DIGITS)).join(" to "))
 }

@@ -9,6 +9,7 @@ use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use serde_json::{Value, json};
 
 use crate::fmu::documentation::start;
+use crate::fmu::variables_page;
 use crate::tools::files::write_whole;
 use crate::tools::sections;
 use answers::text::table::Table;
@@ -19,11 +20,12 @@ type EffectEntry = bevel_differential::model::effects::EffectEntry;
 const LONGEST: usize = 96;
 
 /// The sections of documents that list the effects: document, lines around it, text.
-fn sections() -> [(&'static str, [&'static str; 2], String); 3] {
+fn sections() -> [(&'static str, [&'static str; 2], String); 4] {
     [
         ("README.md", ["<!-- effects begin -->", "<!-- effects end -->"], overview().markdown()),
         ("docs/effects.md", ["<!-- interface:begin -->", "<!-- interface:end -->"], interface().markdown()),
         ("docs/effects.md", ["<!-- parameters:begin -->", "<!-- parameters:end -->"], parameters().markdown()),
+        ("docs/variables.md", ["<!-- variables:begin -->", "<!-- variables:end -->"], variables_page::groups()),
     ]
 }
 

@@ -18,6 +18,7 @@ pub mod plain_types;
 pub mod sources;
 pub mod terminals;
 pub mod toolchains;
+mod variables_page;
 pub mod wasm;
 pub mod wheel;
 

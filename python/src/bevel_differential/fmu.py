@@ -124,6 +124,8 @@ class Fmu:
 
     def variable(self, name: str) -> Variable:
         """The variable `name`."""
+        if not isinstance(name, str):
+            raise DifferentialError(f"{name!r}: the name of a variable is text, such as \"left.speed\"")
         try:
             return self.variables[name]
         except KeyError:

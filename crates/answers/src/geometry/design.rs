@@ -28,8 +28,10 @@ pub struct Design {
     pub pair: Pair,
     /// Their planar approximation.
     pub planar: Tredgold,
-    /// What is unusual about them.
+    /// Properties that a gear engineer would question.
     pub warnings: Vec<Problem>,
+    /// Properties that are usual for forged differential gears, but not for cut gears.
+    pub remarks: Vec<Problem>,
 }
 
 impl Design {
@@ -51,8 +53,9 @@ impl Design {
             found.extend(&problems);
             return Err(found);
         }
-        let (planar, warnings) = (Tredgold::new(&pair), checks::warnings(&spec, &pair));
-        Ok(Self { parameters, settings, spec, pair, planar, warnings })
+        let planar = Tredgold::new(&pair);
+        let (warnings, remarks) = (checks::warnings(&spec, &pair), checks::remarks(&spec, &pair));
+        Ok(Self { parameters, settings, spec, pair, planar, warnings, remarks })
     }
 }
 

@@ -27,6 +27,7 @@ pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String
     ];
     document.extend(check.map(|check| ("interference", check.report())));
     document.push(("warnings", design.warnings.iter().map(warning).collect::<Value>().into()));
+    document.push(("remarks", design.remarks.iter().map(warning).collect::<Value>().into()));
     Ok(serde_json::to_string_pretty(&Ordered::Object(document))? + "\n")
 }
 

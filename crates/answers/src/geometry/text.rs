@@ -1,13 +1,15 @@
-//! Dimensions of a design as text for a reader: aligned tables, Tredgold's planar approximation, and the warnings.
+//! Dimensions of a design as text for a reader: aligned tables, Tredgold's planar approximation, warnings and remarks.
+
+use bevel_differential::problem::Problem;
 
 use super::design::Design;
 use super::dimensions::{Dimension, DimensionGroup, of_gears, of_pair};
 use super::tredgold::comparisons;
 use crate::text::table::{Table, wrapped};
 
-/// Dimensions, planar approximation and warnings of `design`.
+/// Dimensions, planar approximation, warnings and remarks of `design`.
 pub fn text(design: &Design) -> String {
-    format!("{}\n{}", dimensions(design), warnings(design))
+    format!("{}\n{}{}", dimensions(design), listed("warnings", &design.warnings), listed("remarks", &design.remarks))
 }
 
 /// Dimensions and planar approximation of `design`.
@@ -92,13 +94,11 @@ fn planar(design: &Design) -> String {
     format!("{title}\n{}", table.terminal())
 }
 
-fn warnings(design: &Design) -> String {
-    if design.warnings.is_empty() {
-        return "no warnings\n".into();
+/// A numbered list of `found` under a title.
+fn listed(title: &str, found: &[Problem]) -> String {
+    if found.is_empty() {
+        return format!("no {title}\n");
     }
-    let mut out = String::from("warnings\n");
-    for (i, problem) in design.warnings.iter().enumerate() {
-        out.push_str(&wrapped(&format!("{}. {problem}", i + 1)));
-    }
-    out
+    let lines = found.iter().enumerate().map(|(i, problem)| wrapped(&format!("{}. {problem}", i + 1)));
+    format!("{title}\n{}", lines.collect::<String>())
 }

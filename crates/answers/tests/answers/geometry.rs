@@ -227,10 +227,13 @@ fn parameters_are_set_by_name_and_unit() -> Result<()> {
     assert!(
         text.contains("Set: geometry.module = 4 mm, geometry.pressure_angle = 22.5 deg, geometry.face_width = 12 mm.")
     );
-    assert!(text.contains("\nno warnings\n"), "{text}");
-    // the start values are the study's gears, whose face is wide
-    let text = text::text(&Design::new::<&str>(&[])?);
-    assert!(text.contains("\n1. geometry.face_width: 20.00 mm is 0.471 R_e"), "{text}");
+    assert!(text.contains("\nno warnings\nno remarks\n"), "{text}");
+    // a face that is usual for forged gears, and one that is wider
+    let text = text::text(&Design::new(&["geometry.face_width=20mm"])?);
+    assert!(text.contains("\nno warnings\nremarks\n1. geometry.face_width: 20.00 mm is 0.471 R_e"), "{text}");
+    let text = text::text(&Design::new(&["geometry.face_width=25mm"])?);
+    assert!(text.contains("\nwarnings\n1. geometry.face_width: 25.00 mm is 0.589 R_e"), "{text}");
+    assert!(text.ends_with("\nno remarks\n"), "{text}");
     Ok(())
 }
 

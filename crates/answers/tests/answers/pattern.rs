@@ -206,6 +206,7 @@ fn teeth_that_stand_and_a_law_with_one_resultant_have_a_pattern_and_a_warning() 
     scene.parameters.scene.gear_contact = GearContact::Tooth;
     scene.parameters.scene.planet_spin = PlanetSpin::Free;
     scene.stop_time = 0.05;
+    scene.parameters.geometry.face_width = 22e-3;
     let mut progress = Progress::silent();
     let record = Engagement::new(&scene, &mut progress).expect("a pattern");
     let said = |part: &str| progress.warnings().iter().filter(|text| text.contains(part)).count();

@@ -18,5 +18,6 @@ pub fn commands() -> Vec<Command> {
         scripts::DRIVETRAIN.command(),
         scripts::PATTERNS.command(),
         scripts::PRICES.command(),
+        scripts::WORDS.command(),
     ]
 }

@@ -151,3 +151,19 @@ pub const PRICES: Script = Script {
     sections: &[("docs/accuracy.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
     ..DEFAULTS
 };
+
+/// Wording that readers stumble over, counted in doc comments and pages. It is a tool for writers and never fails.
+pub const WORDS: Script = Script {
+    name: "words",
+    about: "Counts wording that readers stumble over: openings of doc comments, compressed phrases, long sentences",
+    options: || {
+        vec![
+            path("within", "PATH", "Only this folder or file of the repository"),
+            flag("places", "Also print each place"),
+        ]
+    },
+    file: "crates/lab/python/words.py",
+    doing: "reading",
+    given: &[Given::Named("within"), Given::Named("places")],
+    ..DEFAULTS
+};

@@ -14,8 +14,8 @@ STANDARD, GLEASON, ISO_23509, EXPLICIT = 1, 2, 3, 4
 # Gleason's constant part of the clearance, m
 GLEASON_CLEARANCE = 0.05e-3
 NAMES = ("planet", "side gear")
-# limits of src/geometry/checks.rs: face width over R_e by ISO 23509 practice, tip land and rim in modules
-FACE_WIDTH, LAND, RIM = 1.0 / 3.0, 0.2, 2.0
+# limits of src/geometry/checks.rs: face width over R_e, tip land in modules, rim at the toe over the tooth depth there
+FACE_WIDTH, LAND, RIM = 0.5, 0.2, 0.5
 LEAST_INNER_CONE, LEAST_ROOT_ANGLE = 0.1, 0.02
 
 
@@ -155,9 +155,9 @@ def violations(pair: Pair) -> dict[str, float]:
     for i, gear in enumerate(pair.gears):
         _note(found, f"bore of the {NAMES[i]}", (0.5 * gear.bore - pair.toe_root(i)) / module, closed=True)
         _note(found, f"tip land of the {NAMES[i]}", LAND - pair.land(i) / module)
-        toe_module = module * pair.inner_cone / pair.outer_cone
+        depth = (gear.addendum + gear.dedendum) * pair.inner_cone / pair.outer_cone
         if gear.bore > 0.0:
-            _note(found, f"rim of the {NAMES[i]}", (RIM - pair.rim(i) / toe_module) / RIM)
+            _note(found, f"rim of the {NAMES[i]}", (RIM - pair.rim(i) / depth) / RIM)
         # the side gear's tip undercuts the planet, and the other way round
         _note(found, f"undercut of the {NAMES[1 - i]}", pair.addendum_over_limit(i) * pair.outer_cone / module)
     _note(found, "planets strike each other", -pair.between_planets())

@@ -10,6 +10,8 @@ from .drawings import draw_section, draw_teeth
 from .simulated import Simulated
 
 GEARS = ("planet", "side")
+# face width over outer cone distance of cut gears, at most
+USUAL_FACE = 1.0 / 3.0
 
 
 def section(run: Simulated) -> Section:
@@ -39,11 +41,12 @@ def _deg(angle):
 def _section_caption(pair):
     planet, side = pair.gears
     share = pair.face_width / pair.outer_cone
+    usual = "" if share <= USUAL_FACE else " Cut gears usually have at most a third of it, forged ones up to half."
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
             ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
-            f"{words.mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes "
-            "through the root circles, as the FMU has them for masses.")
+            f"{words.mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones.{usual} Bodies end at "
+            "planes through the root circles, as the FMU has them for masses.")
 
 
 def _teeth_caption(run, pair):

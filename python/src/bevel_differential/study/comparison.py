@@ -147,7 +147,7 @@ def _notes(forms, straight):
         "Stored energy less work of the inputs plus heat, over the energy that went through in the same time; zero for an exact solution.",
         f"Geometry: standard addenda (1.0 modules) {consequence}; the limit is {forms.addendum_limit:.3f} modules at "
         f"{degrees(pair.pressure_angle):.0f} deg. Long and short addenda, the default, cure it. The face width of "
-        f"{pair.face_width * 1e3:.0f} mm is {pair.face_width / pair.outer_cone:.3f} R_e, above the usual R_e/3. The contact ratio is "
+        f"{pair.face_width * 1e3:.0f} mm is {pair.face_width / pair.outer_cone:.3f} R_e, above R_e/3, the usual limit of cut gears. The contact ratio is "
         f"{sphere:.4f} on the sphere; Tredgold's planar approximation, which the study uses, gives {planar:.4f} "
         f"({100.0 * (planar / sphere - 1.0):+.2f} %).",
     ]
