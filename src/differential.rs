@@ -1,4 +1,4 @@
-//! A differential for programs in Rust: set, run and read by the names and in the units of the FMU's variables.
+//! Differential for programs in Rust, which set, run and read it by the names and in the units of the FMU's variables.
 
 use std::fmt;
 
@@ -9,8 +9,8 @@ use crate::variables::{Access, Variable, assign, named, number_of, tuned, value_
 
 /// A bevel gear differential.
 ///
-/// Values are those of the FMU: SI units, and the same names. What is set before the first step or reading is what the
-/// simulation starts from; after that inputs and tunable parameters may be set, and act from then on.
+/// Names and SI units are those of the FMU. Values that are set before the first step or reading are initial values.
+/// Later, inputs and tunable parameters may be set, with immediate effect.
 ///
 /// ```
 /// use bevel_differential::{Differential, DifferentialError};
@@ -36,14 +36,14 @@ pub struct Differential {
     simulation: Option<Simulation>,
 }
 
-/// Why something was refused or could not be completed.
+/// Error of a call that was refused or could not be completed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DifferentialError {
-    /// There is no variable of this name.
+    /// Unknown name of a variable.
     Unknown(String),
-    /// Values that do not fit: each with its variable, range and hint.
+    /// Invalid values, each with its variable, range and hint.
     Values(Vec<Problem>),
-    /// A step that could not be completed; the simulation stands at the last good time.
+    /// A step that could not be completed. The simulation is at the last good time.
     Step(StepFailure),
 }
 
@@ -70,12 +70,13 @@ fn variable(name: &str) -> Result<&'static Variable, DifferentialError> {
 }
 
 impl Differential {
-    /// The differential with the start values of the FMU: that of the study, except for the addenda.
+    /// Creates a differential with the start values of the FMU. They are those of the study, except for the addenda.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets `name` to a number in the unit of the interface; true and false are 1 and 0, choices have their numbers.
+    /// Sets `name` to a number in the unit of the interface. True and false are 1 and 0, and choices have their
+    /// numbers.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), DifferentialError> {
         self.assign(variable(name)?, value)
     }
@@ -105,7 +106,7 @@ impl Differential {
         Ok(())
     }
 
-    /// The value of `name` now. The first reading of an output starts the simulation.
+    /// Returns the present value of `name`. The first reading of an output starts the simulation.
     pub fn get(&mut self, name: &str) -> Result<f64, DifferentialError> {
         let row = variable(name)?;
         match row.access {
@@ -114,10 +115,11 @@ impl Differential {
         }
     }
 
-    /// Simulates on for `duration` [s]; inputs hold, or ramp under `solver.input_ramp`. The first call starts the simulation at 0 s.
+    /// Advances the simulation by `duration` [s]. Inputs are held, or ramped with `solver.input_ramp`. The first call
+    /// starts the simulation at 0 s.
     pub fn advance(&mut self, duration: f64) -> Result<(), DifferentialError> {
         if !(duration >= 0.0 && duration.is_finite()) {
-            let message = format!("a duration of {duration} s is no time to simulate for");
+            let message = format!("the duration {duration} s is not a finite number of at least 0");
             return Err(DifferentialError::Step(StepFailure { time: self.time(), message }));
         }
         let host = HostInputs::held(&self.inputs);
@@ -135,12 +137,13 @@ impl Differential {
         Ok(())
     }
 
-    /// Time that was simulated [s].
+    /// Simulated time [s].
     pub fn time(&self) -> f64 {
         self.simulation.as_ref().map_or(0.0, Simulation::time)
     }
 
-    /// The simulation, started if it was not: what it warns of, single tooth loads, and all else that has no name.
+    /// Returns the simulation, and starts it if necessary. It provides warnings, individual tooth loads, and everything
+    /// else without a variable name.
     pub fn simulation(&mut self) -> Result<&mut Simulation, DifferentialError> {
         let start = || Simulation::start(&self.parameters, &self.inputs, 0.0).map_err(DifferentialError::Values);
         let simulation = match self.simulation.take() {

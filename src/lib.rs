@@ -1,11 +1,12 @@
-//! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and its FMI 2.0 face.
+//! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and FMI interfaces.
 //!
-//! The modules; each uses only those before it:
-//! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
+//! Modules, each of which uses only those before it: `numeric` → `geometry` → `friction`, `contact` → `strength` →
+//! `integrate` → `declaration` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
 //!
-//! Programs in Rust begin with [`Differential`], which sets, runs and reads a differential by the names of the FMU's variables.
+//! Programs in Rust start with [`Differential`], which sets, runs and reads a differential by the names of the FMU's
+//! variables.
 //!
-//! All quantities are SI (m, rad, s, kg, N) unless a name says otherwise; symbols follow ISO 23509.
+//! All quantities are in SI units (m, rad, s, kg, N) unless a name says otherwise. Symbols follow ISO 23509.
 
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
@@ -31,10 +32,10 @@ pub mod variables;
 
 pub use differential::{Differential, DifferentialError};
 
-/// Whether this build has what real-time targets do without, see the feature in `Cargo.toml`.
+/// True in full builds. Builds for real-time targets omit some features; see the feature `full` in `Cargo.toml`.
 pub const FULL: bool = cfg!(feature = "full");
 
-// the C ABI is the one place that must handle foreign pointers
+// only the C ABI handles foreign pointers
 #[allow(unsafe_code)]
 pub mod fmi2;
 #[allow(unsafe_code)]

@@ -2,23 +2,23 @@
 
 use std::fmt;
 
-/// A validation error with a hint what to change.
+/// A validation error with a hint how to resolve it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// Dotted name of the offending variable, e.g. `geometry.module`.
+    /// Dotted name of the offending variable, for example `geometry.module`.
     pub variable: &'static str,
-    /// The error: value, unit, allowed range and, where the cause is known, a hint.
+    /// Description of the error: value, unit, allowed range and, if the cause is known, a hint.
     pub message: String,
 }
 
 impl Problem {
-    /// A problem with `variable`, described by `message`.
+    /// Creates a problem with `variable`, described by `message`.
     pub fn new(variable: &'static str, message: impl Into<String>) -> Self {
         Self { variable, message: message.into() }
     }
 }
 
-/// A problem with a variable, described as `format!` takes it.
+/// Creates a problem with a variable, described in the format of `format!`.
 macro_rules! problem {
     ($variable:expr, $($message:tt)+) => { $crate::problem::Problem::new($variable, format!($($message)+)) };
 }
@@ -29,16 +29,16 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Two numbers that a message compares, with at least `digits` decimals and as many as it takes to tell them apart.
+/// Formats two numbers that a message compares, with at least `digits` decimals and enough to distinguish them.
 pub fn told_apart(pair: [f64; 2], digits: usize) -> [String; 2] {
     let written = |digits: usize| pair.map(|x| format!("{x:.digits$}"));
     (digits..=MOST_DIGITS).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(digits))
 }
 
-/// Decimals beyond which doubles of ordinary size hold no more.
+/// Maximum number of decimals; doubles of ordinary magnitude contain no more.
 const MOST_DIGITS: usize = 17;
 
-/// Several problems in one text, a line each.
+/// Joins several problems into one text, one per line.
 pub fn list(problems: &[Problem]) -> String {
     problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
 }

@@ -1,14 +1,14 @@
-//! How parameters are written, in every module: structs with the start value beside each field, and enumerations with
-//! the name that the interface has for each choice.
+//! Notation of parameters in all modules: structs with a start value for each field, and enumerations with a name in
+//! the interface for each choice.
 
 /// One literal of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// Value at the FMI boundary.
+    /// Value in the FMI interface.
     pub value: i32,
-    /// Literal.
+    /// Name of the literal.
     pub name: &'static str,
-    /// What it means.
+    /// Meaning of the literal.
     pub description: &'static str,
 }
 
@@ -17,21 +17,21 @@ pub struct Choice {
 pub struct EnumType {
     /// Name of the type.
     pub name: &'static str,
-    /// Its literals.
+    /// Literals of the type.
     pub choices: &'static [Choice],
 }
 
 /// A parameter that is one of several choices.
 pub trait Choices: Copy + 'static {
-    /// The choices as the interface has them.
+    /// Enumeration type in the interface.
     const TYPE: &'static EnumType;
-    /// The value of this one.
+    /// Returns the value of this choice.
     fn value(self) -> i32;
-    /// The one of value `value`.
+    /// Returns the choice with `value`, if it exists.
     fn of(value: i32) -> Option<Self>;
 }
 
-/// Parameters with their start values.
+/// Defines a struct of parameters with their start values.
 macro_rules! spec {
     ($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident: $type:ty = $start:expr,)+ }) => {
         $(#[$about])*
@@ -46,7 +46,7 @@ macro_rules! spec {
     };
 }
 
-/// An enumeration, named `$type` in the interface, with its choices.
+/// Defines an enumeration of choices, named `$type` in the interface.
 macro_rules! choices {
     ($(#[$about:meta])* pub enum $name:ident: $type:literal {
         $($variant:ident = $value:literal, $literal:literal: $meaning:literal;)+
@@ -57,7 +57,7 @@ macro_rules! choices {
         pub enum $name { $(#[doc = $meaning] $variant = $value,)+ }
 
         impl $name {
-            /// Its name in the interface.
+            /// Returns the name in the interface.
             pub const fn literal(self) -> &'static str {
                 match self { $(Self::$variant => $literal,)+ }
             }

@@ -1,7 +1,7 @@
-//! No leaks: ten thousand instances, states and refused calls leave the live bytes of the heap unchanged, and what instances
-//! keep for their next starts goes with the last of them.
+//! Tests for leaks. Ten thousand instances, states and refused calls leave the live bytes of the heap unchanged. The
+//! cache that instances share is freed with the last instance.
 //!
-//! A program of its own, and one test at a time: all instances of a program share what they keep.
+//! This is a separate program that runs one test at a time, because all instances of a program share a cache.
 
 mod common;
 
@@ -14,19 +14,20 @@ use bevel_differential::variables::guid;
 use common::counting_allocator::{CountingAllocator, allocated_bytes, live_bytes};
 use common::{Host, reference};
 
-/// Counts per thread.
+/// Allocator with counters per thread.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 const MANY: usize = 10_000;
 
-/// Held by the test that runs.
-fn alone() -> MutexGuard<'static, ()> {
+/// Lock held by the running test.
+fn lock() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Bytes that `MANY` runs of `once` leave allocated, after some runs that initialise what a process needs only once.
+/// Number of bytes that `MANY` runs of `once` leave allocated. Some runs before them initialise what a process needs
+/// only once.
 fn left_behind(mut once: impl FnMut(usize)) -> isize {
     (0..8).for_each(&mut once);
     let before = live_bytes();
@@ -34,10 +35,10 @@ fn left_behind(mut once: impl FnMut(usize)) -> isize {
     live_bytes() - before
 }
 
-/// An instance without a log, which would grow.
+/// Creates an instance without a log, because a log would grow.
 fn silent(kind: i32) -> ComponentPointer {
     let guid = std::ffi::CString::new(guid()).unwrap();
-    // SAFETY: strings that live through the call; no callbacks
+    // SAFETY: the strings outlive the call; no callbacks
     let c = unsafe { fmi2Instantiate(c"leak".as_ptr(), kind, guid.as_ptr(), ptr::null(), ptr::null(), 0, 0) };
     assert!(!c.is_null());
     c
@@ -45,12 +46,11 @@ fn silent(kind: i32) -> ComponentPointer {
 
 #[test]
 fn ten_thousand_instances_leave_nothing_behind() {
-    let _alone = alone();
+    let _lock = lock();
     let (level, module) = (reference("scene.gear_contact"), reference("geometry.module"));
     let left = left_behind(|i| {
         let c = silent(i as i32 % 2);
-        // every fourth is not initialised, every fourth fails to initialise
-        // SAFETY: a live component, one value each
+        // one instance in four is not initialised, and one in four fails to initialise
         unsafe {
             if i % 4 > 0 {
                 fmi2SetInteger(c, &level, 1, &(1 + i as i32 / 2 % 3));
@@ -71,7 +71,7 @@ fn ten_thousand_instances_leave_nothing_behind() {
 
 #[test]
 fn ten_thousand_states_leave_nothing_behind() {
-    let _alone = alone();
+    let _lock = lock();
     for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
         let c = silent(kind);
         // SAFETY: live component and states, and memory of these sizes
@@ -103,7 +103,7 @@ fn ten_thousand_states_leave_nothing_behind() {
 
 #[test]
 fn ten_thousand_initialisations_of_one_instance_leave_nothing_behind() {
-    let _alone = alone();
+    let _lock = lock();
     let (module, c) = (reference("geometry.module"), silent(CO_SIMULATION));
     let left = left_behind(|i| {
         // SAFETY: a live component, one value
@@ -115,14 +115,14 @@ fn ten_thousand_initialisations_of_one_instance_leave_nothing_behind() {
             assert_eq!(fmi2Reset(c), Status::Ok);
         }
     });
-    // SAFETY: a live component, the last use of it
+    // SAFETY: a live component, used for the last time
     unsafe { fmi2FreeInstance(c) };
     assert_eq!(left, 0);
 }
 
 #[test]
 fn a_leak_is_detected() {
-    let _alone = alone();
+    let _lock = lock();
     let host = Host::new();
     let mut states = Vec::with_capacity(MANY + 8);
     let left = left_behind(|_| states.push(host.get_state()));
@@ -130,7 +130,7 @@ fn a_leak_is_detected() {
     states.into_iter().for_each(|state| host.free_state(state));
 }
 
-/// Initialises `c` with teeth whose stiffness follows from their geometry, of the module `module` [m].
+/// Initialises `c` with `module` [m] and with teeth whose stiffness follows from their geometry.
 fn initialise(c: ComponentPointer, module: f64) {
     let (law, place) = (reference("contact.law"), reference("geometry.module"));
     // SAFETY: a live component, one value each
@@ -146,15 +146,15 @@ fn initialise(c: ComponentPointer, module: f64) {
 }
 
 fn free(c: ComponentPointer) {
-    // SAFETY: a live component, the last use of it
+    // SAFETY: a live component, used for the last time
     unsafe { fmi2FreeInstance(c) };
 }
 
 const MODULE: f64 = 0.0045;
 
 #[test]
-fn instances_share_what_they_keep_and_the_last_one_frees_it() {
-    let _alone = alone();
+fn instances_share_a_cache_and_the_last_one_frees_it() {
+    let _lock = lock();
     let new = || {
         let c = silent(CO_SIMULATION);
         initialise(c, MODULE);
@@ -176,8 +176,8 @@ fn instances_share_what_they_keep_and_the_last_one_frees_it() {
 }
 
 #[test]
-fn a_reset_keeps_what_the_geometry_gave() {
-    let _alone = alone();
+fn a_reset_keeps_cached_results_of_the_geometry() {
+    let _lock = lock();
     let c = silent(CO_SIMULATION);
     let allocated = |module: f64| {
         let before = allocated_bytes();
@@ -192,8 +192,8 @@ fn a_reset_keeps_what_the_geometry_gave() {
 }
 
 #[test]
-fn many_geometries_are_not_all_kept() {
-    let _alone = alone();
+fn only_a_few_of_many_geometries_are_cached() {
+    let _lock = lock();
     let (c, before) = (silent(CO_SIMULATION), live_bytes());
     let after = |geometries: std::ops::Range<usize>| {
         for i in geometries {
@@ -211,7 +211,7 @@ fn many_geometries_are_not_all_kept() {
 
 #[test]
 fn instances_of_many_threads_leave_nothing_behind() {
-    let _alone = alone();
+    let _lock = lock();
     let run = |thread: usize| {
         let before = live_bytes();
         for i in 0..24 {
@@ -221,7 +221,7 @@ fn instances_of_many_threads_leave_nothing_behind() {
         }
         live_bytes() - before
     };
-    // what a process and its threads need only once
+    // this run initialises what a process and its threads need only once
     run(0);
     let left: isize = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..8).map(|thread| scope.spawn(move || run(thread))).collect();

@@ -1,4 +1,4 @@
-//! Wider vector instructions give the same bits as those of every processor.
+//! Tests that wider vector instructions give the same bits as the vector instructions of every processor.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation};
 use bevel_differential::numeric::lanes;
 
-/// Scenes of all sizes of the equations and all kinds of meshes.
+/// Scenes that cover all sizes of the equations and all kinds of meshes.
 fn scenes() -> Vec<(&'static str, Parameters)> {
     let changed = |name, change: fn(&mut Parameters)| {
         let mut p = Parameters::default();
@@ -30,8 +30,8 @@ fn scenes() -> Vec<(&'static str, Parameters)> {
     ]
 }
 
-/// Runs every scene and prints the bits of what it ends with; called by the test below in processes of their own, as a process
-/// chooses its vectors once.
+/// Runs every scene and prints the bits of its final state. The test below calls it in separate processes, because a
+/// process selects its vector width only once.
 #[test]
 #[ignore = "prints for the other test"]
 fn bits() {

@@ -1,28 +1,30 @@
 //! Damping of a tooth pair on top of any elastic law, and the resulting coefficient of restitution.
 //!
-//! `Step` is the damping of Adams IMPACT, C·STEP(d, 0, 0, d_max, 1)·ḋ, independent of the elastic force.
-//! `HuntCrossley` is F = F_el (1 + λ ḋ): it starts and ends at zero with the elastic force, so that no impact begins with
-//! a jump. Neither lets the flanks pull: F ≥ 0.
+//! `Step` is the damping of Adams IMPACT, C·STEP(d, 0, 0, d_max, 1)·ḋ, independent of the elastic force. `HuntCrossley`
+//! is F = F_el (1 + λ ḋ). It starts and ends at zero with the elastic force, so no impact begins with a jump. Neither
+//! law lets the flanks pull: F ≥ 0.
 //!
 //! # Restitution
 //!
-//! A free mass under F = F_el (1 + λ ḋ) has v dv/(1 + λ v) = −F_el/m dd. The right side returns to zero with d, so between
-//! the speeds v₀ in and e v₀ out the left side integrates to zero, whatever the elastic law: with D = λ v₀
+//! A free mass under F = F_el (1 + λ ḋ) has v dv/(1 + λ v) = −F_el/m dd. The right side returns to zero with d.
+//! Therefore the left side integrates to zero between the speed v₀ of approach and the speed e v₀ of separation, for
+//! any elastic law. With D = λ v₀,
 //!
 //! ```text
 //! D − ln(1 + D) = −e D − ln(1 − e D).
 //! ```
 //!
-//! As e D < 1, a body leaves at less than 1/λ however fast it came, and D grows without bound as e falls to zero.
+//! Because e D < 1, a body separates at less than 1/λ for any speed of approach, and D grows without bound as e falls
+//! to zero.
 //!
-//! Source: Hunt, Crossley (1975), J. Appl. Mech. 42, p. 440, for the force; Marhefka, Orin (1999), IEEE Trans. Syst. Man
-//! Cybern. A 29, p. 566, for the integration. The known λ = 3(1 − e)/(2 v₀) is its limit for e → 1.
+//! Source: Hunt, Crossley (1975), J. Appl. Mech. 42, p. 440, for the force; Marhefka, Orin (1999), IEEE Trans. Syst.
+//! Man Cybern. A 29, p. 566, for the integration. The known λ = 3(1 − e)/(2 v₀) is its limit for e → 1.
 
 use super::impact::Force;
 use crate::problem::Problem;
 
-/// Smallest coefficient of restitution accepted: D is 20 there.
-const LEAST_RESTITUTION: f64 = 0.05;
+/// Smallest accepted coefficient of restitution; D is 20 there.
+const MIN_RESTITUTION: f64 = 0.05;
 
 /// Damping law of a tooth pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +47,8 @@ impl Damping {
     /// No damping.
     pub const NONE: Self = Self::HuntCrossley { lambda: 0.0 };
 
-    /// The same law for arcs, torques and rates about the pole of the plane of action, per unit of `weight`, of a face
-    /// whose force acts at the cone distance `cone` [m].
+    /// Returns this law in arcs, torques and rates about the pole of the plane of action, per unit of `weight`, for a
+    /// face whose force acts at the cone distance `cone` [m].
     pub fn in_arcs(&self, cone: f64, weight: f64) -> Self {
         match *self {
             Damping::Step { coefficient, per_full_depth } => {
@@ -56,8 +58,8 @@ impl Damping {
         }
     }
 
-    /// Force with derivatives from the elastic force `elastic` [N] and its stiffness ∂F_el/∂d [N/m] at penetration `d` > 0
-    /// [m] and rate `rate` [m/s].
+    /// Force with derivatives at penetration `d` > 0 [m] and rate `rate` [m/s]. `elastic` is the elastic force [N],
+    /// `stiffness` its derivative ∂F_el/∂d [N/m].
     #[inline(always)]
     pub fn apply(&self, elastic: f64, stiffness: f64, d: f64, rate: f64) -> Force {
         let (total, by_depth, by_rate) = match *self {
@@ -79,7 +81,7 @@ impl Damping {
     }
 }
 
-/// (x − ln(1 + x))/x², by its series where the difference would lose digits.
+/// (x − ln(1 + x))/x², computed by its series if the difference would lose digits.
 fn excess(x: f64) -> f64 {
     if x.abs() > 0.1 {
         return (x - libm::log1p(x)) / (x * x);
@@ -88,13 +90,13 @@ fn excess(x: f64) -> f64 {
     (2..20).rev().fold(0.0, |sum, n| 1.0 / f64::from(n) - x * sum)
 }
 
-/// Balance of the relation over D²; falls through zero once for D from 0 to 1/e, from (1 − e²)/2 to −∞.
+/// Balance of the restitution relation over D². It falls through zero once for D from 0 to 1/e, from (1 − e²)/2 to −∞.
 fn balance(damping: f64, e: f64) -> f64 {
     excess(damping) - e * e * excess(-e * damping)
 }
 
-/// The root in (`low`, `high`) of a function that falls through zero once: secant steps kept inside a shrinking bracket,
-/// with bisection where they converge slowly.
+/// Root in (`low`, `high`) of a function that falls through zero once. Secant steps stay inside a shrinking bracket,
+/// with bisection if they converge slowly.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     for round in 0..200 {
@@ -114,12 +116,12 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     if at_high.abs() <= at_low.abs() { high } else { low }
 }
 
-/// D = λ v₀ that makes the coefficient of restitution `restitution`, from 0.05 to 1.
+/// Returns the D = λ v₀ that results in the coefficient of restitution `restitution`, from 0.05 to 1.
 pub fn dimensionless_damping(restitution: f64) -> Result<f64, Problem> {
-    if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
+    if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
         return Err(problem!(
             "contact.restitution",
-            "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
+            "{restitution} is out of range; allowed {MIN_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
              damping without bound, since it never stops a body completely"
         ));
     }

@@ -7,15 +7,15 @@ use super::detailed::{Opening, PairName};
 use super::errors::{Chip, MeshId, PairId, ToothErrors};
 use crate::geometry::Pair;
 
-/// Most planets.
+/// Maximum number of planets.
 const MAX_PLANETS: usize = 4;
 
-/// Side gear teeth from planet 1 to another planet.
+/// Number of side gear teeth from planet 1 to another planet.
 #[derive(Clone, Copy, Debug, Default)]
 struct Turned {
-    /// Whole teeth where a half does not count, and where it counts as one.
+    /// Whole teeth, with a half tooth rounded down and up.
     ahead: [i64; 2],
-    /// 1 where half a tooth is left.
+    /// 1 if half a tooth remains, else 0.
     odd: i64,
 }
 
@@ -23,22 +23,22 @@ struct Turned {
 #[derive(Clone, Copy, Debug)]
 struct Count {
     teeth: NonZero<u32>,
-    /// A multiple of it, large enough to make tooth numbers positive.
+    /// A multiple of `teeth`, large enough to make tooth numbers positive.
     revolutions: i64,
 }
 
 impl Count {
-    /// Of a gear with `teeth` teeth.
+    /// Returns the count of a gear with `teeth` teeth.
     fn new(teeth: i32) -> Self {
         let teeth = NonZero::new(teeth.unsigned_abs()).unwrap_or(NonZero::<u32>::MIN);
         let count = i64::from(teeth.get());
         Self { teeth, revolutions: count * ((1 << 30) / count) }
     }
 
-    /// Which tooth of the gear is number `number` of the unrolled sequence.
+    /// Index of the gear's tooth with number `number` in the unrolled sequence.
     #[inline(always)]
     fn tooth(&self, number: i64) -> usize {
-        // a division of 32 bits is the faster one
+        // a 32-bit division is faster
         match u32::try_from(number.wrapping_add(self.revolutions)) {
             Ok(positive) => (positive % self.teeth) as usize,
             Err(_) => number.rem_euclid(i64::from(self.teeth.get())) as usize,
@@ -55,17 +55,18 @@ pub struct FlankGaps {
     pub chip: Option<Chip>,
     /// Numbers of planet teeth and side gear teeth.
     teeth_of: [Count; 2],
-    /// How each planet stands to the side gears.
+    /// Offset of each planet around the side gears.
     turned: [Turned; MAX_PLANETS],
     /// Lower bound of all gaps [m].
     pub least: f64,
 }
 
 impl FlankGaps {
-    /// Error-free teeth of `pair`.
+    /// Returns the gaps of error-free teeth of `pair`: all zero.
     pub fn perfect(pair: &Pair, planets: i32) -> Self {
         let side_teeth = i64::from(pair.gears[1].teeth);
-        // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 half a pitch forward
+        // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 advanced by half a
+        // pitch
         let turned = std::array::from_fn(|planet| {
             let halves = 2 * side_teeth * planet as i64 / i64::from(planets);
             Turned { ahead: [halves / 2, (halves + halves % 2) / 2], odd: halves % 2 }
@@ -73,9 +74,10 @@ impl FlankGaps {
         Self { errors: None, chip: None, teeth_of: pair.gears.map(|g| Count::new(g.teeth)), turned, least: 0.0 }
     }
 
-    /// Numbers of mesh and teeth as errors count them: planet teeth with positive spin, seen from the left mesh up the path
-    /// on the drive flank and from the right mesh, half a turn on, down; side gear teeth forward. The drive flank pushes
-    /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
+    /// Indices of mesh and teeth as the tooth errors count them. Planet teeth count with positive spin: up the path on
+    /// the drive flank in the left mesh, down in the right mesh, which is half a turn away. Side gear teeth count
+    /// forward. The drive flank pushes the side gear tooth ahead of the planet tooth, the coast flank the one behind
+    /// it.
     #[inline(always)]
     fn ids(&self, name: &PairName) -> (MeshId, PairId) {
         let [planet, side] = &self.teeth_of;
@@ -86,13 +88,14 @@ impl FlankGaps {
         )
     }
 
-    /// Number of the tooth of `planet` that stands at its right mesh's line as tooth 0 does at the left one's.
+    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// mesh.
     pub fn opposite(&self, planet: usize) -> i64 {
         let z_p = i64::from(self.teeth_of[0].teeth.get());
         z_p / 2 - if z_p % 2 == 0 { self.turned[planet].odd } else { 0 }
     }
 
-    /// The same numbers of teeth, beyond whole turns.
+    /// Numbers of the planet tooth and the side gear tooth, counted on beyond whole turns.
     #[inline(always)]
     pub fn unrolled(&self, name: &PairName) -> [i64; 2] {
         let z_p = i64::from(self.teeth_of[0].teeth.get());
@@ -103,12 +106,12 @@ impl FlankGaps {
         [planet_tooth, if name.flank == Flank::Drive { ahead } else { ahead - 1 }]
     }
 
-    /// Whether the teeth of a gear are alike, so that all repeats from pitch to pitch.
+    /// True if all teeth of each gear are identical, so that the gaps repeat with every pitch.
     pub fn are_alike_all_round(&self) -> bool {
         self.chip.is_none() && self.errors.as_ref().is_none_or(ToothErrors::is_alike_all_round)
     }
 
-    /// Opening of a pair of teeth in `mesh` at place `s` [rad].
+    /// Opening of a pair of teeth in `mesh` at position `s` [rad].
     #[inline(always)]
     pub fn of(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {
         let mut opening = self.errors.as_ref().map_or(Opening::NONE, |errors| errors.opening(mesh, pair, s));
@@ -116,13 +119,13 @@ impl FlankGaps {
         opening
     }
 
-    /// Numbers of the teeth of a pair: the planet's and the side gear's.
+    /// Indices of the teeth of a pair: the planet's and the side gear's.
     pub fn teeth(&self, name: PairName) -> [usize; 2] {
         let (_, pair) = self.ids(&name);
         [pair.planet_tooth, pair.side_tooth]
     }
 
-    /// Opening of a pair at place `s` [rad].
+    /// Opening of a pair at position `s` [rad].
     pub fn opening(&self, name: &PairName, s: f64) -> Opening {
         let (mesh, pair) = self.ids(name);
         self.of(mesh, pair, s)

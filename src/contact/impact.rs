@@ -1,7 +1,7 @@
 //! Adams IMPACT: F = K d^e + c(d) ḋ with c(d) = C·STEP(d, 0, 0, d_max, 1), and F ≥ 0.
 //!
-//! Source: MSC Adams function reference, IMPACT and STEP; STEP is the cubic u²(3 − 2u). The elastic part derives from
-//! U(d) = K d^(e+1) / (e+1).
+//! Source: MSC Adams function reference, IMPACT and STEP. STEP is the cubic u²(3 − 2u). The elastic part is the
+//! derivative of U(d) = K d^(e+1) / (e+1).
 
 use super::Damping;
 use crate::numeric::{pow, sqrt};
@@ -33,7 +33,7 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// d^(e−1) for d > 0: by multiplications and roots for the common exponents, multiples of ½.
+    /// d^(e−1) for d > 0. The common exponents, multiples of ½, use multiplications and roots.
     #[inline(always)]
     fn power(&self, d: f64) -> f64 {
         match self.exponent {
@@ -53,7 +53,7 @@ impl Impact {
         self.damped_by(&damping, d, rate)
     }
 
-    /// Force with another damping than the law's own.
+    /// Force with `damping` instead of the law's own damping.
     #[inline(always)]
     pub fn damped_by(&self, damping: &Damping, d: f64, rate: f64) -> Force {
         // F_el/d

@@ -1,23 +1,24 @@
-//! Kinks of a mesh's force: flanks touch or separate, a pair enters or leaves contact at a tip corner, or passes from the
-//! corner to the path.
-//!
+//! Kinks of a mesh's force. A kink occurs if flanks touch or separate, if a pair enters or leaves contact at a tip
+//! corner, or if it passes from the corner to the path.
+//! //!
 //! A one-step method loses its order over a kink, and its error estimate does not show it. Positions are smooth, unlike
-//! forces, so that a kink can be predicted from the present rates and a step can be made to end on it.
+//! forces. A kink can therefore be predicted from the present rates, and a step can be made to end on it.
 
 use super::{Engagement, Flank, Spot};
 
-/// Fractions of a step between which it is cut at a kink: one at either end does no harm.
+/// Fractions of a step between which the step is cut at a kink. A kink near either end of a step does no harm.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
-/// Largest number of pairs searched in a motion. A motion past more of them, a whole turn of a gear and more, resolves
-/// none, and at absurd speeds the search would not end.
-const MOST_PAIRS: i64 = 256;
-/// Bisections that locate a kink, to some hundred-thousandths of the step.
+/// Largest number of pairs searched in a motion. A motion past more pairs is longer than a whole turn of a gear and
+/// resolves no kink. At absurd speeds the search would not end.
+const MAX_PAIRS: i64 = 256;
+/// Number of bisections that locate a kink, to some 1e-5 of the step.
 const HALVINGS: u32 = 15;
 
 impl Engagement {
-    /// The fraction of the motion from `position` to `position + change` (both (q, x)) after which the first kink lies,
-    /// taken as straight; `None` if there is none. If `OPEN`, `opening` is the gap between the flanks of a pair, by its number and
-    /// its place on the path [rad], negative for excess material. Where flanks that fit would be apart, it is not asked.
+    /// Fraction of the motion from `position` to `position + change` (both (q, x)) at which the first kink occurs, or
+    /// `None`. The motion is assumed to be straight. If `OPEN`, `opening` returns the gap between the flanks of a pair
+    /// from the pair's number and its position on the path [rad]; excess material is negative. `opening` is not called
+    /// if flanks without gaps would be separate.
     #[inline(always)]
     pub fn kink<const OPEN: bool>(
         &self,
@@ -37,7 +38,7 @@ impl Engagement {
         let numbers = [self.numbers(flank, position[1], approach[0]), self.numbers(flank, at(1.0)[1], approach[1])];
         let mut first: Option<f64> = None;
         let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
-        if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+        if pairs.end.saturating_sub(pairs.start) > MAX_PAIRS {
             return None;
         }
         for k in pairs {
@@ -52,24 +53,24 @@ impl Engagement {
         first
     }
 
-    /// The fraction of the motion from `q` to `q + change`, taken as straight, after which the flanks that touch at its begin
-    /// separate, or after which flanks touch if none did; `None` if they do not.
+    /// Fraction of the straight motion from `q` to `q + change` at which touching flanks separate or separate flanks
+    /// touch, or `None`.
     pub fn kink_of_touch(&self, q: f64, change: f64) -> Option<f64> {
         let touching = self.approach(q) > 0.0;
         first_change(|t| {
             let end = q + t * change;
-            // across the lash are other flanks
+            // the flanks across the backlash are different ones
             (self.approach(end) > 0.0 && (!touching || end * q > 0.0)) != touching
         })
     }
 
-    /// For meshes without corner contact: calls `visit` with the fractions of the motion at which a pair of either flank, loaded or
-    /// not, passes an end of the path.
+    /// Calls `visit` with the fractions of the motion at which a pair of either flank, loaded or not, passes an end of
+    /// the path. Needed for meshes without corner contact.
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
             let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
-            if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+            if pairs.end.saturating_sub(pairs.start) > MAX_PAIRS {
                 continue;
             }
             for k in pairs {
@@ -84,7 +85,7 @@ impl Engagement {
         }
     }
 
-    /// Where pair `k` of `flank` touches, if it does.
+    /// Kind of contact of pair `k` of `flank`, or `None` if the pair does not touch.
     #[inline(always)]
     fn spot<const OPEN: bool>(
         &self,
@@ -108,7 +109,7 @@ impl Engagement {
     }
 }
 
-/// The fraction just past the point at which `changed` turns true, if it lies within [`WORTHWHILE`].
+/// Fraction just after `changed` becomes true, or `None` if this does not happen within [`WORTHWHILE`].
 #[inline(never)]
 fn first_change(changed: impl Fn(f64) -> bool) -> Option<f64> {
     if changed(WORTHWHILE.0) || !changed(WORTHWHILE.1) {

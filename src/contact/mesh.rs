@@ -1,5 +1,5 @@
-//! The elastic potential of one mesh, and force, Jacobian, energy and heat derived from it.
-//!
+//! The elastic potential of one mesh, and the force, Jacobian, energy and heat derived from it.
+//! //!
 //! V(q, x) = Σ U(d, s) over the tooth pairs. Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
@@ -9,23 +9,23 @@ pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use super::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothPair};
 use crate::geometry::Pair;
 
-/// A planet meshing with a side gear, with flanks that fit.
+/// A planet meshing with a side gear, with flanks that fit each other.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// Elastic law of a pair.
     pub spring: AnySpring,
     /// Damping of a pair.
     pub damping: Damping,
-    /// Where the resultant of a pair acts.
+    /// Resultant of a pair.
     pub whole: Resultant,
-    /// One spring per mesh instead of tooth pairs.
+    /// True if the mesh has one spring instead of tooth pairs.
     pub is_single: bool,
     /// Tooth pairs.
     pub engagement: Engagement,
 }
 
-/// Evaluates an expression with `spring` bound to the law in use, and `pairs` to the loaded pairs at a position (q, x). A mesh of one
-/// spring has one pair, at s = 0.
+/// Evaluates an expression with `spring` bound to the law in use, and `pairs` to the loaded pairs at a position (q, x).
+/// A mesh with one spring has one pair, at s = 0.
 macro_rules! with_pairs {
     ($of:expr, $position:expr, ($spring:ident, $pairs:ident) => $body:expr) => {
         with_spring!(
@@ -41,7 +41,8 @@ macro_rules! with_pairs {
 }
 
 impl Mesh {
-    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to `reach` [rad].
+    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to
+    /// `reach` [rad].
     pub fn new(
         pair: &Pair,
         (spring, damping): (AnySpring, Damping),
@@ -64,14 +65,14 @@ impl Mesh {
         self.engagement.drive_approach(q)
     }
 
-    /// Approach of the flank pair that carries, negative inside the lash [rad].
+    /// Approach of the flank pair that can be loaded, negative inside the backlash [rad].
     #[inline(always)]
     pub fn approach(&self, q: f64) -> f64 {
         self.engagement.approach(q)
     }
 
-    /// The fraction of the motion of `h` [s] from `state` on after which the first kink of the force lies; a mesh of
-    /// one spring has one where flanks touch or separate.
+    /// Fraction of the motion of `h` [s] from `state` at which the first kink of the force occurs. A mesh with one
+    /// spring has a kink when flanks touch or separate.
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
         let change = state.rate.map(|rate| h * rate);
@@ -81,13 +82,14 @@ impl Mesh {
         self.engagement.kink::<false>(state.position, change, |_, _, _| 0.0)
     }
 
-    /// The same of flanks with gaps or excess material between them: `opening`, as [`Engagement::kink`] takes it.
+    /// Fraction of the motion of `h` [s] from `state` at which flanks with gaps or excess material have their first
+    /// kink. `opening` is that of [`Engagement::kink`].
     #[inline(always)]
     pub fn kink_of_open(&self, state: &MeshState, h: f64, opening: impl Fn(Flank, i64, f64) -> f64) -> Option<f64> {
         self.engagement.kink::<true>(state.position, state.rate.map(|rate| h * rate), opening)
     }
 
-    /// The one pair of a mesh of one spring at position (q, x), if it is loaded.
+    /// The pair of a mesh with one spring at position (q, x), or `None` if it is not loaded.
     #[inline(always)]
     fn single(&self, position: [f64; 2]) -> Option<ToothPair> {
         let depth = self.approach(position[0]);
@@ -139,8 +141,8 @@ impl Mesh {
         force
     }
 
-    /// Writes forces and heat to where they stay, number by number: whoever reads one right after it was written as part of
-    /// several waits for all.
+    /// Writes forces and heat to `to`, number by number. Reading a number right after it was stored as part of a wider
+    /// store would stall until that store is complete.
     #[inline(always)]
     pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
         with_pairs!(self, state.position, (spring, pairs) => {
@@ -166,7 +168,7 @@ impl Mesh {
                 let f = &response.force;
                 let (stiffness, damping, torque) = (r * r * f.by_depth, r * r * f.by_rate, r * f.total);
                 if pair.spot == Spot::Path {
-                    // the approach is that of q alone
+                    // the approach depends only on q
                     jacobian.by_position[0][0] -= stiffness;
                     jacobian.by_rate[0][0] -= damping;
                 } else {
@@ -175,7 +177,7 @@ impl Mesh {
                     let hessian = [[qq, qq], [qq, xx]];
                     for b in 0..2 {
                         for a in 0..2 {
-                            // the same product both ways round: the Hessian is symmetric to the last digit
+                            // the same product for both orders: the Hessian is symmetric to the last digit
                             let slopes = pair.slope[a] * pair.slope[b];
                             let elastic = stiffness * slopes + torque * hessian[a][b];
                             jacobian.by_position[a][b] -= elastic + damping * turn[b] * pair.slope[a];
@@ -184,7 +186,7 @@ impl Mesh {
                     }
                 }
                 if is_placed(spring) {
-                    // the place moves with x alone
+                    // the position on the path moves only with x
                     let m = &mut jacobian.by_position;
                     m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];
                     m[1][0] -= r * response.elastic_by_place * pair.s_slope * pair.slope[0];
@@ -197,15 +199,16 @@ impl Mesh {
         })
     }
 
-    /// [`Self::write_force`], compiled once, for whoever is not the steps of plain teeth.
+    /// Calls [`Self::write_force`] but is never inlined, so that callers other than the steps of plain teeth share one
+    /// copy.
     #[inline(never)]
-    pub fn write_force_apart(&self, state: &MeshState, to: &mut MeshForce) {
+    pub fn write_force_not_inlined(&self, state: &MeshState, to: &mut MeshForce) {
         self.write_force(state, to);
     }
 
-    /// [`Self::linearise`], compiled once.
+    /// Calls [`Self::linearise`] but is never inlined, so that other callers share one copy.
     #[inline(never)]
-    pub fn linearise_apart(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+    pub fn linearise_not_inlined(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         self.linearise(state)
     }
 

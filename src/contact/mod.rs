@@ -1,7 +1,8 @@
-//! Tooth contact: laws of one tooth pair, the elastic potential of a mesh with its forces and derivatives, tooth errors,
-//! friction along the flanks, and contact of solid teeth.
+//! Tooth contact: laws of one tooth pair, the elastic potential of a mesh with its forces and derivatives, tooth
+//! errors, friction along the flanks, and contact of solid teeth.
 //!
-//! Everything here is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to `model`.
+//! Everything in this module is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to
+//! `model`.
 
 pub mod bodies;
 pub mod damping;

@@ -1,11 +1,11 @@
-//! Tooth pairs in contact: their place and penetration.
+//! Tooth pairs in contact: their position on the path and their penetration.
 //!
 //! Coordinates: q = sinδ_bs·α − σ·sinδ_bp·ψ, the relative position measured from "tooth in the middle of the gap", and
 //! x = σ·sinδ_bp·ψ + h, the planet's travel along the line of action. Both are arcs on the unit sphere [rad].
-//! The drive flanks approach by a = −q − b_n/2, the coast flanks by a = q − b_n/2. Tooth pair k stands at
-//! s = γ_p,pitch sinδ_bp ± x + k p_b (+ drive, − coast) and penetrates by d = R (a − g), where g is the corner gap
-//! beyond the planet's tip, at Δ = s − s_hi, or beyond the side gear's tip, at Δ = s_lo − s + a: that corner rides on
-//! the side gear, whose own position is s − a.
+//! The drive flanks approach by a = −q − b_n/2, the coast flanks by a = q − b_n/2. Tooth pair k is at s = γ_p,pitch
+//! sinδ_bp ± x + k p_b (+ drive, − coast) and penetrates by d = R (a − g). g is the corner gap beyond the planet's tip,
+//! at Δ = s − s_hi, or beyond the side gear's tip, at Δ = s_lo − s + a. The corner of the side gear moves with the side
+//! gear, whose own position is s − a.
 
 pub use crate::geometry::action::Spot;
 
@@ -13,7 +13,7 @@ use std::ops::Range;
 
 use crate::geometry::{CornerGap, Pair};
 
-/// Flank of the planet tooth that carries.
+/// Loaded flank of the planet tooth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flank {
     /// Carrier drives the side gear forward.
@@ -22,7 +22,7 @@ pub enum Flank {
     Coast,
 }
 
-/// One loaded tooth pair, with the derivatives of its penetration arc p = d/R by q and x.
+/// One loaded tooth pair, with the derivatives of its penetration arc p = d/R with respect to q and x.
 #[derive(Clone, Copy, Debug)]
 pub struct ToothPair {
     /// Flank in contact.
@@ -31,13 +31,13 @@ pub struct ToothPair {
     pub spot: Spot,
     /// Number k of the pair, counted along the path.
     pub number: i64,
-    /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
+    /// Arc Δ past the end of the path, or the position s if the pair is on the path [rad].
     pub place: f64,
-    /// Place s by the planet's rotation [rad]: continues smoothly past the ends of the path.
+    /// Position s from the planet's rotation [rad]. It continues smoothly past the ends of the path.
     pub s: f64,
-    /// ∂s/∂x; q does not move it.
+    /// ∂s/∂x; s does not depend on q.
     pub s_slope: f64,
-    /// Penetration arc p = a − g [rad]; not positive where only excess material touches.
+    /// Penetration arc p = a − g [rad]. It is not positive if only excess material touches.
     pub depth: f64,
     /// ∂p/∂q and ∂p/∂x.
     pub slope: [f64; 2],
@@ -52,7 +52,7 @@ impl ToothPair {
         if self.flank == Flank::Drive { -1.0 } else { 1.0 }
     }
 
-    /// The one pair of a mesh of one spring, at the pitch point.
+    /// The pair of a mesh with one spring, at the pitch point.
     #[inline(always)]
     pub fn single(flank: Flank, depth: f64) -> Self {
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
@@ -82,29 +82,29 @@ pub struct Engagement {
     low: f64,
     pub(super) high: f64,
     pub(super) corner_contact: bool,
-    /// Where tooth pairs can touch at working loads, and up to the largest approach.
+    /// Ranges in which tooth pairs can touch: at working loads, and up to the largest approach.
     windows: [Window; 2],
 }
 
-/// Part of the line of action in which pairs can touch up to some approach.
+/// Range of the line of action in which pairs can touch up to some approach.
 #[derive(Clone, Copy, Debug)]
 struct Window {
-    /// Its lower end [rad].
+    /// Lower end [rad].
     low: f64,
-    /// Tooth pairs that fit in: a fixed count, which bounds the work of any trial state.
+    /// Number of tooth pairs that fit into the window. The fixed count bounds the work in any trial state.
     candidates: usize,
 }
 
-/// Approach [rad] up to which the narrow window is used: some tenths of a millimetre, beyond any working load.
+/// Approach [rad] up to which the narrow window is used: some tenths of a millimetre, more than at any working load.
 const WORKING_APPROACH: f64 = 5e-3;
 
-/// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
+/// Margin against losing a barely touching pair to rounding [base pitches, rad].
 const ROUNDING: f64 = 1e-9;
 
-/// Smallest whole number not below `x`, for |x| below 2⁶³; trial states may be absurd.
+/// Smallest whole number not below `x`, for |x| below 2⁶³. Trial states may have absurd values.
 #[inline(always)]
 fn ceil(x: f64) -> f64 {
-    // doubles from 2⁵² to 2⁵³ are whole numbers: the sum is rounded to the nearest, and so is what is left
+    // doubles from 2⁵² to 2⁵³ are whole numbers, so the sum is rounded to the nearest, and so is the difference
     const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
     let whole = if x.abs() < WHOLE / 3.0 { (x + WHOLE) - WHOLE } else { x as i64 as f64 };
     if whole < x { whole + 1.0 } else { whole }
@@ -134,13 +134,14 @@ impl Engagement {
         }
     }
 
-    /// Whether tip corners carry beyond the path; if not, pairs enter and leave contact abruptly.
+    /// True if tip corners touch beyond the path. Otherwise, pairs enter and leave contact abruptly.
     #[inline(always)]
     pub fn corner_contact(&self) -> bool {
         self.corner_contact
     }
 
-    /// Kind of contact and place of it, as in [`ToothPair`], of rigid teeth at `s` by the planet's rotation [rad].
+    /// Kind of contact of rigid teeth at the position `s` from the planet's rotation [rad], and its place as in
+    /// [`ToothPair`].
     pub fn rigid_spot(&self, s: f64) -> (Spot, f64) {
         if s > self.high {
             (Spot::PlanetTip, s - self.high)
@@ -163,7 +164,7 @@ impl Engagement {
         -q - self.half_backlash
     }
 
-    /// Approach of the flank pair that carries, negative inside the lash [rad].
+    /// Approach of the flank pair that can be loaded, negative inside the backlash [rad].
     #[inline(always)]
     pub fn approach(&self, q: f64) -> f64 {
         q.abs() - self.half_backlash
@@ -172,14 +173,14 @@ impl Engagement {
     /// The loaded tooth pairs at position (q, x).
     #[inline(always)]
     pub fn pairs(&self, [q, x]: [f64; 2]) -> LoadedPairs<'_> {
-        // only one flank of a gap can carry
+        // only one flank of a gap can be loaded
         let approach = self.approach(q);
         let flank = if q < 0.0 { Flank::Drive } else { Flank::Coast };
         let near = self.near_pairs(flank, x, approach, 0.0);
         LoadedPairs { near: if approach > 0.0 { near } else { NearPairs { left: 0..0, ..near } } }
     }
 
-    /// First number, and the one after the last, of the pairs of `flank` that may touch.
+    /// First number of the pairs of `flank` that may touch, and the number after the last.
     #[inline(always)]
     pub(super) fn numbers(&self, flank: Flank, x: f64, approach: f64) -> (i64, i64) {
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
@@ -188,7 +189,7 @@ impl Engagement {
         (first, first.saturating_add(window.candidates as i64))
     }
 
-    /// How far pair `number` of `flank` is past the planet's and the side gear's end of the path [rad].
+    /// Arcs of pair `number` of `flank` past the planet's and the side gear's end of the path [rad].
     #[inline(always)]
     pub(super) fn past_ends(&self, flank: Flank, x: f64, approach: f64, number: i64) -> [f64; 2] {
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
@@ -197,7 +198,7 @@ impl Engagement {
     }
 
     /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach,
-    /// including the penetrating ones; `slack` is the part of that approach that only excess material can close.
+    /// including the penetrating pairs. `slack` is the part of `approach` that only excess material can close.
     #[inline(always)]
     pub fn near(&self, flank: Flank, x: f64, approach: f64, slack: f64, mut visit: impl FnMut(&ToothPair)) {
         for pair in self.near_pairs(flank, x, approach, slack) {
@@ -219,17 +220,17 @@ impl Engagement {
             sign,
             approach,
             slack,
-            // where only excess material closes the gap, the side gear is ahead of its path's end
+            // if only excess material closes the gap, the side gear is ahead of the end of its path
             low: self.low + (approach - slack).min(0.0),
             s: start + first * self.base_pitch,
-            // the number of an extreme trial state may be beyond an integer's range
+            // the pair number of an extreme trial state may be beyond the range of an integer
             first: first as i64,
             left: 0..window.candidates as i64,
         }
     }
 }
 
-/// Tooth pairs that may touch. As an iterator they let the compiler put a sum over them into the loop.
+/// Tooth pairs that may touch. As an iterator, it lets the compiler inline a sum over the pairs into the loop.
 struct NearPairs<'a> {
     engagement: &'a Engagement,
     flank: Flank,
@@ -254,7 +255,7 @@ impl Iterator for NearPairs<'_> {
             self.s += engagement.base_pitch;
             let past_planet_tip = place - engagement.high;
             let past_side_tip = engagement.low - place + (approach - slack);
-            // penetration, its derivatives, and what kind of contact it is
+            // penetration, its derivatives, and the kind of contact
             let (spot, delta, depth, slope, curvature) = if past_planet_tip > 0.0 {
                 let corner = &engagement.corner[0];
                 if past_planet_tip * past_planet_tip >= approach * corner.spread || !engagement.corner_contact {
@@ -267,7 +268,7 @@ impl Iterator for NearPairs<'_> {
                 if past_side_tip * past_side_tip >= approach * corner.spread {
                     continue;
                 }
-                // Δ moves with q by `sign` and with x by `sign` too
+                // Δ moves by `sign` with both q and x
                 let g = corner.at(past_side_tip);
                 let slope = [sign * (1.0 - g.d), -sign * g.d];
                 (Spot::SideTip, past_side_tip, approach - g.v, slope, [-g.dd, -g.dd])

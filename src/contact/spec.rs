@@ -10,7 +10,8 @@ choices! {
 }
 
 impl ContactLaw {
-    /// True if the law has the stiffness of the teeth, valid at every cone distance. Other laws have one resultant for the whole face.
+    /// True if the law has the stiffness of the teeth, valid at every cone distance. Other laws have one resultant for
+    /// the whole face.
     pub const fn is_of_teeth(self) -> bool {
         matches!(self, Self::Line | Self::LineWeber)
     }
@@ -31,7 +32,7 @@ spec! {
     pub struct ContactSpec {
         /// The law.
         pub law: ContactLaw = ContactLaw::Impact,
-        /// Stiffness by the study's Hertz formula instead of the given one.
+        /// True if the stiffness is computed by the study's Hertz formula instead of the given value.
         pub stiffness_from_hertz: bool = false,
         /// Stiffness K [N/m^e].
         // 5.77e5 N/mm^1.5 · (1000 mm/m)^1.5
@@ -42,15 +43,16 @@ spec! {
         pub damping: f64 = 5e4,
         /// Penetration of full damping d_max [m].
         pub penetration_depth: f64 = 1e-4,
-        /// Which damping.
+        /// The damping model.
         pub damping_model: DampingModel = DampingModel::Step,
         /// Coefficient of restitution e at the impact speed.
         pub restitution: f64 = 0.8,
-        /// Impact speed at which the restitution holds [m/s].
+        /// Impact speed at which the restitution is valid [m/s].
         pub impact_speed: f64 = 0.1,
         /// Line load at the mean cone distance for the Hertz part of [`ContactLaw::Line`] [N/m].
         pub line_load: f64 = 4e5,
-        /// Stiffness of a lumped mesh from the geometry of its teeth instead of the given one.
+        /// True if the stiffness of a lumped mesh is computed from the geometry of its teeth instead of the given
+        /// value.
         pub mesh_stiffness_from_geometry: bool = true,
         /// Stiffness of a lumped mesh per face width c_γ [N/m²].
         pub mesh_stiffness: f64 = 1.8e10,

@@ -1,15 +1,16 @@
-//! Elastic laws of a tooth pair. A new law is an implementation of [`Spring`], and a line in the enumeration and in the dispatch of
-//! [`AnySpring`].
-//!
-//! A pair whose flanks fit has one resultant, at a known cone distance. Its penetration there, d = R p, and its damping give its
-//! whole force. A pair whose flanks do not fit is summed over the face from the law per unit of arc (`detailed`).
+//! Elastic laws of a tooth pair. A new law implements [`Spring`] and adds one line each to the enumeration and to the
+//! dispatch of [`AnySpring`].
+//! //!
+//! A pair whose flanks fit has one resultant, at a known cone distance. The penetration d = R p at this distance and
+//! the damping determine its whole force. A pair whose flanks do not fit is summed over the face from the law per unit
+//! of arc (`detailed`).
 
 use super::impact::Force;
 use super::stiffness::{Line, LineWeber};
 use super::{Damping, Impact};
 
-/// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
-/// place on the path of contact [rad]. s continues beyond the path's ends for corners in contact.
+/// Elastic energy U(p, s) of a tooth pair with its derivatives. p is the penetration arc [rad on the unit sphere], s
+/// the position on the path of contact [rad]. s continues beyond the ends of the path for corners in contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elastic {
     /// U [J].
@@ -26,7 +27,7 @@ pub struct Elastic {
     pub by_place_twice: f64,
 }
 
-/// Force of a pair with one resultant, and what depends on its place on the path.
+/// Force of a pair with one resultant, with its derivatives, including those with respect to the position on the path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Response {
     /// Force along d with its derivatives.
@@ -39,23 +40,23 @@ pub struct Response {
     pub total_by_place: f64,
     /// ∂²U/∂s² [J/rad²].
     pub by_place_twice: f64,
-    /// U [J], where it is asked for.
+    /// U [J], if requested.
     pub energy: f64,
 }
 
 /// Resultant of a face whose flanks fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resultant {
-    /// Cone distance at which it acts [m].
+    /// Cone distance at which the resultant acts [m].
     pub cone: f64,
-    /// Its reciprocal [1/m].
+    /// Reciprocal of the cone distance [1/m].
     pub per_cone: f64,
-    /// J = ∫R² dR [m³] by which a law per unit of J is multiplied, or 1.
+    /// Factor of the law: J = ∫R² dR [m³] for a law per unit of J, or 1.
     pub moment: f64,
 }
 
 impl Resultant {
-    /// Of a face with the moment `moment` [m³], at the cone distance `cone` [m].
+    /// Returns the resultant of a face with the moment `moment` [m³], at the cone distance `cone` [m].
     pub fn new(cone: f64, moment: f64) -> Self {
         Self { cone, per_cone: 1.0 / cone, moment }
     }
@@ -63,26 +64,27 @@ impl Resultant {
 
 /// Elasticity of a tooth pair.
 pub trait Spring {
-    /// Whether the torque is proportional to the penetration, or zero.
+    /// True if the torque is proportional to the penetration at p > 0.
     const LINEAR: bool = false;
-    /// True if the law depends on the place on the path.
+    /// True if the law depends on the position on the path.
     const PLACED: bool = true;
 
-    /// What of it follows from the place alone: the same at every cone distance.
+    /// Values of the law that depend only on the position on the path. They are the same at every cone distance.
     type Place: Copy;
 
-    /// The law at place `s` [rad].
+    /// Evaluates the law at position `s` [rad].
     fn place(&self, s: f64) -> Self::Place;
 
-    /// Response at penetration arc `p` > 0 [rad] there.
+    /// Response at penetration arc `p` > 0 [rad] at the place `at`.
     fn respond(&self, at: &Self::Place, p: f64) -> Elastic;
 
-    /// Response at penetration arc `p` > 0 and place `s`.
+    /// Response at penetration arc `p` > 0 and position `s` [rad].
     fn at(&self, p: f64, s: f64) -> Elastic {
         self.respond(&self.place(s), p)
     }
 
-    /// Response of a pair with one resultant at penetration `d` > 0 [m] and rate `rate` [m/s]; with its energy if `STORED`.
+    /// Response of a pair with one resultant at penetration `d` > 0 [m] and rate `rate` [m/s]. The energy is included
+    /// if `STORED`.
     #[inline(always)]
     fn respond_whole<const STORED: bool>(
         &self,
@@ -96,7 +98,7 @@ pub trait Spring {
         let (elastic, stiffness) = (per_depth * e.torque, per_depth * whole.per_cone * e.stiffness);
         let force = damping.apply(elastic, stiffness, d, rate);
         let elastic_by_place = per_depth * e.torque_by_place;
-        // damping either adds to the elastic force or scales it
+        // damping is either added to the elastic force or scales it
         let total_by_place = match *damping {
             _ if force.total <= 0.0 => 0.0,
             Damping::Step { .. } => elastic_by_place,
@@ -113,16 +115,16 @@ pub trait Spring {
     }
 }
 
-/// The place of a law that is the same everywhere.
+/// Place of a law that is the same everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Anywhere;
 
-/// K dᵉ of the penetration at a cone distance, whatever the place.
+/// K dᵉ of the penetration at a cone distance, independent of the position on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpactSpring {
-    /// The law; its damping is not used.
+    /// The law; its damping is unused.
     pub law: Impact,
-    /// Cone distance at which it acts [m].
+    /// Cone distance at which the law acts [m].
     pub cone: f64,
 }
 
@@ -155,7 +157,7 @@ impl Spring for ImpactSpring {
         }
     }
 
-    /// The law is one of d already.
+    /// Uses the law directly, because it is a function of d already.
     #[inline(always)]
     fn respond_whole<const STORED: bool>(
         &self,
@@ -176,11 +178,12 @@ pub enum AnySpring {
     Impact(ImpactSpring),
     /// Stiffness of the teeth, per unit of ∫R² dR.
     Line(Line),
-    /// Stiffness of the teeth with the Hertz part by load.
+    /// Stiffness of the teeth with a Hertz part that depends on the load.
     LineWeber(LineWeber),
 }
 
-/// Evaluates an expression with `law` bound to the elastic law in use, or another one where one spring is a whole mesh.
+/// Evaluates an expression with `law` bound to the elastic law in use. The second form evaluates `single` instead if
+/// one spring replaces the tooth pairs.
 macro_rules! with_spring {
     ($of:expr, $law:ident => $body:expr) => {
         match $of {
@@ -200,8 +203,8 @@ macro_rules! with_spring {
 }
 pub(crate) use with_spring;
 
-/// Evaluates an expression with `law` bound to the law of teeth in use, or `none`. Gear bodies are elastic only under laws whose compliance
-/// is that of the teeth.
+/// Evaluates an expression with `law` bound to the tooth-stiffness law in use, or `none` under other laws. Gear bodies
+/// are elastic only under laws with the compliance of the teeth.
 macro_rules! with_teeth {
     ($of:expr, $law:ident => $body:expr, $none:expr) => {
         match $of {
@@ -213,12 +216,12 @@ macro_rules! with_teeth {
 }
 pub(super) use with_teeth;
 
-/// True if a law depends on the place of a pair.
+/// True if a law depends on the position of a pair.
 pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
     S::PLACED
 }
 
-/// Part of any law that follows from the place on the path.
+/// Part of any law that depends only on the position on the path.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyPlace {
     /// Nothing.
@@ -229,7 +232,7 @@ pub enum AnyPlace {
     LineWeber(<LineWeber as Spring>::Place),
 }
 
-/// The law is looked up at each response, so that sums outside the steps are compiled once for all laws.
+/// Dispatches to the law at each response, so that sums outside the steps are compiled once for all laws.
 impl Spring for AnySpring {
     type Place = AnyPlace;
 
@@ -247,7 +250,7 @@ impl Spring for AnySpring {
             (Self::Impact(law), _) => law.respond(&Anywhere, p),
             (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
             (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),
-            // of another law than this
+            // a place of a different law
             (Self::Line(_) | Self::LineWeber(_), _) => Elastic::default(),
         }
     }

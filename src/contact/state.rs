@@ -7,7 +7,7 @@ pub struct MeshState {
     pub position: [f64; 2],
     /// Their rates [rad/s].
     pub rate: [f64; 2],
-    /// Planet and side, 0 left and 1 right: solid teeth may be placed differently in each mesh.
+    /// Indices of planet and side (0 left, 1 right), because solid teeth may be placed differently in each mesh.
     pub which: [usize; 2],
 }
 
@@ -20,7 +20,7 @@ pub struct MeshForce {
     pub heat: f64,
 }
 
-/// Derivatives of the forces of a mesh, and its energy, which is found along with them.
+/// Derivatives of the forces of a mesh, and the mesh's energy, which is computed along with them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MeshJacobian {
     /// ∂force/∂(q, x) [N·m/rad].

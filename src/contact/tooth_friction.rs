@@ -26,7 +26,7 @@ pub struct ToothFriction {
 }
 
 impl ToothFriction {
-    /// The same with the viscosity of the oil [Pa·s], where it is not given.
+    /// Returns the friction with the viscosity `oil_viscosity` [Pa·s], unless the user gave a viscosity.
     pub fn with_viscosity(self, oil_viscosity: f64) -> Self {
         if !self.spec.viscosity_from_oil {
             return self;
@@ -40,7 +40,7 @@ impl ToothFriction {
         signed_coefficient(&self.spec, &self.conditions(at))
     }
 
-    /// The first quantity outside the published range of the law, if any.
+    /// The first quantity outside the published range of the law, or `None`.
     pub fn outside(&self, at: &Sliding<f64>) -> Option<String> {
         outside(&self.spec, &self.conditions(at)).map(|outside| outside.to_string())
     }

@@ -1,12 +1,12 @@
-//! The way from a group of values to one of them, and from a group within another.
+//! Access to a value within a group of values, and to a group within a larger group.
 
 use crate::spec::EnumType;
 
-/// Access to a value of type `T` in a group `P`. Rows are made once and live as long as the program.
+/// Access to a value of type `T` in a group `P`. Rows are created once and exist as long as the program.
 pub type Field<P, T> = &'static (dyn for<'a> Fn(&'a mut P) -> &'a mut T + Send + Sync);
-/// Reading of an enumeration in a group `P`.
+/// Getter of an enumeration in a group `P`.
 pub type GetChoice<P> = &'static (dyn Fn(&P) -> i32 + Send + Sync);
-/// Assignment of a value to an enumeration in a group `P`.
+/// Setter of an enumeration in a group `P`.
 pub type SetChoice<P> = &'static (dyn Fn(&mut P, i32) + Send + Sync);
 
 /// Access to a parameter in a group `P` of parameters, by its FMI type.
@@ -18,11 +18,11 @@ pub enum Parameter<P: 'static> {
     Integer(Field<P, i32>),
     /// A Boolean.
     Boolean(Field<P, bool>),
-    /// An enumeration: its type, reading, and assignment of a value that is one of its choices.
+    /// An enumeration: its type, getter, and setter for a value that is one of its choices.
     Enumeration(&'static EnumType, GetChoice<P>, SetChoice<P>),
 }
 
-/// Keeps `closure` as long as the program, like the row it belongs to.
+/// Leaks `closure`, because rows exist as long as the program.
 pub(super) fn keep<F>(closure: F) -> &'static F {
     Box::leak(Box::new(closure))
 }
@@ -32,7 +32,7 @@ fn project<P, Q, T>(field: Field<P, T>, group: fn(&mut Q) -> &mut P) -> Field<Q,
 }
 
 impl<P> Parameter<P> {
-    /// The same parameter where its group is part of a larger one.
+    /// Returns the parameter as a member of a larger group that contains its group.
     pub fn within<Q: Copy>(self, group: fn(&mut Q) -> &mut P) -> Parameter<Q> {
         match self {
             Self::Real(field) => Parameter::Real(project(field, group)),

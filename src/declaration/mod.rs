@@ -1,7 +1,8 @@
-//! How a variable of the interface is declared: name, unit, range, description, and the way to its value.
+//! Declaration of interface variables: name, unit, range, description, and access to the value.
 //!
-//! Each part of the model declares its own variables with these rows, next to the quantities they stand for; the table
-//! in `variables` collects them. This module has the shape of a row, units, and short ways to write rows.
+//! Each part of the model declares its own variables with these rows, next to the quantities that they represent. The
+//! table in `variables` collects the rows. This module contains the type of a row, the units, and short notations for
+//! rows.
 
 mod access;
 mod row;

@@ -1,6 +1,6 @@
-//! A row: what a variable is named, what it may be, and `A`, the way to its value. How rows are written: first the name and what
-//! it is, then conditions, at last what kind of variable it is and the way to its value. Each is a call: rows are made once, and
-//! inlined they are tens of kilobytes.
+//! A row declares a variable, with `A` as the access to its value. A row starts with the name and the description.
+//! Conditions follow, and finally the kind of variable and the access. These functions are not inlined, because rows
+//! are created only once and inlining would add tens of kilobytes.
 
 use super::access::keep;
 use super::{DisplayUnit, Parameter, Shown, Unit, units};
@@ -40,7 +40,7 @@ pub struct Range {
 pub struct Row<A> {
     /// Dotted name.
     pub name: &'static str,
-    /// What it is.
+    /// Description.
     pub description: &'static str,
     /// FMI causality.
     pub causality: Causality,
@@ -48,27 +48,28 @@ pub struct Row<A> {
     pub variability: Variability,
     /// Unit of a real variable.
     pub unit: Option<Unit>,
-    /// Unit to show it in, where people think in another.
+    /// Unit in which users expect the value, if that is not the SI unit.
     pub display: Option<DisplayUnit>,
     /// Allowed values of a number.
     pub range: Option<Range>,
     /// Typical magnitude of a continuous state, for the host's error control.
     pub nominal: Option<f64>,
-    /// Index of the variable of which this one is the time derivative.
+    /// Index of the variable whose time derivative this variable is.
     pub derivative_of: Option<usize>,
-    /// Switch of the effect that the variable belongs to, where nothing else can make it felt.
+    /// Switch of the effect that the variable belongs to, if the variable has no effect without it.
     pub switch: Option<&'static str>,
-    /// Condition on other variables under which a scene can feel the value, as `variables::felt` reads it; none: always.
+    /// Condition on other variables under which the value has an effect, as parsed by `variables::felt`; `None` =
+    /// always.
     pub when: Option<&'static str>,
-    /// Condition under which more depends on the value than outputs that repeat it; none: `when` decides.
+    /// Condition under which the value affects more than outputs that repeat it; `None` = as `when`.
     pub acts_when: Option<&'static str>,
-    /// The way to its value.
+    /// Access to the value.
     pub access: A,
 }
 
 impl<A: Copy> Row<A> {
-    /// The row of differences between values of this variable, which have no range. Differences are shown in a unit with an
-    /// offset only if they are declared so.
+    /// Returns the row of differences between values of this variable, which have no range. Differences are shown in a
+    /// unit with an offset only if they are declared so.
     pub fn of_differences(&self) -> Self {
         Row {
             unit: self.unit.map(Unit::of_differences),
@@ -80,7 +81,7 @@ impl<A: Copy> Row<A> {
 }
 
 impl<A> Row<A> {
-    /// The same row with another way to its value.
+    /// Returns the row with another access to its value.
     pub fn map<B>(self, to: impl FnOnce(A) -> B) -> Row<B> {
         Row {
             name: self.name,
@@ -100,7 +101,7 @@ impl<A> Row<A> {
     }
 }
 
-/// The beginning of a row: a name and what it is.
+/// Starts a row with a name and a description.
 #[inline(never)]
 pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
     Row {
@@ -121,19 +122,20 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
 }
 
 impl Row<()> {
-    /// A scene feels the value under `condition` alone (`variables::felt`).
+    /// Declares that the value has an effect only under `condition` (`variables::felt`).
     #[inline(never)]
     pub const fn when(self, condition: &'static str) -> Self {
         Row { when: Some(condition), ..self }
     }
 
-    /// Outputs repeat the value; anything else depends on it only under `condition` (`variables::felt`).
+    /// Declares that outputs repeat the value, but anything else depends on it only under `condition`
+    /// (`variables::felt`).
     #[inline(never)]
     pub const fn acts_when(self, condition: &'static str) -> Self {
         Row { acts_when: Some(condition), ..self }
     }
 
-    /// The parameter may be changed while a simulation runs as well.
+    /// Declares that the parameter may also be changed while a simulation runs.
     #[inline(never)]
     pub const fn tunable(self) -> Self {
         Row { variability: Variability::Tunable, ..self }
@@ -154,7 +156,7 @@ impl Row<()> {
         self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(keep(at)))
     }
 
-    /// A parameter that is a time: any that a host may use, also negative.
+    /// A parameter that is a time: any value that a host may use, including negative ones.
     #[inline(never)]
     pub fn time<P: 'static>(self, at: fn(&mut P) -> &mut f64) -> Row<Parameter<P>> {
         self.number(units::SECOND.into(), None).map(|()| Parameter::Real(keep(at)))
@@ -202,7 +204,7 @@ impl Row<()> {
         self.of(Causality::Output).number(unit.into(), None).map(|()| of)
     }
 
-    /// A parameter that follows from others.
+    /// A parameter calculated from others.
     #[inline(never)]
     pub fn calculated<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
         Row { causality: Causality::CalculatedParameter, ..self.number(unit.into(), None).map(|()| of) }

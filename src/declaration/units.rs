@@ -20,21 +20,21 @@ pub struct Base {
 /// A unit other than SI in which values are shown: `shown = factor · SI value + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayUnit {
-    /// Name as shown.
+    /// Name for users.
     pub name: &'static str,
-    /// How many of this unit make one SI unit.
+    /// Number of these units in one SI unit.
     pub factor: f64,
     /// Value shown for 0 in SI.
     pub offset: f64,
 }
 
 impl DisplayUnit {
-    /// The value to show for `value` in SI.
+    /// Returns the value in this unit for `value` in SI.
     pub fn show(&self, value: f64) -> f64 {
         value * self.factor + self.offset
     }
 
-    /// The SI value of `shown`, a value in this unit.
+    /// Returns the SI value of `shown`, a value in this unit.
     pub fn read(&self, shown: f64) -> f64 {
         (shown - self.offset) / self.factor
     }
@@ -45,16 +45,16 @@ impl DisplayUnit {
 pub struct Unit {
     /// Name used in the interface.
     pub name: &'static str,
-    /// Exponents of base units; `None` where they are no integers, as FMI 2.0 requires.
+    /// Exponents of base units; `None` if they are not integers, as FMI 2.0 requires.
     pub base: Option<Base>,
     /// Units in which its values may be shown.
     pub display: &'static [DisplayUnit],
-    /// True if values are differences, whose display units have no offset. FMI names them relative quantities.
+    /// True if values are differences, whose display units have no offset. FMI calls them relative quantities.
     pub is_relative: bool,
 }
 
 impl Unit {
-    /// The unit of differences between values in this unit.
+    /// Returns the unit of differences between values in this unit.
     pub fn of_differences(self) -> Self {
         if self == KELVIN { KELVIN_DIFFERENCE } else { self }
     }
@@ -135,7 +135,7 @@ macro_rules! units {
     ($($(#[$doc:meta])* $id:ident = $name:literal, $base:expr, $display:expr;)*) => {
         $($(#[$doc])* pub const $id: Unit =
             Unit { name: $name, base: $base, display: &$display, is_relative: false };)*
-        /// Every unit of the interface. A unit of differences has the name of its own unit, and is not listed.
+        /// All units of the interface. A unit of differences has the same name as its own unit, and is not listed.
         pub const ALL: &[Unit] = &[$($id),*];
     };
 }

@@ -1,4 +1,5 @@
-//! Which call is legal in which state: the tables of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
+//! Table of calls and the states in which they are legal: FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4
+//! (co-simulation).
 
 use crate::instance::{Interface, Phase, calls};
 
@@ -17,7 +18,7 @@ const COMPLETE: u16 = Phase::StepComplete.bit();
 const FAILED: u16 = Phase::StepFailed.bit();
 const TERMINATED: u16 = Phase::Terminated.bit();
 const ERROR: u16 = Phase::Error.bit();
-/// For fmi2CancelStep: steps are synchronous, so no instance is ever in the state "step in progress".
+/// No state: fmi2CancelStep is never legal, because steps are synchronous.
 const NEVER: u16 = 0;
 const EVENT: u16 = Phase::Event.bit();
 const CONTINUOUS: u16 = Phase::ContinuousTime.bit();

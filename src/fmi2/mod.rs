@@ -1,7 +1,7 @@
 //! The FMI 2.0 interface for co-simulation and model exchange: a C ABI around an instance.
 //!
-//! `exports` holds the C functions. They check pointers and pass safe values to `Instance`, which implements what both versions of
-//! FMI share. The equations are in `model`, the variables in `variables`.
+//! `exports` contains the C functions. They check pointers and pass safe values to `Instance`, which implements
+//! everything that both versions of FMI share. The equations are in `model`, the variables in `variables`.
 
 mod calls;
 mod exports;

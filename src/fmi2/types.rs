@@ -19,7 +19,7 @@ pub const LAST_SUCCESSFUL_TIME: c_int = 2;
 /// fmi2Terminated of fmi2StatusKind.
 pub const TERMINATED: c_int = 3;
 
-/// fmi2CallbackLogger; variadic as printf.
+/// fmi2CallbackLogger, variadic like printf.
 pub type Logger =
     unsafe extern "C" fn(env: *mut c_void, instance: Text, status: Status, category: Text, message: Text, ...);
 
@@ -27,21 +27,21 @@ pub type Logger =
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventInfo {
-    /// Whether fmi2NewDiscreteStates must be called again.
+    /// True if fmi2NewDiscreteStates must be called again.
     pub new_discrete_states_needed: Boolean,
-    /// Whether the simulation must end.
+    /// True if the simulation must end.
     pub terminate_simulation: Boolean,
-    /// Whether nominal values of states changed.
+    /// True if nominal values of states changed.
     pub nominals_changed: Boolean,
-    /// Whether states changed.
+    /// True if states changed.
     pub states_changed: Boolean,
-    /// Whether the next event is known.
+    /// True if the time of the next event is known.
     pub next_event_defined: Boolean,
-    /// Its time [s].
+    /// Time of the next event [s].
     pub next_event: f64,
 }
 
-/// fmi2CallbackFunctions. Only the logger is used; the library allocates its memory itself.
+/// fmi2CallbackFunctions. Only the logger is used, because the library allocates its own memory.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct CallbackFunctions {

@@ -1,4 +1,5 @@
-//! Which call is legal in which state: FMI 3.0.2, sections 3.2 (model exchange) and 4.2 (co-simulation).
+//! Table of calls and the states in which they are legal: FMI 3.0.2, sections 3.2 (model exchange) and 4.2
+//! (co-simulation).
 
 use crate::instance::{Interface, Phase, calls};
 
@@ -24,7 +25,7 @@ const ERROR: u16 = Phase::Error.bit();
 const ALWAYS: u16 = INST | CONF | INIT | STEP | INTER | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
 /// States in which a variable may be set.
 const SET: u16 = INST | CONF | INIT | STEP | EVENT;
-/// States in which derivatives of a simulation have values.
+/// States in which derivatives have values.
 const LOOK: u16 = INIT | STEP | INTER | EVENT | CONTINUOUS | TERMINATED | ERROR;
 
 calls! {

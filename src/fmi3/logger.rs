@@ -6,16 +6,16 @@ use super::types::LogMessage;
 use crate::instance::c_types::c_void;
 use crate::instance::{Category, Sink, Status};
 
-/// The logger, and the pointer that goes with every message.
+/// The host's logger, with the pointer that it receives with every message.
 pub struct HostLogger {
     /// The host's function.
     pub message: LogMessage,
-    /// The host's pointer, passed to that function unchanged.
+    /// The host's pointer, passed to the function unchanged.
     pub environment: *mut c_void,
 }
 
-// SAFETY: this holds the host's logger and its environment, which the host must keep valid on every thread from which it calls
-// the instance; the log itself is used by one call at a time
+// SAFETY: the host must keep its logger and the environment valid on every thread from which it calls the instance;
+// only one call at a time uses the log
 unsafe impl Send for HostLogger {}
 
 impl Sink for HostLogger {

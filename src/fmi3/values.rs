@@ -1,4 +1,4 @@
-//! Values by the types of FMI 3.0: rows of the table, arrays over them, and the variables that 3.0 has besides.
+//! Values by FMI 3.0 types: rows of the table, arrays of rows, and the additional variables of FMI 3.0.
 
 use std::ffi::CStr;
 
@@ -7,22 +7,22 @@ use crate::instance::values::{row, wrong_type};
 use crate::instance::{CallError, CallResult, InputArray, Instance, Output, OutputArray, Phase};
 use crate::variables::{Access, table};
 
-/// The variable of a value reference.
+/// Returns the variable of a value reference.
 fn known(reference: u32) -> CallResult<Item> {
     item(reference).ok_or_else(|| CallError::error(format!("there is no variable with value reference {reference}")))
 }
 
-/// Refuses a count of values that the references do not have.
+/// Fails if the number of values differs from that of the variables.
 pub fn check_count(needed: usize, given: usize) -> CallResult {
     if needed == given {
         return Ok(());
     }
-    Err(CallError::error(format!("the variables have {needed} values, and the host has room for {given}")))
+    Err(CallError::error(format!("the variables have {needed} values, but the host has room for {given}")))
 }
 
 fn other_type(reference: u32, wanted: &str) -> CallError {
     let name = name(reference);
-    CallError::error(format!("{name} is no {wanted}"))
+    CallError::error(format!("{name} is not of type {wanted}"))
 }
 
 /// Name of a variable.
@@ -47,7 +47,7 @@ pub fn get_float64(instance: &mut Instance, references: InputArray<u32>, values:
         references.iter().map(|reference| Ok((reference, known(reference)?))).collect::<CallResult<Vec<_>>>()?;
     check_count(items.iter().map(|(_, item)| item.len(&instance.now.parameters)).sum(), values.len())?;
     let mut places = values.iter();
-    // rows together, so that they share what they need
+    // all rows in a single call, because they share intermediate results
     let (mut wanted, mut room): (Vec<u32>, Vec<Output<f64>>) = (Vec::new(), Vec::new());
     for (reference, item) in &items {
         let mut one = || places.next().ok_or_else(|| CallError::error("there is no room for a value"));
@@ -87,7 +87,9 @@ pub fn set_float64(instance: &mut Instance, references: InputArray<u32>, values:
         for reference in references.iter() {
             if !matches!(row(reference)?.access, Access::Input(_)) {
                 let name = name(reference);
-                return Err(CallError::error(format!("{name} is no input: within a step only inputs may be set")));
+                return Err(CallError::error(format!(
+                    "{name} is not an input, but only inputs may be set within a step"
+                )));
             }
         }
     }
@@ -115,7 +117,7 @@ pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: O
     Ok(())
 }
 
-/// Whether a row is an Int32: an integer that no array depends on.
+/// True if a row is an Int32, that is, an integer that no array size depends on.
 fn is_int32(reference: u32) -> CallResult<bool> {
     Ok(matches!(row(reference)?.access, Access::Integer(_)) && reference != planet_count())
 }
@@ -132,7 +134,7 @@ pub fn set_int32(instance: &mut Instance, references: InputArray<u32>, values: I
     instance.set_integer(references.iter().zip(values.iter()))
 }
 
-/// fmi3GetInt64: enumerations.
+/// fmi3GetInt64, for enumerations.
 pub fn get_int64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i64>) -> CallResult {
     check_count(references.len(), values.len())?;
     for (reference, value) in references.iter().zip(values.iter()) {
@@ -149,7 +151,7 @@ fn is_enumeration(reference: u32) -> CallResult<bool> {
     Ok(matches!(row(reference)?.access, Access::Enumeration(..)))
 }
 
-/// fmi3SetInt64: enumerations.
+/// fmi3SetInt64, for enumerations.
 pub fn set_int64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<i64>) -> CallResult {
     check_count(references.len(), values.len())?;
     for reference in references.iter() {
@@ -158,12 +160,12 @@ pub fn set_int64(instance: &mut Instance, references: InputArray<u32>, values: I
             return Err(wrong_type(row(reference)?));
         }
     }
-    // a number beyond those of an Int32 is no choice of any enumeration
+    // a number outside the range of an Int32 is not a choice of any enumeration
     let choices = values.iter().map(|value| i32::try_from(value).unwrap_or(i32::MIN));
     instance.set_integer(references.iter().zip(choices))
 }
 
-/// fmi3GetUInt64: the number of planets.
+/// fmi3GetUInt64, for the number of planets.
 pub fn get_uint64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u64>) -> CallResult {
     check_count(references.len(), values.len())?;
     for (reference, value) in references.iter().zip(values.iter()) {
@@ -173,7 +175,7 @@ pub fn get_uint64(instance: &mut Instance, references: InputArray<u32>, values: 
     Ok(())
 }
 
-/// fmi3SetUInt64: the number of planets, in configuration mode alone, since sizes of arrays depend on it.
+/// fmi3SetUInt64, for the number of planets. Sizes of arrays depend on it, so it can be set only in configuration mode.
 pub fn set_uint64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<u64>) -> CallResult {
     check_count(references.len(), values.len())?;
     for reference in references.iter() {
@@ -215,7 +217,7 @@ pub fn set_boolean(instance: &mut Instance, references: InputArray<u32>, values:
     instance.set_boolean(references.iter().zip(values.iter().map(|value| value != 0)))
 }
 
-/// Text of the last event.
+/// Returns the text of the last event.
 pub fn event_text(instance: &mut Instance, reference: u32) -> CallResult<&'static CStr> {
     match known(reference)? {
         Item::EventText => Ok(HAPPENINGS[instance.discrete()?.event.what as usize].1),
@@ -223,7 +225,7 @@ pub fn event_text(instance: &mut Instance, reference: u32) -> CallResult<&'stati
     }
 }
 
-/// Refuses every reference: there are no variables of the type `wanted`.
+/// Refuses every reference, because there are no variables of the type `wanted`.
 pub fn none_of(references: InputArray<u32>, wanted: &str) -> CallResult {
     references.iter().next().map_or(Ok(()), |reference| {
         known(reference)?;
@@ -231,7 +233,7 @@ pub fn none_of(references: InputArray<u32>, wanted: &str) -> CallResult {
     })
 }
 
-/// Rows of the table that variables show, all of them in their order.
+/// Returns the rows of the table behind all variables, in their order.
 fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u32>> {
     let mut rows = Vec::with_capacity(references.len());
     for reference in references.iter() {
@@ -241,7 +243,7 @@ fn rows_of(instance: &Instance, references: InputArray<u32>) -> CallResult<Vec<u
     Ok(rows)
 }
 
-/// Rows of the table that a variable shows.
+/// Returns the rows of the table behind a variable. Fails if it has no derivatives.
 fn rows_with_derivatives<'a>(instance: &Instance, reference: u32, item: &'a Item) -> CallResult<&'a [usize]> {
     match item.rows(&instance.now.parameters) {
         [] => Err(CallError::error(format!("{} has no derivatives", name(reference)))),
@@ -249,7 +251,8 @@ fn rows_with_derivatives<'a>(instance: &Instance, reference: u32, item: &'a Item
     }
 }
 
-/// Rows of unknowns and knowns, in whose numbers there must be `[of unknowns, of knowns]` values.
+/// Returns the rows of unknowns and knowns. Fails unless their numbers match `values`, the numbers `[of unknowns, of
+/// knowns]`.
 fn rows_of_both(
     instance: &Instance,
     [unknowns, knowns]: [InputArray<u32>; 2],
@@ -261,7 +264,8 @@ fn rows_of_both(
     Ok(rows)
 }
 
-/// fmi3GetOutputDerivatives: of arrays element by element. The time of the last event jumps, so that its derivative is 0.
+/// fmi3GetOutputDerivatives. Arrays are handled element by element. The time of the last event is piecewise constant,
+/// so its derivative is 0.
 pub fn output_derivatives(
     instance: &mut Instance,
     references: InputArray<u32>,
@@ -287,7 +291,7 @@ pub fn output_derivatives(
     instance.get_output_derivatives(wanted.into_iter(), room.into_iter())
 }
 
-/// fmi3GetDirectionalDerivative: the changes of unknowns for the changes `seed` of knowns.
+/// fmi3GetDirectionalDerivative: changes of unknowns for the changes `seed` of knowns.
 pub fn directional_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],
@@ -299,7 +303,8 @@ pub fn directional_derivative(
     instance.get_directional_derivative(unknown.into_iter(), directed, sensitivity.iter())
 }
 
-/// fmi3GetAdjointDerivative: for each known the sum over unknowns of `seed` times their derivative by it.
+/// fmi3GetAdjointDerivative: for each known, the sum over unknowns of `seed` times the derivative with respect to the
+/// known.
 pub fn adjoint_derivative(
     instance: &mut Instance,
     references: [InputArray<u32>; 2],

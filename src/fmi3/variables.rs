@@ -1,4 +1,5 @@
-//! The variables of FMI 3.0: the rows of the table by their value references, and behind them those that 3.0 has besides.
+//! Variables of FMI 3.0: the rows of the table with the same value references, followed by the variables that only FMI
+//! 3.0 has.
 
 use std::ffi::CStr;
 use std::sync::OnceLock;
@@ -7,24 +8,25 @@ use crate::instance::EVENT_INDICATORS;
 use crate::model::{Happening, MAX_PLANETS, Parameters};
 use crate::variables::{Access, index_of, table};
 
-/// Prefix of the variables of the first planet, and of its loaded tooth pairs with the left side gear.
+/// Prefix of the variables of the first planet.
 const FIRST: &str = "planet[1].";
+/// Prefix of the variables of its loaded tooth pairs with the left side gear.
 const PAIR: &str = "mesh.pair[";
 
-/// Where a variable has its value.
+/// Source of a variable's value.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// A row of the table.
     Row(usize),
-    /// The time, the independent variable.
+    /// Time, the independent variable.
     Time,
-    /// What the last event was, as a number of [`Happening`].
+    /// Kind of the last event, as a number of [`Happening`].
     EventKind,
-    /// Where it happened: the number of the side, planet or group, from 1.
+    /// Position of the last event: the number of the side, planet or group, from 1; 0 = none.
     EventPlace,
-    /// Its time.
+    /// Time of the last event.
     EventTime,
-    /// The last event in words.
+    /// Text of the last event.
     EventText,
     /// Number of the last event since the start.
     EventCount,
@@ -36,18 +38,18 @@ pub enum Item {
     Pairs(Vec<usize>),
 }
 
-/// A variable that FMI 2.0 does not have.
+/// A variable that only FMI 3.0 has.
 #[derive(Clone, Debug)]
 pub struct Added {
     /// Dotted name.
     pub name: String,
-    /// What it is.
+    /// Description of the variable.
     pub description: String,
-    /// Where its value is.
+    /// Source of the value.
     pub item: Item,
 }
 
-/// Names of [`Happening`], by their numbers, with what they say.
+/// Name and text of each [`Happening`], in the order of their numbers.
 pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
     ("nothing", c"nothing has happened yet", Happening::Nothing),
     ("wheel_stops", c"a brake begins to hold a wheel", Happening::WheelStops),
@@ -75,7 +77,7 @@ pub fn held(index: usize) -> Option<usize> {
     places.iter().position(|&place| place == index)
 }
 
-/// What FMI 3.0 has besides the rows of the table; value references follow those of the rows.
+/// Variables that only FMI 3.0 has. Their value references follow those of the rows.
 pub fn added() -> &'static [Added] {
     static ADDED: OnceLock<Vec<Added>> = OnceLock::new();
     ADDED.get_or_init(|| {
@@ -83,14 +85,14 @@ pub fn added() -> &'static [Added] {
             |name: &str, description: &str, item| Added { name: name.into(), description: description.into(), item };
         let mut added = vec![
             own("time", "Simulation time", Item::Time),
-            own("event.kind", "What the last event was", Item::EventKind),
+            own("event.kind", "Kind of the last event", Item::EventKind),
             own(
                 "event.place",
-                "Side (1 left, 2 right) or group of planets at which it happened; 0 = none",
+                "Side (1 left, 2 right) or group of planets of the last event; 0 = none",
                 Item::EventPlace,
             ),
             own("event.time", "Time of the last event", Item::EventTime),
-            own("event.text", "The last event in words", Item::EventText),
+            own("event.text", "Text of the last event", Item::EventText),
         ];
         added.extend((0..EVENT_INDICATORS).map(|k| Added {
             name: format!("event.indicator[{}]", k + 1),
@@ -98,7 +100,7 @@ pub fn added() -> &'static [Added] {
             item: Item::Indicator(k),
         }));
         added.extend(arrays());
-        // last, so that all others keep their value references
+        // at the end, so that all others keep their value references
         added.push(own("event.count", "Number of the last event since the start; 0 = none", Item::EventCount));
         added
     })
@@ -127,19 +129,19 @@ fn arrays() -> Vec<Added> {
     arrays
 }
 
-/// The variable of a value reference.
+/// Returns the variable of a value reference.
 pub fn item(reference: u32) -> Option<Item> {
     let (index, rows) = (reference as usize, table().rows.len());
     if index < rows { Some(Item::Row(index)) } else { added().get(index - rows).map(|added| added.item.clone()) }
 }
 
 impl Item {
-    /// How many values the variable has with these `parameters`.
+    /// Number of values that the variable has with these `parameters`.
     pub fn len(&self, parameters: &Parameters) -> usize {
         if matches!(self, Self::Planets(_) | Self::Pairs(_)) { self.rows(parameters).len() } else { 1 }
     }
 
-    /// Rows of the table that the variable shows, where it shows such; sizes are those of the `parameters`.
+    /// Rows of the table behind the variable; empty if there are none. The number of rows depends on the `parameters`.
     pub fn rows<'a>(&'a self, parameters: &Parameters) -> &'a [usize] {
         match self {
             Self::Row(index) => std::slice::from_ref(index),

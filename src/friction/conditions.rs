@@ -3,10 +3,11 @@
 use super::smooth;
 use crate::numeric::{PI, Scalar};
 
-/// Limit of speeds [m/s]; keeps squares finite.
+/// Limit of speeds [m/s], which keeps squares finite.
 const FASTEST: f64 = 1e6;
 
-/// Bounds of line load [N/m] and curvature radius [m]; from 1.5 times the lower to half of the upper they have no effect.
+/// Bounds of line load [N/m] and curvature radius [m]. They have no effect from 1.5 times the lower to half of the
+/// upper bound.
 const LINE_LOAD: [f64; 2] = [1e3, 1e9];
 const RADIUS: [f64; 2] = [1e-4, 1e2];
 
@@ -18,7 +19,8 @@ const MODULUS: [f64; 2] = [1e5, 1e13];
 pub struct Conditions<T> {
     /// Sliding speed u₁ − u₂ [m/s], signed.
     pub sliding: T,
-    /// Sum speed v_Σ = u₁ + u₂ of the surfaces past the contact [m/s], of either sign; the entraining speed is half of it.
+    /// Sum speed v_Σ = u₁ + u₂ of the surfaces past the contact [m/s], of either sign; the entraining speed is half of
+    /// it.
     pub sum_speed: T,
     /// Line load w: normal force per width [N/m].
     pub line_load: T,
@@ -34,7 +36,7 @@ impl<T: Scalar> Conditions<T> {
         (self.line_load / self.radius * (self.modulus / PI)).sqrt()
     }
 
-    /// The same with positive magnitudes in place of signed or vanishing ones: arguments valid for every law.
+    /// Replaces signed or vanishing values by positive magnitudes, so that the arguments are valid for every law.
     pub(super) fn regularised(&self, slowest: f64) -> Self {
         Self {
             sliding: magnitude(limited(self.sliding), slowest),
@@ -52,7 +54,7 @@ pub(super) fn magnitude<T: Scalar>(v: T, slowest: f64) -> T {
     (v * v + slowest * slowest).sqrt()
 }
 
-/// `v`, or ±[`FASTEST`] beyond.
+/// Limits `v` to ±[`FASTEST`].
 #[inline]
 pub(super) fn limited<T: Scalar>(v: T) -> T {
     if v.value().abs() < FASTEST { v } else { T::constant(FASTEST.copysign(v.value())) }

@@ -1,12 +1,12 @@
 //! Coulomb friction with a Stribeck peak: μ(v) = μ_k + (μ_s − μ_k) exp(−(v/v_S)²).
 //!
-//! Source: Armstrong-Hélouvry, Dupont and Canudas de Wit (1994), Automatica 30, p. 1083, with the Gaussian exponent 2:
-//! in the square of v the coefficient is even and has all derivatives at zero.
+//! Source: Armstrong-Hélouvry, Dupont and Canudas de Wit (1994), Automatica 30, p. 1083, with the Gaussian exponent 2.
+//! As a function of v², the coefficient is even and has all derivatives at zero.
 
 use super::{LARGEST, ToothFrictionSpec};
 use crate::numeric::Scalar;
 
-/// Coefficient at the sliding speed `v` [m/s] of either sign; without a peak it is a constant and costs nothing.
+/// Coefficient at the sliding speed `v` [m/s] of either sign. Without a peak it is a constant without extra work.
 #[inline]
 pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, v: T) -> T {
     let kinetic = spec.coefficient.clamp(0.0, LARGEST);

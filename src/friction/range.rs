@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-/// A quantity outside the range that its law was published for.
+/// A quantity outside the published range of its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outside {
     /// The quantity, with its symbol.
     pub quantity: &'static str,
-    /// Its unit as in `value`, `low` and `high`.
+    /// Unit of `value`, `low` and `high`.
     pub unit: &'static str,
-    /// Its value.
+    /// Value of the quantity.
     pub value: f64,
     /// Lower end of the range.
     pub low: f64,
@@ -20,7 +20,7 @@ pub struct Outside {
 }
 
 impl Outside {
-    /// `Some` if the value is outside.
+    /// Returns `Some` if the value is outside the range.
     pub(super) fn test(
         (quantity, unit): (&'static str, &'static str),
         value: f64,

@@ -7,11 +7,11 @@ use super::{
 };
 use crate::numeric::Scalar;
 
-/// Width of the transition below [`LARGEST`]: coefficients up to 0.2 stay unchanged.
+/// Width of the transition below [`LARGEST`]. Coefficients up to 0.2 are unchanged.
 const NEAR_LARGEST: f64 = 0.1;
 
-/// Signed coefficient of friction h: the friction force on surface 1 is −h times the normal force, and its heat
-/// h·v times the normal force is never negative. Odd in the sliding speed, within ±[`LARGEST`].
+/// Signed coefficient of friction h, odd in the sliding speed and within ±[`LARGEST`]. The friction force on surface 1
+/// is −h times the normal force. Its heat, h·v times the normal force, is never negative.
 pub fn signed_coefficient<T: Scalar>(spec: &ToothFrictionSpec, conditions: &Conditions<T>) -> T {
     let slowest = spec.slowest();
     if spec.law == FrictionLaw::CoulombStribeck {
@@ -27,9 +27,10 @@ pub fn signed_coefficient<T: Scalar>(spec: &ToothFrictionSpec, conditions: &Cond
     smooth::ceiling(published, LARGEST, NEAR_LARGEST) * (limited(conditions.sliding) / at.sliding)
 }
 
-/// The first quantity that lies outside the range the chosen law was published for, if any.
+/// Returns the first quantity outside the published range of the chosen law, or `None`.
 ///
-/// Every mesh passes the pitch point, where the sliding speed is zero and no law was measured; that alone is not reported.
+/// Every mesh passes the pitch point, at which the sliding speed is zero and no law was measured. This case is not
+/// reported.
 pub fn outside(spec: &ToothFrictionSpec, conditions: &Conditions<f64>) -> Option<Outside> {
     match spec.law {
         FrictionLaw::CoulombStribeck => None,

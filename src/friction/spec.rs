@@ -2,7 +2,7 @@
 
 use crate::problem::Problem;
 
-/// Largest coefficient that a law may return; unlubricated steel lies above it.
+/// Largest coefficient that a law may return; the coefficient of unlubricated steel is higher.
 pub const LARGEST: f64 = 0.3;
 
 choices! {
@@ -18,25 +18,26 @@ choices! {
 spec! {
     /// Law, lubricant and surface.
     ///
-    /// The start values: μ = 0.05 without a peak; for the published laws a 75W-90 axle oil at about 80 °C on run-in flanks.
+    /// The start values are μ = 0.05 without a peak. For the published laws, they represent a 75W-90 axle oil at about
+    /// 80 °C on run-in flanks.
     pub struct ToothFrictionSpec {
         /// The law.
         pub law: FrictionLaw = FrictionLaw::CoulombStribeck,
         /// Kinetic coefficient μ_k of [`FrictionLaw::CoulombStribeck`], 0 to 0.3.
         pub coefficient: f64 = 0.05,
-        /// Static over kinetic coefficient μ_s/μ_k, at least 1; 1 = no peak.
+        /// Ratio of static to kinetic coefficient μ_s/μ_k, at least 1; 1 means no peak.
         pub static_ratio: f64 = 1.0,
         /// Stribeck speed v_S, at which the peak has fallen to 1/e [m/s].
         pub stribeck_speed: f64 = 0.01,
         /// Speed v_ε over which friction changes its sign [m/s].
         pub regularisation_speed: f64 = 1e-3,
-        /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]:
-        /// the quantity that all three published laws use, so that no temperature is needed.
+        /// Dynamic viscosity of the oil at ambient pressure and the temperature at which the oil enters the mesh
+        /// [Pa·s]. All three published laws use this quantity, so no temperature is needed.
         pub oil_viscosity: f64 = 0.02,
-        /// Whether the viscosity is that of `oil` at its temperature.
+        /// True if the viscosity is that of `oil` at its temperature.
         pub viscosity_from_oil: bool = false,
-        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
-        /// phosphate esters, 1.5 traction fluids.
+        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols,
+        /// 1.3 phosphate esters, 1.5 traction fluids.
         pub lubricant_factor: f64 = 1.0,
         /// Roughness R_a, the mean of both flanks [m].
         pub roughness: f64 = 0.4e-6,
@@ -44,7 +45,7 @@ spec! {
 }
 
 impl ToothFrictionSpec {
-    /// Validation error of the first value that no law could use, if any.
+    /// Validation error of the first invalid value, or `None`.
     pub fn problem(&self) -> Option<Problem> {
         let positive = [
             ("tooth_friction.stribeck_speed", self.stribeck_speed, "m/s"),
@@ -61,7 +62,8 @@ impl ToothFrictionSpec {
         let peak = self.coefficient * self.static_ratio;
         if !(self.static_ratio >= 1.0 && peak <= LARGEST) {
             let message = format!(
-                "{} makes a static coefficient of {peak}; allowed from 1 up to a static coefficient of {LARGEST}",
+                "{} results in a static coefficient of {peak}; \
+                 the ratio must be at least 1, the static coefficient at most {LARGEST}",
                 self.static_ratio
             );
             return Some(Problem::new("tooth_friction.static_ratio", message));
@@ -75,7 +77,7 @@ impl ToothFrictionSpec {
         self.regularisation_speed.clamp(1e-9, 1e3)
     }
 
-    /// Viscosity [mPa·s], the cP of the sources.
+    /// Viscosity [mPa·s], which equals the cP of the sources.
     pub(super) fn centipoise(&self) -> f64 {
         self.oil_viscosity.clamp(1e-5, 1e3) * 1e3
     }

@@ -1,24 +1,24 @@
 //! Points and normals of contact as vectors: on the line of action, and at tip corners beyond its ends.
 //!
 //! Frame of a mesh: apex at the origin, z along the planet's axis from apex to heel, x in the plane of both axes toward
-//! the side gear's axis a_s = (sinΣ, 0, cosΣ). With P₀ along the pitch line and Q₀ ⟂ P₀ in that plane toward the planet's
-//! tip, on the unit sphere
+//! the side gear's axis a_s = (sinΣ, 0, cosΣ). P₀ is along the pitch line, and Q₀ ⟂ P₀ is in this plane, toward the
+//! planet's tip. On the unit sphere,
 //!
 //!   T₀ = sinα Q₀ ± cosα ŷ,   C(s) = cos s P₀ + sin s T₀,   T(s) = dC/ds = cos s T₀ − sin s P₀
 //!
-//! are the place of contact and the common normal, pointing from the planet into the side gear: + for the flanks whose
-//! contact moves up the path when the planet turns forward about z, − for their mirror images. A tip corner stands on
-//! the tip circle of its own gear; the normal there is that of the flank it touches.
+//! are the point of contact and the common normal, pointing from the planet into the side gear. The sign is + for the
+//! flanks whose contact moves up the path when the planet turns forward about z, and − for their mirror images. A tip
+//! corner is on the tip circle of its own gear. The normal at a corner is that of the flank that it touches.
 
 use nalgebra::Vector3;
 
 use super::{CornerGap, Pair};
 use crate::numeric::{PI, TAU, atan2, cos, sin, sqrt};
 
-/// Largest approach for which corners are tabulated [rad]: beyond that of any tooth that does not break.
+/// Largest approach for which corners are tabulated [rad], beyond the approach of any unbroken tooth.
 const REACH: f64 = 0.1;
 
-/// A place of contact on the unit sphere; multiply by the cone distance for a point.
+/// A contact on the unit sphere. Multiply by the cone distance to obtain a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Direction C of the point.
@@ -48,7 +48,7 @@ pub struct LineOfAction {
 }
 
 impl LineOfAction {
-    /// Line of action and corners of `pair`.
+    /// Returns the line of action and the corners of `pair`.
     pub fn new(pair: &Pair) -> Self {
         Self { pair: *pair, corner: [0, 1].map(|i| CornerGap::new(pair, i, REACH)) }
     }
@@ -59,8 +59,8 @@ impl LineOfAction {
         if i == 0 { [Vector3::z(), Vector3::x()] } else { [Vector3::new(ss, 0.0, cs), Vector3::new(-cs, 0.0, ss)] }
     }
 
-    /// Contact in the frame of the mesh, at the arc `place` [rad]: s on the path, or Δ of a corner past the path's end;
-    /// `turn` = ±1 selects the mirror image.
+    /// Contact in the frame of the mesh at the arc `place` [rad]: s on the path, or Δ of a corner past the end of the
+    /// path. `turn` = ±1 selects the mirror image.
     pub fn contact(&self, spot: Spot, place: f64, turn: f64) -> Contact {
         let (point, normal) = match spot {
             Spot::Path => self.on_path(place, turn),
@@ -80,12 +80,12 @@ impl LineOfAction {
 
     fn at_corner(&self, i: usize, delta: f64, turn: f64) -> (Vector3<f64>, Vector3<f64>) {
         let corner = self.corner[i].exact(delta);
-        // the planet turns its corner toward ±y, the side gear has its own on the other side
+        // the planet's corner is turned toward ±y, the side gear's corner is on the other side
         let sign = if i == 0 { turn } else { -turn };
         let [own, toward] = self.axes(i);
         let across = toward * cos(corner.own_azimuth) + Vector3::y() * (sign * sin(corner.own_azimuth));
         let point = own * cos(corner.own_polar) + across * sin(corner.own_polar);
-        // the mate's flank: its normal has the base circle as lever arm
+        // normal of the mate's flank: its lever arm is that of the base circle
         let mate = 1 - i;
         let [axis, _] = self.axes(mate);
         let (polar, lever) = (corner.mate_polar, sin(self.pair.gears[mate].base));
@@ -96,9 +96,9 @@ impl LineOfAction {
         (point, normal)
     }
 
-    /// Turns a contact's vectors from the frame of the mesh into that of gear `i`: z along its axis from apex to heel, x
-    /// along the middle of the tooth from which `tooth_azimuth` [rad] counts to the tooth in contact. The
-    /// contact then lies on the error-free flank of that tooth.
+    /// Converts a contact's vectors from the frame of the mesh to the frame of gear `i`: z along its axis from apex to
+    /// heel, x along the middle of tooth 0. `tooth_azimuth` [rad] is the azimuth of the tooth in contact from tooth 0.
+    /// In this frame, the contact is on the error-free flank of that tooth.
     pub fn in_gear(&self, contact: &Contact, i: usize, tooth_azimuth: f64, turn: f64) -> Contact {
         let angle = self.rotation(contact, i, tooth_azimuth, turn);
         let [axis, toward] = self.axes(i);
@@ -111,7 +111,7 @@ impl LineOfAction {
         Contact { point: turned(&contact.point), normal: turned(&contact.normal), along: turned(&contact.along) }
     }
 
-    /// Angle about the axis of gear `i` by which it stands turned in the frame of the mesh [rad], from the flank that touches.
+    /// Rotation angle of gear `i` about its axis in the frame of the mesh [rad], computed from the touching flank.
     pub fn rotation(&self, contact: &Contact, i: usize, tooth_azimuth: f64, turn: f64) -> f64 {
         let gear = &self.pair.gears[i];
         let [axis, toward] = self.axes(i);

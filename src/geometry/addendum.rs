@@ -1,8 +1,9 @@
-//! Addendum systems: how the working depth is shared and how much clearance is left.
+//! Addendum systems, which divide the working depth between the gears and define the clearance.
 //!
 //! Gleason's long-and-short addenda give the smaller gear the larger addendum, so that it is not undercut:
 //! h_a2 = (0.540 + 0.460/u_v) m with u_v = z₂ cosδ₁ / (z₁ cosδ₂), working depth 2 m, whole depth 2.188 m + 0.05 mm.
-//! ISO 23509:2016 has another split, a mean addendum factor c_ham = 0.21 + 0.29/u_v of the depth 2 m. Both give h_a2 = m at u_v = 1.
+//! ISO 23509:2016 divides it differently, with a mean addendum factor c_ham = 0.21 + 0.29/u_v of the depth 2 m. Both
+//! systems result in h_a2 = m at u_v = 1.
 
 use super::{AddendumSystem, GearSpec};
 

@@ -1,7 +1,7 @@
 //! Assembly of N planets, and the phase of each mesh in its tooth cycle.
-//!
-//! N equally spaced planets assemble if 2 z_s / N is an integer. Mesh i on the left side is then
-//! h_iL = p_b frac(z_s φ_i / 2π) into its cycle (0 or half a pitch); the right side adds half a pitch for odd z_p.
+//! //!
+//! N equally spaced planets can be assembled if 2 z_s / N is an integer. The phase of mesh i on the left side is h_iL =
+//! p_b frac(z_s φ_i / 2π), which is 0 or half a pitch. On the right side, half a pitch is added for odd z_p.
 
 use super::{GearSpec, Pair};
 use crate::numeric::{TAU, frac};
@@ -15,7 +15,7 @@ pub fn azimuth(i: usize, count: i32) -> f64 {
     TAU * i as f64 / f64::from(count)
 }
 
-/// Phases of each planet, or a validation error if they do not assemble.
+/// Phases of each planet. Fails if the planets cannot be assembled.
 pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
     let (n, z_s) = (spec.planet_count, spec.side_teeth);
     if 2 * z_s % n != 0 {
@@ -29,7 +29,7 @@ pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
         ));
     }
     let odd = if spec.planet_teeth % 2 == 1 { 0.5 } else { 0.0 };
-    // z_s i / n in halves of a pitch, by integers so that no rounding blurs it
+    // z_s i / n in halves of a pitch, computed with integers to avoid rounding
     Ok((0..n)
         .map(|i| {
             let left = f64::from((2 * z_s * i / n) % 2) / 2.0;
@@ -38,8 +38,8 @@ pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
         .collect())
 }
 
-/// Angle between the tip cones of neighbouring planets, `count` of them, where they are nearest [rad]; negative where the
-/// cones overlap. Neighbours turn in opposite directions there, so that teeth do not mesh.
+/// Smallest angle between the tip cones of neighbouring planets, of which there are `count` [rad]. It is negative if
+/// the cones overlap. Neighbouring planets turn in opposite directions at this point, so their teeth cannot mesh.
 pub fn between_planets(pair: &Pair, count: i32) -> f64 {
     TAU / f64::from(count) - 2.0 * pair.gears[0].tip
 }

@@ -1,4 +1,5 @@
-//! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
+//! Validation of gear pairs: errors for pairs that cannot be built, warnings for pairs that a gear engineer would
+//! question.
 
 use super::assembly::between_planets;
 use super::solid::Foot;
@@ -9,32 +10,33 @@ use crate::problem::{Problem, told_apart};
 const NAMES: [&str; 2] = ["planet", "side gear"];
 const MM: f64 = 1e3;
 
-/// Usual maximum of face width over outer cone distance for cut straight bevel gears (ISO 23509).
+/// Usual maximum of the ratio of face width to outer cone distance for cut straight bevel gears (ISO 23509).
 const USUAL_FACE: f64 = 1.0 / 3.0;
-/// Maximum of face width over outer cone distance for forged differential gears, which commonly have 0.35 to 0.5.
+/// Maximum of this ratio for forged differential gears, which commonly have 0.35 to 0.5.
 const WIDEST_FACE: f64 = 0.5;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
-/// Least inner cone distance over the outer one: nearer to the apex teeth have practically no size.
-const LEAST_INNER_CONE: f64 = 0.1;
-/// Least root angle [rad]: a gear needs a body.
-const LEAST_ROOT_ANGLE: f64 = 0.02;
-/// Rims thinner than this fraction of the tooth depth are to be avoided (ISO 6336-3).
+/// Smallest ratio of inner to outer cone distance. Nearer to the apex, teeth have practically no size.
+const MIN_INNER_CONE: f64 = 0.1;
+/// Smallest root angle [rad], because a gear needs a body.
+const MIN_ROOT_ANGLE: f64 = 0.02;
+/// Rims thinner than this fraction of the tooth depth should be avoided (ISO 6336-3).
 const THINNEST_RIM: f64 = 0.5;
-/// Rims thicker than this fraction of the tooth depth do not weaken the root (rim thickness factor Y_B = 1 of ISO 6336-3).
+/// Rims thicker than this fraction of the tooth depth do not weaken the root (rim thickness factor Y_B = 1 of ISO
+/// 6336-3).
 const FULL_RIM: f64 = 1.2;
 /// Admissible numbers of planets.
 const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
-/// A fillet smaller than specified by less than this fraction is a rounding error.
+/// Relative reduction of a fillet that is still attributed to rounding.
 const SHARE_OF_FILLET: f64 = 1e-9;
 
-/// Error if the pair cannot form a differential: the geometry of a pair holds for other angles too.
+/// Returns an error if the pair cannot form a differential. The geometry of a pair is valid for other shaft angles too.
 pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
     (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
         problem!(
             "geometry.shaft_angle",
-            "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
-             small errors of assembly are not a nominal shaft angle",
+            "{:.4} deg: two equal coaxial side gears can mesh with the same planet only at 90 deg; \
+             small assembly errors are not a nominal shaft angle",
             spec.shaft_angle.to_degrees()
         )
     })
@@ -43,7 +45,7 @@ pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
 /// Reasons why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
-    if pair.inner_cone <= LEAST_INNER_CONE * pair.outer_cone {
+    if pair.inner_cone <= MIN_INNER_CONE * pair.outer_cone {
         found.push(problem!(
             "geometry.face_width",
             "{:.3} mm leaves no teeth at the toe: the outer cone distance is {:.3} mm; use at most a third of it",
@@ -52,7 +54,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     for (i, gear) in pair.gears.iter().enumerate() {
-        if gear.root <= LEAST_ROOT_ANGLE {
+        if gear.root <= MIN_ROOT_ANGLE {
             found.push(problem!(
                 if i == 0 { "geometry.planet_dedendum" } else { "geometry.side_dedendum" },
                 "the {}'s root cone would reach its axis: dedendum {:.3} mm",
@@ -114,7 +116,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
 pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     let m = pair.module;
-    // the end clipped at a gear's base circle is where its mate's tip would cut or jam
+    // at an end clipped at a gear's base circle, the mate's tip would cut or jam
     for (i, mate) in pair.gears.iter().rev().enumerate() {
         if pair.path.clipped[i] {
             let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
@@ -195,8 +197,8 @@ pub fn remarks(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found
 }
 
-/// Thickness of gear `i`'s rim between root and bore at the toe, along the front cone, and its tooth depth there [m]; `None`
-/// without a bore.
+/// Thickness of gear `i`'s rim between root and bore at the toe, along the front cone, and its tooth depth there [m];
+/// `None` without a bore.
 fn rim(spec: &GearSpec, pair: &Pair, i: usize) -> Option<[f64; 2]> {
     let (gear, (_, bore)) = (&pair.gears[i], bore(spec, i));
     let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);
@@ -222,7 +224,7 @@ fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
     ))
 }
 
-/// Warning if the root fillet of gear `i` does not fit its gaps.
+/// Returns a warning if the root fillet of gear `i` does not fit its gaps.
 fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
     let wanted = spec.root_fillet * pair.module / pair.outer_cone;
     let foot = Foot::new(&pair.gears[i], wanted);
@@ -231,7 +233,7 @@ fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
         let why = if foot.floor > pair.gears[i].root {
             "flanks meet above the root cone"
         } else if foot.centre >= foot.middle {
-            "the gap is rounded out whole"
+            "the whole gap is rounded"
         } else {
             "it would end above the pitch cone"
         };

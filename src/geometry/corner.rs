@@ -1,34 +1,37 @@
 //! Gap of a tip corner to the mate's flank outside the path of contact.
 //!
-//! With Δ the arc by which the gear with the corner has turned past the end of the path, the corner stands at azimuth
-//! χ = χ_end + Δ/sinδ_b1 about its own axis. Spherical trigonometry gives its polar angle φ₂ and azimuth η about the
-//! mate's axis; the mate's flank passes through it when the mate is turned by θ₂ = η − inv₂(φ₂) + inv₂(δ₂). The
-//! difference to the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂: zero with zero slope at the path's end, ≈ cΔ².
+//! Δ is the arc by which the gear with the corner has turned past the end of the path. The corner is then at the
+//! azimuth χ = χ_end + Δ/sinδ_b1 about its own axis. Spherical trigonometry gives its polar angle φ₂ and azimuth η
+//! about the mate's axis. The mate's flank passes through the corner if the mate is turned by θ₂ = η − inv₂(φ₂) +
+//! inv₂(δ₂). The difference from the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂. It is zero with zero slope at
+//! the end of the path and ≈ cΔ² beyond it.
 //!
-//! The closed form costs five transcendental functions. The hot path reads a quintic Hermite table made from its
-//! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
+//! The closed form needs five transcendental functions. The simulation instead reads a quintic Hermite table built from
+//! its values and exact derivatives. The table is twice continuously differentiable, so that it does not disturb the
+//! integrator.
 
 use std::sync::Arc;
 
 use super::Pair;
 use crate::numeric::{Jet, Scalar, acos, atan2, cos, sin, sin_cos, sqrt, tan};
 
-/// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
-/// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
+/// Number of cells per doubling of Δ. Cells are finer toward the end of the path, where the mate's flank may curve
+/// sharply, so that the relative error of the table is uniform. A cell is found from the exponent and leading bits of
+/// Δ.
 const CELLS_PER_OCTAVE: usize = 16;
-/// Octaves of the table; below them lies one cell down to Δ = 0.
+/// Number of octaves of the table. Below them, one cell extends down to Δ = 0.
 const OCTAVES: usize = 24;
 const CELLS: usize = OCTAVES * CELLS_PER_OCTAVE + 1;
-/// Bits of a double below those that number the cell.
+/// Number of low bits of a double that do not select the cell.
 const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 
-/// A path clipped at a base circle ends this far before it, in base pitches (0.3 % of a contact ratio of one): on the
-/// circle itself the flank's curvature is infinite.
+/// Distance before a base circle at which a clipped path ends, in base pitches (0.3 % of a contact ratio of one). On
+/// the circle itself, the curvature of the flank is infinite.
 const CLIP_MARGIN: f64 = 3e-3;
-/// Steps per base pitch, and their number, in the search for the end of the table.
+/// Steps per base pitch, and number of steps, in the search for the end of the table.
 const SEARCH: (f64, i32) = (64.0, 256);
 
-/// Where a cell of the table begins, and the coefficients of its quintic from there; it fills a line of a cache.
+/// Start of a cell of the table, and the coefficients of its quintic. A cell fills one cache line.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(64))]
 struct Cell {
@@ -39,13 +42,14 @@ struct Cell {
 /// Gap function of one corner.
 #[derive(Clone, Debug)]
 pub struct CornerGap {
-    /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
+    /// End of the path at this corner, as an arc from the pitch point toward the corner's own tip [rad].
     pub end: f64,
     exact: CornerTravel,
     per_sin_base: f64,
-    /// First cell boundary above 0, a power of two, as its bits shifted to count cells.
+    /// First cell boundary above 0, a power of two, stored as its bits shifted to count cells.
     first: u64,
-    /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
+    /// Reciprocal of a lower bound of g/Δ² over the table. At approach a, a corner with Δ² ≥ a·spread does not touch
+    /// the flank.
     pub spread: f64,
     cells: Arc<[Cell; CELLS]>,
 }
@@ -53,7 +57,7 @@ pub struct CornerGap {
 /// Contact of a corner: gap with derivatives, and polar angles about both axes.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerContact {
-    /// Gap g [rad] with its derivatives by Δ.
+    /// Gap g [rad] with its derivatives with respect to Δ.
     pub gap: Jet,
     /// Polar angle of the corner about its own axis: the tip angle [rad].
     pub own_polar: f64,
@@ -66,7 +70,7 @@ pub struct CornerContact {
 /// Travel of a corner past the end of the path, in closed form.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerTravel {
-    /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
+    /// End of the path at this corner, as an arc from the pitch point toward the corner's own tip [rad].
     pub end: f64,
     tip: f64,
     sin_tip: f64,
@@ -82,7 +86,7 @@ pub struct CornerTravel {
 }
 
 impl CornerTravel {
-    /// Closed form of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`.
+    /// Returns the closed form for the tip corner of gear `i` (0 planet, 1 side gear) of `pair`.
     pub fn new(pair: &Pair, i: usize) -> Self {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
         let natural = pair.tip_arc[i] - pair.pitch_arc[i];
@@ -113,7 +117,7 @@ impl CornerTravel {
         let ([_, along, by_cosine], [across, less]) = (self.polar, self.across);
         let cos_polar = chi.cos() * by_cosine + Jet::constant(along);
         let eta = (chi.sin() * self.sin_tip).atan2(Jet::constant(across) - chi.cos() * less);
-        // sinψ₂ cosδ_b2, and with it ψ₂ and inv₂
+        // sinψ₂ cosδ_b2, from which ψ₂ and inv₂ follow
         let y = (Jet::constant(cb * cb) - cos_polar * cos_polar).sqrt();
         let inv = y.atan2(cos_polar) * (1.0 / sb) - y.atan2(cos_polar * sb);
         let turn = eta - inv + Jet::constant(self.mate_inv_pitch);
@@ -121,7 +125,7 @@ impl CornerTravel {
         CornerContact { gap, own_polar: self.tip, own_azimuth: chi.v, mate_polar: acos(cos_polar.v) }
     }
 
-    /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad], cosφ₂ = cosδ_b2 cosψ.
+    /// Arc ψ of the mate's flank at the corner, at Δ = `delta` [rad], from cosφ₂ = cosδ_b2 cosψ.
     pub fn mate_arc(&self, delta: f64) -> f64 {
         let ([_, along, by_cosine], cos_base) = (self.polar, self.mate_cos_base);
         let cos_polar = along + by_cosine * cos(delta / self.sin_base + self.azimuth_at_end);
@@ -130,11 +134,12 @@ impl CornerTravel {
 }
 
 impl CornerGap {
-    /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or four
-    /// base pitches beyond the path's end, whichever comes first; it continues quadratically from there.
+    /// Tabulates the gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`. The table extends to gaps of
+    /// `reach` [rad] or to four base pitches past the end of the path, whichever comes first. Beyond it, the gap
+    /// continues quadratically.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
         let exact = CornerTravel::new(pair, i);
-        // the table ends where the gap exceeds every approach the model admits
+        // the table ends where the gap exceeds every approach in the model
         let step = pair.base_pitch / SEARCH.0;
         let known = |j: &i32| exact.at(step * f64::from(*j)).gap.v.is_finite();
         let mut span = step;
@@ -147,19 +152,19 @@ impl CornerGap {
         // the power of two above the span ends the table
         let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
         let first = smallest.to_bits() >> SHIFT;
-        // on the heap from the beginning: it is large for a small stack
+        // allocated directly on the heap, because it is large for a small stack
         let mut cells = vec![Cell::default(); CELLS];
         let mut least_curvature = f64::INFINITY;
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
             let to = f64::from_bits((first + j as u64) << SHIFT);
-            // beyond the span the gap continues quadratically
+            // beyond the span, the gap continues quadratically
             let right = if to <= span { exact.at(to).gap } else { grow(exact.at(span).gap, to - span) };
             *cell = Cell { knot: from, c: quintic_hermite(left, right, to - from) };
             least_curvature = least_curvature.min(0.5 * right.dd);
             (from, left) = (to, right);
         }
-        // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers values between knots
+        // g/Δ² is a mean of g″/2 over [0, Δ]; the margin covers values between knots
         Self {
             end: exact.end,
             per_sin_base: 1.0 / exact.sin_base,
@@ -170,12 +175,13 @@ impl CornerGap {
         }
     }
 
-    /// Gap and derivatives by the closed form, with the point of contact.
+    /// Gap and derivatives from the closed form, with the point of contact.
     pub fn exact(&self, delta: f64) -> CornerContact {
         self.exact.at(delta)
     }
 
-    /// sin² of the corner's polar angle about its own axis, and that about the mate's axis with its slope, at Δ = `delta`.
+    /// sin² of the corner's polar angle about its own axis, and sin² of its polar angle about the mate's axis with the
+    /// slope, at Δ = `delta`.
     #[inline]
     pub fn sines_squared(&self, delta: f64) -> (f64, [f64; 2]) {
         let [own, along, across] = self.exact.polar;
@@ -199,7 +205,7 @@ impl CornerGap {
         }
     }
 
-    /// A Δ beyond which the gap exceeds `approach` [rad].
+    /// Distance Δ beyond which the gap exceeds `approach` [rad].
     #[inline]
     pub fn reach(&self, approach: f64) -> f64 {
         sqrt(approach * self.spread)
@@ -211,7 +217,7 @@ fn grow(gap: Jet, x: f64) -> Jet {
     Jet { v: gap.v + x * (gap.d + 0.5 * x * gap.dd), d: gap.d + x * gap.dd, dd: gap.dd }
 }
 
-/// Coefficients of the quintic in x ∈ [0, h] that takes value, slope and curvature of `a` at 0 and of `b` at h.
+/// Coefficients of the quintic in x ∈ [0, h] with the value, slope and curvature of `a` at 0 and of `b` at h.
 fn quintic_hermite(a: Jet, b: Jet, h: f64) -> [f64; 6] {
     let (c0, c1, c2) = (a.v, a.d, 0.5 * a.dd);
     let e0 = (b.v - (c0 + h * (c1 + h * c2))) / (h * h * h);
@@ -263,7 +269,7 @@ mod tests {
                     }
                     let arc = pair.gears[1 - i].action_arc(contact.mate_polar);
                     assert!((corner.exact.mate_arc(delta) / arc - 1.0).abs() < 1e-10, "{z_p}/{z_s} {i} {delta}");
-                    // the closed form's own rounding is 1e-15 in g and grows by 1/Δ in its slope
+                    // the rounding error of the closed form is 1e-15 in g and grows with 1/Δ in its slope
                     let rounding = 1e-14 / delta;
                     assert!((table.v - exact.v).abs() < 1e-11 * exact.v + 2e-15, "{z_p}/{z_s} {i} {delta}");
                     assert!((table.d - exact.d).abs() < 1e-9 * exact.d + rounding, "{z_p}/{z_s} {i} {delta}");

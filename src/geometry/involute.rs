@@ -1,14 +1,14 @@
 //! Spherical involute of one gear: a great circle rolls on the base circle of the unit sphere.
 //!
-//! With ψ the arc from the base-circle tangent point, cosφ = cosδ_b cosψ gives the polar angle φ, and
-//! inv(φ) = ψ/sinδ_b − atan2(tanψ, sinδ_b) the azimuth by which the flank has bent from its base point.
+//! ψ is the arc from the tangent point on the base circle. The polar angle φ follows from cosφ = cosδ_b cosψ. inv(φ) =
+//! ψ/sinδ_b − atan2(tanψ, sinδ_b) is the azimuth of the flank relative to its base point.
 
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::numeric::{atan2, cos, sin, sqrt, tan};
 
-/// One gear of the pair on the unit sphere, axis +z from apex to heel, tooth centred on azimuth 0.
+/// One gear of the pair on the unit sphere, with the axis +z from apex to heel and a tooth centred on azimuth 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Gear {
     /// Number of teeth z.
@@ -21,7 +21,7 @@ pub struct Gear {
     pub tip: f64,
     /// Root angle δ_f [rad].
     pub root: f64,
-    /// Half tooth angle at the pitch circle γ_pitch [rad], backlash included.
+    /// Half tooth angle at the pitch circle γ_pitch [rad], including backlash.
     pub half_pitch: f64,
     /// Addendum at the outer cone distance h_ae [m].
     pub addendum: f64,
@@ -29,7 +29,8 @@ pub struct Gear {
     pub dedendum: f64,
 }
 
-/// Arc ψ along the line of action from a base circle of angle `base` to polar angle `polar` [rad]; 0 at or below it.
+/// Arc ψ along the line of action from a base circle of angle `base` to polar angle `polar` [rad]; 0 at or below the
+/// base circle.
 pub fn action_arc(base: f64, polar: f64) -> f64 {
     // sin²ψ cos²δ_b = sin²φ − sin²δ_b = sin(φ−δ_b) sin(φ+δ_b): no cancellation near the base circle
     let s2 = sin(polar - base) * sin(polar + base);
@@ -61,7 +62,7 @@ impl Gear {
         self.inv_of_arc(self.action_arc(polar))
     }
 
-    /// Half tooth angle γ at polar angle `polar` [rad]; below the base circle the flank is a meridian.
+    /// Half tooth angle γ at polar angle `polar` [rad]. Below the base circle, the flank is a meridian.
     pub fn half_angle(&self, polar: f64) -> f64 {
         self.half_pitch + self.inv(self.pitch) - self.inv(polar)
     }
@@ -73,7 +74,7 @@ impl Gear {
 
     /// Outward unit normal of the left (`+1`) or right (`−1`) flank at polar angle `polar`, tangent to the sphere.
     pub fn flank_normal(&self, polar: f64, side: f64) -> Vector3<f64> {
-        // the moment arm of the normal about the axis is sinδ_b everywhere: its azimuthal part is sinδ_b / sinφ
+        // the moment arm of the normal about the axis is sinδ_b everywhere, so its azimuthal component is sinδ_b / sinφ
         let azimuth = side * self.half_angle(polar);
         let e_polar = Vector3::new(cos(polar) * cos(azimuth), cos(polar) * sin(azimuth), -sin(polar));
         let e_azimuth = Vector3::new(-sin(azimuth), cos(azimuth), 0.0);

@@ -1,7 +1,7 @@
-//! Geometry of a straight bevel pair with spherical-involute flanks, on the unit sphere and scaled with the cone distance R:
-//! cones, line of action, tip corners, assembly of planets, validation of parameters, and solids.
+//! Geometry of a straight bevel pair with spherical-involute flanks, on the unit sphere and scaled with the cone
+//! distance R: cones, line of action, tip corners, assembly of planets, validation of parameters, and solids.
 //!
-//! No forces and no motion: those belong to `contact` and `model`.
+//! Forces and motion belong to `contact` and `model`.
 
 pub mod action;
 pub mod addendum;

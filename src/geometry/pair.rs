@@ -1,8 +1,8 @@
 //! Cones, tip and root angles and the line of action of a pair, for any shaft angle.
 //!
 //! δ_p = atan2(sinΣ, z_s/z_p + cosΣ), δ_s = Σ − δ_p, R_e = m z_p / (2 sinδ_p), sinδ_b = sinδ cosα (ISO 23509:2016).
-//! On the unit sphere the line of action is the great circle tangent to both base circles; s along it is measured from
-//! the pitch point, positive toward the planet's tip, and s = sinδ_b·θ turns both gears alike.
+//! On the unit sphere, the line of action is the great circle tangent to both base circles. The position s on it is
+//! measured from the pitch point, positive toward the planet's tip. Both gears turn by s = sinδ_b·θ.
 
 use serde::Serialize;
 
@@ -41,24 +41,24 @@ pub struct Pair {
     pub path: Path,
 }
 
-/// Path of contact as arcs from the pitch point, positive toward the planet's tip.
+/// Path of contact, with ends as arcs from the pitch point, positive toward the planet's tip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Path {
     /// End at the side gear's tip [rad], clipped at the planet's base circle.
     pub low: f64,
     /// End at the planet's tip [rad], clipped at the side gear's base circle.
     pub high: f64,
-    /// Whether each end is clipped: the end at the planet's base circle, the end at the side gear's base circle.
+    /// True for each clipped end: the end at the planet's base circle, the end at the side gear's base circle.
     pub clipped: [bool; 2],
-    /// Contact ratio if nothing were clipped.
+    /// Contact ratio without clipping.
     pub unclipped_ratio: f64,
     /// Contact ratio ε = length / p_b.
     pub contact_ratio: f64,
 }
 
 impl Pair {
-    /// Geometry of the pair `spec`; its values must be within the ranges of the interface, and both pitch angles below
-    /// 90° (no crown or internal gears).
+    /// Computes the geometry of the pair `spec`. Its values must be within the ranges of the interface, and both pitch
+    /// angles must be below 90° (no crown or internal gears).
     pub fn new(spec: &GearSpec) -> Self {
         let (z_p, z_s) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth));
         let (m, alpha, sigma) = (spec.module, spec.pressure_angle, spec.shaft_angle);
@@ -103,7 +103,7 @@ impl Pair {
         }
     }
 
-    /// Arc between both tangent points: the usable line of action [rad].
+    /// Arc between both tangent points, which is the usable line of action [rad].
     pub fn line_of_action(&self) -> f64 {
         self.pitch_arc[0] + self.pitch_arc[1]
     }
@@ -118,7 +118,8 @@ impl Pair {
         self.module * f64::from(self.gears[i].teeth)
     }
 
-    /// Tip angle of gear `i` [rad] at which its tip would pass the base circle of its mate: more is interference.
+    /// Tip angle of gear `i` [rad] at which its tip reaches the tangent point on its mate's base circle. Larger angles
+    /// cause interference.
     pub fn limit_tip_angle(&self, i: usize) -> f64 {
         self.gears[i].polar_at(self.line_of_action())
     }
@@ -128,8 +129,8 @@ impl Pair {
         self.outer_cone * tan(self.limit_tip_angle(i) - self.gears[i].pitch)
     }
 
-    /// Angle through which a side gear turns freely while the other one and the carrier are held [rad]: the backlash of
-    /// both meshes of a planet in series.
+    /// Angle through which a side gear turns freely while the other side gear and the carrier are held [rad]. It is the
+    /// backlash of both meshes of a planet in series.
     pub fn wheel_lash(&self) -> f64 {
         2.0 * self.normal_backlash / sin(self.gears[1].base)
     }
@@ -139,12 +140,12 @@ impl Pair {
         self.gears.map(|g| sin(g.base))
     }
 
-    /// Position along the path where a planet tooth centred on the common plane touches: γ_p,pitch sinδ_bp [rad].
+    /// Position on the path at which a planet tooth centred on the common plane touches: γ_p,pitch sinδ_bp [rad].
     pub fn centred_position(&self) -> f64 {
         self.gears[0].half_pitch * sin(self.gears[0].base)
     }
 
-    /// Whether `angle` is a right angle to the accuracy that a parameter can be typed with.
+    /// True if `angle` is a right angle to the accuracy with which a parameter can be typed.
     pub fn is_right_angle(angle: f64) -> bool {
         (angle - PI / 2.0).abs() < 1e-6
     }
@@ -160,7 +161,7 @@ fn path(pitch_arc: [f64; 2], tip_arc: [f64; 2], base_pitch: f64) -> Path {
 /// Planar approximation on the back cones (Tredgold), as used by the study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tredgold {
-    /// Teeth of the virtual gears z_v = z / cosδ.
+    /// Numbers of teeth of the virtual gears z_v = z / cosδ.
     pub teeth: [f64; 2],
     /// Reference diameters of the virtual gears [m].
     pub diameter: [f64; 2],
@@ -173,7 +174,7 @@ pub struct Tredgold {
 }
 
 impl Tredgold {
-    /// Virtual spur gears of the pair at the outer cone distance.
+    /// Returns the virtual spur gears of the pair at the outer cone distance.
     pub fn new(pair: &Pair) -> Self {
         let g = &pair.gears;
         let teeth = g.map(|g| f64::from(g.teeth) / cos(g.pitch));

@@ -1,4 +1,4 @@
-//! User parameters of the gears: the inputs of every geometry formula.
+//! User parameters of the gears, the inputs of all geometry formulas.
 
 choices! {
     /// Rule that splits the working depth into addenda and fixes the clearance.
@@ -11,15 +11,15 @@ choices! {
 }
 
 spec! {
-    /// Gear pair as specified: planet (index p) and side gear (index s), apexes coincident.
+    /// Specification of a gear pair: planet (index p) and side gear (index s) with coincident apexes.
     ///
-    /// The study's gear pair.
+    /// The default is the study's gear pair.
     pub struct GearSpec {
         /// Outer transverse module m [m].
         pub module: f64 = 4.5e-3,
-        /// Planet teeth z_p.
+        /// Number of planet teeth z_p.
         pub planet_teeth: i32 = 10,
-        /// Side gear teeth z_s.
+        /// Number of side gear teeth z_s.
         pub side_teeth: i32 = 16,
         /// Number of equally spaced planets N.
         pub planet_count: i32 = 2,
@@ -43,9 +43,9 @@ spec! {
         pub side_dedendum: f64 = 1.25,
         /// Fillet radius at the root of the teeth, in modules.
         pub root_fillet: f64 = 0.40,
-        /// Diameter of the planet's bore (its pin) [m]; 0 = solid.
+        /// Diameter of the planet's bore (its pin) [m]; 0 means solid.
         pub planet_bore: f64 = 0.0,
-        /// Diameter of the side gear's bore (its shaft) [m]; 0 = solid.
+        /// Diameter of the side gear's bore (its shaft) [m]; 0 means solid.
         pub side_bore: f64 = 0.0,
     }
 }

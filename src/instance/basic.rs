@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::c_types::{c_char, c_uint, c_void};
 
-/// What a host holds of an instance: fmi2Component, fmi3Instance.
+/// Pointer to an instance: fmi2Component or fmi3Instance.
 pub type ComponentPointer = *mut c_void;
-/// What a host holds of a state: a pointer to a snapshot.
+/// Pointer to a snapshot: fmi2FMUstate or fmi3FMUState.
 pub type FmuState = *mut c_void;
 /// A string.
 pub type Text = *const c_char;
@@ -19,29 +19,29 @@ pub type ValueReference = c_uint;
 pub enum Status {
     /// Success.
     Ok = 0,
-    /// Not quite right, but the simulation continues.
+    /// Something is unusual, but the simulation continues.
     Warning = 1,
-    /// Refused or carried out in part; the instance is valid.
+    /// Refused, or carried out only in part. The instance is valid.
     Discard = 2,
-    /// Refused, or failed; see the log.
+    /// Refused or failed; see the log.
     Error = 3,
     /// The instance is unusable; never returned by this FMU.
     Fatal = 4,
-    /// The step still runs; of FMI 2.0 alone, and never returned by this FMU.
+    /// The step is still running. Exists only in FMI 2.0, and is never returned by this FMU.
     Pending = 5,
 }
 
-/// Who has the solver.
+/// Kind of an instance, which determines who integrates the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
 pub enum Kind {
-    /// The host has the solver.
+    /// The host's solver integrates the states.
     ModelExchange = 0,
-    /// The instance has the solver.
+    /// The instance integrates the states.
     CoSimulation = 1,
 }
 
-/// The C interface of a version of FMI: its number, and names of functions for messages.
+/// C interface of a version of FMI: its number, and names of functions for messages.
 #[derive(Debug)]
 pub struct Interface {
     /// 2 for FMI 2.0, 3 for FMI 3.0.

@@ -1,4 +1,4 @@
-//! The types of C that the functions of FMI take.
+//! C types of the arguments of FMI functions.
 
 #[cfg(target_family = "wasm")]
 pub use core::ffi::{c_char, c_int, c_uint, c_void};

@@ -1,8 +1,8 @@
-//! Why a call was refused or failed: the status to return and the message to log.
+//! Error of a call: the status to return and the message to log.
 
 use super::Status;
 
-/// A call that was refused, failed, or was carried out only in part.
+/// Error of a call that was refused, failed, or was carried out only in part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CallError {
     /// Status that the call returns.
@@ -15,17 +15,17 @@ pub struct CallError {
 pub type CallResult<T = ()> = Result<T, CallError>;
 
 impl CallError {
-    /// The call returns the status error.
+    /// Creates the error of a call that returns the status error.
     pub fn error(message: impl Into<String>) -> Self {
         Self { status: Status::Error, message: message.into() }
     }
 
-    /// The call returns the status discard.
+    /// Creates the error of a call that returns the status discard.
     pub fn discard(message: impl Into<String>) -> Self {
         Self { status: Status::Discard, message: message.into() }
     }
 
-    /// The call was carried out in part and returns the status warning.
+    /// Creates the error of a call that was carried out in part and returns the status warning.
     pub fn warning(message: impl Into<String>) -> Self {
         Self { status: Status::Warning, message: message.into() }
     }

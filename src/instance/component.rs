@@ -1,4 +1,5 @@
-//! What a host's pointer to an instance points to, and the frame around every call: one call at a time, in a legal state, without panics.
+//! Component: the memory behind a host's pointer to an instance. Every call runs in the same frame: one call at a time,
+//! in a legal state, and without panics.
 
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,9 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::phase::LegalCall;
 use super::{CallError, CallResult, ComponentPointer, HostMemory, Instance, Status, panic_guard};
 
-/// What a host's pointer points to.
+/// Memory behind a host's pointer to an instance.
 pub struct Component {
-    /// Set during a call. A second call, from the logger or from another thread, is then refused.
+    /// True during a call. A second call, from the logger or from another thread, is then refused.
     busy: AtomicBool,
     instance: UnsafeCell<Instance>,
 }
@@ -22,7 +23,7 @@ impl Drop for Release<'_> {
 }
 
 impl Component {
-    /// Gives `instance` to the host.
+    /// Passes ownership of `instance` to the host.
     pub fn into_pointer(instance: Instance) -> ComponentPointer {
         Box::into_raw(Box::new(Self { busy: AtomicBool::new(false), instance: UnsafeCell::new(instance) })).cast()
     }
@@ -32,7 +33,8 @@ impl Component {
     }
 }
 
-/// Carries out `call` on the instance behind `component` if its state allows it; logs an error and returns the status.
+/// Carries out `call` on the instance behind `component` if its state allows the call. Logs an error and returns the
+/// status.
 ///
 /// # Safety
 /// `component` is NULL or comes from [`Component::into_pointer`] and was not freed.
@@ -62,7 +64,7 @@ pub unsafe fn run<C: LegalCall>(
     }
 }
 
-/// Logs why a call failed and returns its status.
+/// Logs the error of a call and returns its status.
 #[cold]
 fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallResult, String>) -> Status {
     let error = match outcome {
@@ -72,7 +74,7 @@ fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallRes
             instance.fail();
             let interface = instance.interface;
             CallError::error(format!(
-                "internal error, please report: {panic}; only {} or {} help now",
+                "internal error, please report: {panic}; continue with {} or {}",
                 interface.reset, interface.set_state
             ))
         }
@@ -83,21 +85,24 @@ fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallRes
 
 #[cold]
 fn other_interface(version: u32) -> CallError {
-    CallError::error(format!("the instance was made by a function of FMI {version}.0, and has no others"))
+    CallError::error(format!(
+        "the instance was created with FMI {version}.0, so only functions of FMI {version}.0 may use it"
+    ))
 }
 
 /// Frees the instance behind `component`.
 ///
 /// # Safety
-/// As `run`, and `component` is not used again.
+/// `component` is NULL or comes from [`Component::into_pointer`] and was not freed. It is not used afterwards.
 pub unsafe fn free(component: ComponentPointer) {
     if component.is_null() || !component.cast::<Component>().is_aligned() {
         return;
     }
     let component = component.cast::<Component>();
-    // SAFETY: as in `run`; an instance whose call still runs is never freed
+    // SAFETY: not NULL, so it comes from `Component::into_pointer` by the caller's promise; an instance whose call is
+    // still running is never freed
     if unsafe { &*component }.enter().map(std::mem::forget).is_some() {
-        // SAFETY: it came from `Box::into_raw`, no call is running, and none follows
+        // SAFETY: it comes from `Box::into_raw`, no call is running, and none follows
         let _ = panic_guard::catch(|| drop(unsafe { Box::from_raw(component) }));
     }
 }

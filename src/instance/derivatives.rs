@@ -1,4 +1,4 @@
-//! Derivatives by time: of inputs, as the host sets them, and of outputs.
+//! Derivatives with respect to time: those of inputs, which the host sets, and those of outputs.
 
 use super::sensitivity::{Slopes, check_built};
 use super::unknowns::{finite_slope, output_source};
@@ -12,8 +12,9 @@ use crate::variables::{Access, OutputSource, Table, Variable, accepted, table};
 pub const OUTPUT_ORDER: i32 = 1;
 
 impl Snapshot {
-    /// Takes over the inputs that their derivatives have reached in a step. Those in the mask `not_plain` may have passed a limit by
-    /// rounding and then get the limit; without any, the derivatives are the same as before.
+    /// Copies the inputs that the simulation has reached along their derivatives. Inputs in the mask `not_plain` may
+    /// have passed a limit by rounding, and are then set to the limit. If the mask is empty, the derivatives have not
+    /// changed.
     pub fn take_reached_inputs(&mut self, not_plain: u32) {
         let Some(simulation) = &mut self.simulation else { return };
         self.inputs = *simulation.inputs();
@@ -29,7 +30,7 @@ impl Snapshot {
     }
 }
 
-/// Bit, row and place of each input in `mask`, ascending; bits beyond the inputs are ignored.
+/// Bit, row and field of each input in `mask`, in ascending order. Bits beyond the inputs are ignored.
 fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, InputField)> {
     let Table { rows, inputs, .. } = table();
     std::iter::from_fn(move || {
@@ -41,7 +42,7 @@ fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, Inp
     .filter_map(|(bit, row)| if let Access::Input(slot) = row.access { Some((bit, row, slot)) } else { None })
 }
 
-/// Returns `inputs` with the limit in place of each input that has passed it by rounding.
+/// Returns `inputs`, in which an input that has passed a limit by rounding is set to the limit.
 pub fn within_ranges(mut inputs: Inputs) -> Inputs {
     for &index in &table().inputs {
         let row = &table().rows[index];
@@ -60,7 +61,8 @@ pub fn input_bit(reference: u32) -> u32 {
 }
 
 impl Instance {
-    /// Derivatives of inputs. They hold from the next step until the host sets the input or its derivatives again.
+    /// Sets derivatives of inputs. They apply from the next step until the host sets the input or its derivatives
+    /// again.
     pub fn set_input_derivatives(
         &mut self,
         references: InputArray<u32>,
@@ -69,7 +71,7 @@ impl Instance {
     ) -> CallResult {
         if self.now.kind == Kind::ModelExchange {
             return Err(CallError::error(
-                "in model exchange inputs are set at every evaluation; they have no derivatives",
+                "in model exchange, inputs are set at every evaluation and have no derivatives",
             ));
         }
         for ((reference, order), value) in references.iter().zip(orders.iter()).zip(values.iter()) {
@@ -106,7 +108,7 @@ impl Instance {
         Ok(())
     }
 
-    /// An input set without derivatives since the last step is held constant.
+    /// Holds inputs constant if they were set without derivatives since the last step.
     pub fn end_derivatives_of(&mut self, references: InputArray<u32>) {
         let Some(input_derivatives) = &mut self.now.input_derivatives else { return };
         for reference in references.iter() {
@@ -121,8 +123,8 @@ impl Instance {
         self.share_input_derivatives(true);
     }
 
-    /// Gives the simulation the derivatives. Without any that is not 0, inputs are constant; this is tested if all derivatives
-    /// `may_be_zero`.
+    /// Passes the derivatives to the simulation. Inputs are constant if all derivatives are 0, which is checked only if
+    /// they `may_be_zero`.
     fn share_input_derivatives(&mut self, may_be_zero: bool) {
         let now = &mut self.now;
         if self.changing == 0 || may_be_zero && now.input_derivatives.as_ref() == Some(&InputDerivatives::ZERO) {
@@ -137,8 +139,9 @@ impl Instance {
         }
     }
 
-    /// Refuses a step of `h` [s] in which an input would leave its range. Returns the inputs that are not plain in this step, one bit
-    /// for each in the order of the table: a plain input is constant, or changes at a constant rate far from its limits.
+    /// Refuses a step of `h` [s] in which an input would leave its range. Returns the inputs that are not plain in this
+    /// step, as a bit mask in the order of the table. A plain input is constant, or changes at a constant rate far from
+    /// its limits.
     pub fn check_inputs_within_step(&mut self, h: f64) -> CallResult<u32> {
         let mut not_plain = 0;
         let Some(input_derivatives) = &mut self.now.input_derivatives else { return Ok(not_plain) };
@@ -149,7 +152,7 @@ impl Instance {
                 continue;
             }
             let last = *slot(&mut self.now.inputs);
-            // twice the change, so that rounding of times does not matter
+            // twice the change, to cover the rounding of times
             let twice = 2.0 * h * first.abs();
             let is_far = |range: Range| range.min < last - twice && last + twice < range.max;
             if second == 0.0 && row.range.is_some_and(is_far) {
@@ -169,7 +172,7 @@ impl Instance {
         Ok(not_plain)
     }
 
-    /// Derivatives of outputs by time.
+    /// Returns derivatives of outputs with respect to time.
     pub fn get_output_derivatives<'a>(
         &mut self,
         wanted: impl Iterator<Item = (u32, i32)> + Clone,

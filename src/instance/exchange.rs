@@ -1,4 +1,4 @@
-//! Model exchange: the host's solver integrates the states, the instance computes derivatives and events.
+//! Model exchange: the host's solver integrates the states, and the instance computes derivatives and events.
 
 use crate::FULL;
 
@@ -15,13 +15,13 @@ impl Instance {
         Err(CallError::error("this call is for model exchange, but the instance is for co-simulation"))
     }
 
-    /// The simulation of an instance for model exchange.
+    /// Returns the simulation of an instance for model exchange.
     fn exchange_simulation(&mut self) -> CallResult<&mut Simulation> {
         self.check_model_exchange()?;
         self.simulation()
     }
 
-    /// Enters event mode. In event mode it changes nothing.
+    /// Enters event mode. Changes nothing if the instance is already in event mode.
     pub fn enter_event_mode(&mut self) -> CallResult {
         self.now.phase = Phase::Event;
         Ok(())
@@ -33,13 +33,13 @@ impl Instance {
         Ok(())
     }
 
-    /// Event iteration: one is always enough.
+    /// Performs an event iteration. A single iteration is always enough.
     pub fn new_discrete_states(&mut self) -> CallResult<Update> {
         let update = self.exchange_simulation()?.update();
         self.valid_after(update)
     }
 
-    /// Completes a step of the host's solver. Returns whether an event is due.
+    /// Completes a step of the host's solver. Returns true if an event is due.
     pub fn completed_integrator_step(&mut self) -> CallResult<bool> {
         let outcome = self.exchange_simulation()?.complete_step();
         let due = self.valid_after(outcome)?;
@@ -47,10 +47,10 @@ impl Instance {
         Ok(due)
     }
 
-    /// The result of a completed step or event; after a failure the simulation cannot continue.
+    /// Returns the result of a completed step or event. After a failure, the simulation cannot continue.
     fn valid_after<T>(&mut self, outcome: Result<T, StepFailure>) -> CallResult<T> {
         let failure = match outcome {
-            // wrapped positions and accumulated energies may overflow where the states themselves did not
+            // wrapped positions and accumulated energies may overflow even if the states themselves do not
             Ok(result) if self.now.simulation.as_ref().is_some_and(|s| s.state().is_valid()) => return Ok(result),
             Ok(_) => "the simulation cannot continue from the states at the end of this step".to_owned(),
             Err(failure) => failure.to_string(),
@@ -78,8 +78,8 @@ impl Instance {
         self.move_to_states(&states)
     }
 
-    /// True if the host may set this variable, because it is a continuous state that the host integrates: between events, and
-    /// with FMI 3.0 also at events, if events do not set it themselves.
+    /// True if the host may set this variable, because it is a continuous state that the host integrates. It may do so
+    /// between events and, with FMI 3.0, also at events for states that events do not set themselves.
     pub(super) fn may_set_state(&self, reference: u32) -> bool {
         FULL && self.now.kind == Kind::ModelExchange
             && table().state(reference).is_some()
@@ -102,13 +102,13 @@ impl Instance {
         Ok(())
     }
 
-    /// All states.
+    /// Returns all states.
     pub fn get_continuous_states(&mut self, values: OutputArray<f64>) -> CallResult {
         let states = self.exchange_simulation()?.states();
         fill("states", &states, values, |k| format!("{} is not a finite number", table().rows[table().states[k]].name))
     }
 
-    /// Their derivatives.
+    /// Returns the derivatives of all states.
     pub fn get_derivatives(&mut self, values: OutputArray<f64>) -> CallResult {
         let rates = self.exchange_simulation()?.state_rates();
         fill("derivatives", &rates, values, |k| {
@@ -117,7 +117,7 @@ impl Instance {
         })
     }
 
-    /// All event indicators.
+    /// Returns all event indicators.
     pub fn get_event_indicators(&mut self, values: OutputArray<f64>) -> CallResult {
         let indicators = self.exchange_simulation()?.indicators();
         fill("event indicators", &indicators, values, |k| {
@@ -127,7 +127,7 @@ impl Instance {
         })
     }
 
-    /// Nominal values of the states.
+    /// Returns the nominal values of the states.
     pub fn get_nominals(&mut self, values: OutputArray<f64>) -> CallResult {
         self.check_model_exchange()?;
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
@@ -143,8 +143,8 @@ pub(super) fn check_state(row: &Variable, value: f64) -> CallResult {
     Err(CallError::discard(format!("{} = {value} is not a finite number", row.name)))
 }
 
-/// Writes `numbers` into `values` unless the host has room for another count of `what`, or one of them is not finite, of which
-/// `reason` says why it is refused.
+/// Writes `numbers` into `values`. Fails if the host expects a different count of `what`, or if a number is not finite,
+/// with the message that `reason` returns for its index.
 fn fill(what: &str, numbers: &[f64], values: OutputArray<f64>, reason: impl Fn(usize) -> String) -> CallResult {
     if numbers.len() != values.len() {
         return Err(wrong_count(what, numbers.len(), values.len()));
@@ -156,7 +156,7 @@ fn fill(what: &str, numbers: &[f64], values: OutputArray<f64>, reason: impl Fn(u
     Ok(())
 }
 
-/// The error of a count that differs from the model description.
+/// Returns the error of a count that differs from the model description.
 fn wrong_count(what: &str, expected: usize, found: usize) -> CallError {
     CallError::error(format!("there are {expected} {what}, not {found}"))
 }

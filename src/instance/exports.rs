@@ -1,6 +1,7 @@
-//! How C functions of both versions of FMI are written. Each version has its own table `Call`, and its own type `Boolean`.
+//! Macros that define the C functions of both versions of FMI. Each version has its own table `Call` and its own type
+//! `Boolean`.
 
-/// Carries out a call: `body` checks its pointers and passes them on.
+/// Carries out a call. `body` checks its pointers and passes them on.
 macro_rules! call {
     ($c:expr, $call:ident, |$instance:pat_param, $host:pat_param| $body:expr) => {{
         let body = |$instance: &mut $crate::instance::Instance, $host: &$crate::instance::HostMemory| $body;
@@ -9,7 +10,7 @@ macro_rules! call {
     }};
 }
 
-/// Functions that take an instance and nothing else.
+/// Defines functions whose only argument is an instance.
 macro_rules! plain {
     ($($function:ident $call:ident $method:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
@@ -20,7 +21,7 @@ macro_rules! plain {
     )+};
 }
 
-/// Functions that fill an array of numbers.
+/// Defines functions that fill an array of numbers.
 #[cfg(feature = "full")]
 macro_rules! getters {
     ($($function:ident $call:ident $method:ident;)+) => {$(
@@ -36,11 +37,11 @@ macro_rules! getters {
     )+};
 }
 
-/// The functions by which the host's solver moves on: a completed step, the time, the states.
+/// Defines the functions with which the host's solver proceeds: a completed step, the time, and the states.
 #[cfg(feature = "full")]
 macro_rules! host_solver {
     ($completed:ident $time:ident $states:ident $argument:literal) => {
-        #[doc = concat!(stringify!($completed), ". Snapshots are complete: it makes no difference whether the host may go back in time.")]
+        #[doc = concat!(stringify!($completed), ". The flag is ignored, because snapshots are complete.")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $completed(
             c: ComponentPointer,
@@ -80,10 +81,10 @@ macro_rules! host_solver {
     };
 }
 
-/// Sets what is logged. No categories mean all.
+/// Defines the function that sets which messages are logged. An empty list of categories means all.
 macro_rules! debug_logging {
     ($function:ident) => {
-        #[doc = concat!(stringify!($function), ". No categories mean all.")]
+        #[doc = concat!(stringify!($function), ". An empty list of categories means all.")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(
             c: ComponentPointer,

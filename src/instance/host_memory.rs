@@ -1,8 +1,8 @@
 //! Checked access to the host's memory: NULL, alignment, length.
 //!
-//! That a pointer that is not NULL points to what FMI says, for as long as the call lasts, is the host's promise. Arrays of
-//! one call may overlap, for example where a host passes one buffer as `dvKnown` and `dvUnknown`. They are therefore read
-//! and written through cells, element by element, and no reference to an element is ever made.
+//! The host promises that a pointer that is not NULL points to what FMI specifies, for as long as the call lasts.
+//! Arrays of one call may overlap, for example if a host passes one buffer as `dvKnown` and `dvUnknown`. They are
+//! therefore read and written through cells, element by element, and no reference to an element is ever created.
 
 use std::cell::Cell;
 use std::ffi::CStr;
@@ -11,28 +11,28 @@ use std::slice;
 
 use super::{CallError, CallResult, Text};
 
-/// The host's memory during one call: everything borrowed from it ends with the call.
+/// The host's memory during one call. Everything borrowed from it ends with the call.
 pub struct HostMemory(());
 
-/// An array that the host passes to be read.
+/// An array of the host that is read.
 #[derive(Clone, Copy)]
 pub struct InputArray<'a, T>(&'a [Cell<T>]);
 
-/// An array that the host passes to be written.
+/// An array of the host that is written.
 #[derive(Clone, Copy)]
 pub struct OutputArray<'a, T>(&'a [Cell<MaybeUninit<T>>]);
 
-/// A single value to be written.
+/// A single value of the host that is written.
 #[derive(Clone, Copy)]
 pub struct Output<'a, T>(&'a Cell<MaybeUninit<T>>);
 
 impl<'a, T: Copy> InputArray<'a, T> {
-    /// The elements, read one by one.
+    /// Returns the elements, read one by one.
     pub fn iter(self) -> impl ExactSizeIterator<Item = T> + Clone + 'a {
         self.0.iter().map(Cell::get)
     }
 
-    /// A copy of the whole array, if it has `N` elements.
+    /// Returns a copy of the whole array, if it has `N` elements.
     pub fn copied<const N: usize>(self) -> Option<[T; N]> {
         let cells: &[Cell<T>; N] = self.0.try_into().ok()?;
         Some(std::array::from_fn(|i| cells[i].get()))
@@ -43,14 +43,14 @@ impl<'a, T: Copy> InputArray<'a, T> {
         self.0.len()
     }
 
-    /// Whether there are no elements.
+    /// True if there are no elements.
     pub fn is_empty(self) -> bool {
         self.0.is_empty()
     }
 }
 
 impl<'a, T> OutputArray<'a, T> {
-    /// The elements.
+    /// Returns the elements.
     pub fn iter(self) -> impl ExactSizeIterator<Item = Output<'a, T>> {
         self.0.iter().map(Output)
     }
@@ -60,16 +60,16 @@ impl<'a, T> OutputArray<'a, T> {
         self.0.len()
     }
 
-    /// Whether there are no elements.
+    /// True if there are no elements.
     pub fn is_empty(self) -> bool {
         self.0.is_empty()
     }
 }
 
 impl<'a, T> Output<'a, T> {
-    /// A value of this library's own.
+    /// Wraps a value of this library.
     pub fn of(cell: &'a Cell<T>) -> Self {
-        // SAFETY: a cell has the layout of its content, and only valid contents are written
+        // SAFETY: a cell has the layout of its content, and only valid values are written
         Self(unsafe { &*std::ptr::from_ref(cell).cast() })
     }
 
@@ -85,16 +85,17 @@ impl HostMemory {
         body(&Self(()))
     }
 
-    /// An array to read; `pointer` may be NULL when `count` is 0.
+    /// Returns an array to read; `pointer` may be NULL if `count` is 0.
     ///
     /// # Safety
     /// If not NULL, `pointer` points to `count` values, and no other thread writes to them during the call.
     pub unsafe fn input<'a, T>(&'a self, name: &str, pointer: *const T, count: usize) -> CallResult<InputArray<'a, T>> {
         // SAFETY: the caller's promise; a cell has the layout of its content, and nothing is written through these
+        // cells
         unsafe { self.elements(name, pointer.cast::<Cell<T>>(), count) }.map(InputArray)
     }
 
-    /// An array to write; `pointer` may be NULL when `count` is 0.
+    /// Returns an array to write; `pointer` may be NULL if `count` is 0.
     ///
     /// # Safety
     /// If not NULL, `pointer` points to space for `count` values that no other thread uses during the call.
@@ -103,17 +104,17 @@ impl HostMemory {
         unsafe { self.elements(name, pointer.cast::<Cell<MaybeUninit<T>>>(), count) }.map(OutputArray)
     }
 
-    /// A single value to write.
+    /// Returns a single value to write.
     ///
     /// # Safety
-    /// As `output` for one value.
+    /// If not NULL, `pointer` points to space for a value that no other thread uses during the call.
     pub unsafe fn output_value<'a, T>(&'a self, name: &str, pointer: *mut T) -> CallResult<Output<'a, T>> {
         check(name, pointer, 1)?;
         // SAFETY: not NULL and aligned; the rest is the caller's promise; the content may be uninitialised
         Ok(Output(unsafe { &*pointer.cast() }))
     }
 
-    /// A single value to read and write.
+    /// Returns a single value to read and write.
     ///
     /// # Safety
     /// If not NULL, `pointer` points to a value that no other thread uses during the call.
@@ -123,7 +124,7 @@ impl HostMemory {
         Ok(unsafe { &*pointer.cast() })
     }
 
-    /// Bytes to read, which must not be written to while the slice is in use.
+    /// Returns bytes to read, which must not be written to while the slice is in use.
     ///
     /// # Safety
     /// If not NULL, `pointer` points to `count` bytes, and no other thread writes to them during the call.
@@ -132,7 +133,7 @@ impl HostMemory {
         unsafe { self.elements(name, pointer, count) }
     }
 
-    /// A string; none if NULL.
+    /// Returns a string, or `None` for NULL.
     ///
     /// # Safety
     /// If not NULL, `text` ends with NUL and does not change during the call.

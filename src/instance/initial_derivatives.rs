@@ -1,4 +1,4 @@
-//! Derivatives of initial values with respect to inputs and parameters, by differences that stay within the ranges.
+//! Derivatives of initial values with respect to inputs and parameters, by finite differences within the ranges.
 
 use super::unknowns::{Unknowns, finite_slope};
 use super::values::row;
@@ -6,13 +6,13 @@ use super::{CallError, CallResult, Snapshot};
 use crate::model::GearCache;
 use crate::variables::{Access, Range};
 
-/// A point of a difference: its place in steps, and its weights in the differences of order 2 and of order 4.
+/// A point of a finite difference: its position in steps, and its weights in the differences of order 2 and of order 4.
 type Difference = (f64, [f64; 2]);
 
 /// Central differences.
 const CENTRAL: [Difference; 4] =
     [(-2.0, [0.0, 1.0 / 12.0]), (-1.0, [-0.5, -2.0 / 3.0]), (1.0, [0.5, 2.0 / 3.0]), (2.0, [0.0, -1.0 / 12.0])];
-/// One-sided differences.
+/// One-sided differences, forward.
 const FORWARD: [Difference; 5] =
     [(0.0, [-1.5, -25.0 / 12.0]), (1.0, [2.0, 4.0]), (2.0, [-0.5, -3.0]), (3.0, [0.0, 4.0 / 3.0]), (4.0, [0.0, -0.25])];
 const BACKWARD: [Difference; 5] = [
@@ -22,24 +22,25 @@ const BACKWARD: [Difference; 5] = [
     (-3.0, [0.0, -4.0 / 3.0]),
     (-4.0, [0.0, 0.25]),
 ];
-/// Longest step of the differences of initial values, relative to the changed value. The initial equilibrium is found to about
+/// Maximum step of the differences, relative to the changed value. The initial equilibrium is accurate to about
 /// [`START_NOISE`].
 const RELATIVE_STEP: f64 = 3e-3;
-/// Noise of initial values, relative to them.
+/// Relative noise of initial values.
 const START_NOISE: f64 = 1e-9;
-/// Least size of a value that is not 0, as a fraction of its range or, if that is shorter, of 1 SI unit.
+/// Smallest magnitude assumed for a value other than 0, as a fraction of its range or of 1 SI unit, whichever is
+/// smaller.
 const LEAST_SIZE: f64 = 1e-3;
-/// Least room on both sides for central differences, as a fraction of the step.
+/// Minimum room on both sides for central differences, as a fraction of the step.
 const LEAST_ROOM: f64 = 0.1;
-/// Factors of the step, tried in turn until the differences of both orders agree: a long step may pass a kink.
+/// Factors of the step, tried in turn until the differences of both orders agree. A long step may pass a kink.
 const REDUCTIONS: [f64; 4] = [1.0, 0.125, 0.015625, 0.001953125];
-/// Factor by which the differences of a shorter step must agree better.
+/// Factor by which the disagreement of a shorter step must be smaller.
 const BETTER: f64 = 0.5;
-/// Relative difference of the orders below which they agree.
+/// Relative difference between both orders below which they agree.
 const AGREEMENT: f64 = 1e-4;
 
-/// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
-/// equilibrium.
+/// Computes derivatives of initial values with respect to inputs and parameters. Finite differences are needed, because
+/// initialisation solves for an equilibrium.
 pub fn initial_derivatives(
     (now, cache): (&Snapshot, &GearCache),
     unknowns: &Unknowns,
@@ -55,7 +56,7 @@ pub fn initial_derivatives(
         }
         let shorter = estimate(*reduction);
         let is_better = match (&shorter, &best) {
-            // of steps that agree no better, the longest has the least noise
+            // if a shorter step agrees no better, the longer one has less noise
             (Ok(shorter), Ok(best)) => shorter.disagreement < BETTER * best.disagreement,
             (shorter, _) => shorter.is_ok(),
         };
@@ -69,16 +70,16 @@ pub fn initial_derivatives(
     Ok(())
 }
 
-/// Initial values that are to change, and how far they may.
+/// Distances over which the known values may change.
 struct Room {
-    /// Step at which the fastest of them changes by [`RELATIVE_STEP`] of its size.
+    /// Step at which the fastest of the values changes by [`RELATIVE_STEP`] of its magnitude.
     step: f64,
-    /// Steps up to the end of a range, backward and forward.
+    /// Number of such steps up to the end of a range, backward and forward.
     ends: [f64; 2],
 }
 
 impl Room {
-    /// Room in which the values `known` may change in their directions; `None` if none of them changes.
+    /// Returns the room in which the values `known` may change in their directions, or `None` if no value changes.
     fn of(now: &Snapshot, known: impl Iterator<Item = (u32, f64)>) -> CallResult<Option<Self>> {
         let (mut size, mut ends) = (0.0f64, [f64::INFINITY; 2]);
         for (reference, change) in known {
@@ -105,7 +106,8 @@ impl Room {
         Ok((size > 0.0).then(|| Self { step: RELATIVE_STEP / size, ends }))
     }
 
-    /// Differences with a step that is shorter by the factor `reduction`: central ones within the range, one-sided ones at an end.
+    /// Returns differences whose step is multiplied by `reduction`: central ones within the range, one-sided ones at an
+    /// end.
     fn sides(&self, reduction: f64) -> (&'static [Difference], f64) {
         let (step, [backward, forward]) = (self.step * reduction, self.ends);
         let central = backward.min(forward) / 2.0;
@@ -119,7 +121,8 @@ impl Room {
     }
 }
 
-/// Derivatives of initial values by the differences of order 4, and how far those of order 2 differ, relative to what is accepted.
+/// Derivatives of initial values from differences of order 4. The disagreement is their largest deviation from order 2,
+/// relative to the accepted one.
 struct Estimate {
     slopes: Vec<f64>,
     disagreement: f64,
@@ -134,7 +137,7 @@ fn differences(
     let count = unknowns.0.len();
     let (mut second, mut fourth, mut largest) = (vec![0.0; count], vec![0.0; count], vec![0.0f64; count]);
     let mut first = vec![None; count];
-    for &(place, [of_second, of_fourth]) in points {
+    for &(position, [of_second, of_fourth]) in points {
         let (mut parameters, mut inputs) = (now.parameters, now.inputs);
         for (reference, change) in known.clone() {
             let row = row(reference)?;
@@ -143,8 +146,8 @@ fn differences(
                 Access::Real(slot) => slot(&mut parameters),
                 _ => continue,
             };
-            let wanted = *value + place * step * change;
-            // rounding does not lead out of the range
+            let wanted = *value + position * step * change;
+            // rounding must not leave the range
             *value = row.range.map_or(wanted, |range| wanted.clamp(range.min, range.max));
         }
         let mut simulation = now.start_from(&parameters, &inputs, cache).map_err(|problems| {
@@ -162,9 +165,9 @@ fn differences(
             largest[k] = largest[k].max(value.abs());
         }
     }
-    let apart = |k: usize| {
+    let disagreement = |k: usize| {
         let accepted = AGREEMENT * fourth[k].abs() + START_NOISE * largest[k] / step;
         (second[k] - fourth[k]).abs() / accepted.max(f64::MIN_POSITIVE)
     };
-    Ok(Estimate { disagreement: (0..count).map(apart).fold(0.0, f64::max), slopes: fourth })
+    Ok(Estimate { disagreement: (0..count).map(disagreement).fold(0.0, f64::max), slopes: fourth })
 }

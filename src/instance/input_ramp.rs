@@ -1,7 +1,7 @@
-//! Steps in which jumps of inputs become lines (`solver.input_ramp`).
+//! Steps in which jumps of inputs become ramps (`solver.input_ramp`).
 //!
-//! The snapshot has the host's values, the simulation has the values that it has reached. Inputs with derivatives from the host
-//! follow these derivatives instead of a line to the next value.
+//! The snapshot contains the values set by the host, the simulation the values reached so far. An input with
+//! derivatives from the host follows these derivatives instead of a ramp to the next value.
 
 use super::Snapshot;
 use super::derivatives::{input_bit, within_ranges};
@@ -19,7 +19,7 @@ impl Snapshot {
         }
     }
 
-    /// Passes the inputs that jump, and those that follow derivatives.
+    /// Passes the inputs that jump and those that follow derivatives.
     #[cold]
     pub fn apply_jumps(&mut self) {
         let host = self.host_inputs();
@@ -28,7 +28,7 @@ impl Snapshot {
         }
     }
 
-    /// Begins a step to `until` [s], or the rest of one. Returns true if jumps of inputs become lines.
+    /// Starts or continues a step to `until` [s]. Returns true if jumps of inputs become ramps.
     #[inline]
     pub fn begin_ramp(&mut self, until: f64) -> bool {
         let ramps = self.simulation.as_ref().is_some_and(Simulation::ramps_inputs);
@@ -39,8 +39,8 @@ impl Snapshot {
         ramps
     }
 
-    /// Ends a step to `until` [s] in which jumps of inputs became lines. An input at the end of its line gets the host's value to
-    /// the last bit.
+    /// Ends a step to `until` [s] in which jumps of inputs became ramps. An input at the end of its ramp gets exactly
+    /// the host's value.
     pub fn end_ramp(&mut self, until: f64) {
         let HostInputs { values, follow, .. } = self.host_inputs();
         let Some(simulation) = &self.simulation else { return };
@@ -55,7 +55,7 @@ impl Snapshot {
         }
     }
 
-    /// Inputs as the host has set them.
+    /// Returns the inputs as the host has set them.
     fn host_inputs(&self) -> HostInputs {
         let mut derivatives = self.input_derivatives.unwrap_or(InputDerivatives::ZERO);
         let mut follow = Inputs::ZERO;

@@ -1,4 +1,4 @@
-//! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
+//! Life cycle and steps of an FMU instance, on top of `model::Simulation` and without pointers.
 
 use super::{Allowed, CallError, CallResult, Category, Interface, Kind, Log, Phase, Snapshot};
 use crate::declaration::Field;
@@ -8,41 +8,41 @@ use crate::variables::felt::{self, Situation};
 use crate::variables::unset;
 use crate::variables::{self, Access, Variable};
 
-/// Tolerance of communication points, relative to the larger of time and step size: far above the rounding errors of hosts
-/// that add up steps.
+/// Tolerance of communication points, relative to the larger of time and step size. It is far above the rounding errors
+/// of hosts that add up steps.
 const TIME_TOLERANCE: f64 = 1e-9;
-/// Largest tolerance as a part of the step: a point farther off is a different point.
+/// Maximum tolerance as a fraction of the step. A point farther away is a different point.
 const STEP_TOLERANCE: f64 = 0.1;
 
-/// Tolerance of communication points [s] near `time` for steps of `h`.
+/// Tolerance of communication points [s] near `time` [s] for steps of `h` [s].
 fn time_tolerance(time: f64, h: f64) -> f64 {
     let tolerance = TIME_TOLERANCE * time.abs().max(h);
     tolerance.min(STEP_TOLERANCE * h).max(64.0 * f64::EPSILON * time.abs())
 }
 
-/// An instance: a snapshot, and what no snapshot contains.
+/// An instance: a snapshot, and data that snapshots do not contain.
 pub struct Instance {
-    /// The version of FMI whose functions made it.
+    /// Version of FMI with which it was created.
     pub interface: &'static Interface,
-    /// What the host of a co-simulation allows.
+    /// Features that the host of a co-simulation allows.
     pub allowed: Allowed,
     /// Parameters, inputs, phase, simulation.
     pub now: Snapshot,
     /// Messages to the host.
     pub log: Log,
-    /// What all instances keep for their next starts.
+    /// Cache for further starts, shared by all instances.
     pub cache: Share,
-    /// Tolerance and time interval that the host announced to this instance, which outlast restored states.
+    /// Tolerance and time interval that the host announced to this instance. They survive when a state is restored.
     announced: Option<Experiment>,
-    /// Warnings that are logged once in a run, so far.
+    /// Warnings logged so far, each of which is logged once per run.
     reported: Reported,
-    /// Inputs that may have derivatives, one bit for each in the order of the table; some may not have any.
+    /// Inputs that may have derivatives, as a bit mask in the order of the table. The derivatives may be 0.
     pub(super) changing: u32,
-    /// Variables of which the log says that their values change nothing.
+    /// Variables for which a warning says that their values have no effect.
     unfelt: Vec<&'static str>,
 }
 
-/// Tolerance and time interval that the host announces.
+/// Tolerance and time interval announced by the host.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// Relative tolerance, if given.
@@ -54,7 +54,7 @@ pub struct Experiment {
 }
 
 impl Instance {
-    /// A new instance with start values.
+    /// Creates an instance with start values.
     pub fn new(interface: &'static Interface, kind: Kind, log: Log) -> Self {
         Self {
             interface,
@@ -69,7 +69,8 @@ impl Instance {
         }
     }
 
-    /// Takes over what the host announces. A tolerance that the host set as a parameter takes precedence over this one.
+    /// Adopts the tolerance and the time interval announced by the host. A tolerance that the host sets as a parameter
+    /// takes precedence.
     pub fn setup_experiment(&mut self, experiment: &Experiment) -> CallResult {
         let Experiment { tolerance, start, stop } = *experiment;
         if !start.is_finite() {
@@ -87,7 +88,7 @@ impl Instance {
         }
         self.announced = Some(*experiment);
         self.now.start_time = start;
-        // a stop time announced before does not outlast an announcement without one
+        // an announcement without a stop time removes an earlier one
         self.now.stop_time = None;
         self.now.follow(experiment, &self.cache)
     }
@@ -98,7 +99,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Leaves initialization mode: starts the simulation, or returns every problem.
+    /// Leaves initialization mode and starts the simulation. Fails with every problem found.
     pub fn exit_initialization(&mut self) -> CallResult {
         if let Err(error) = self.simulation().map(drop) {
             self.now.phase = Phase::Error;
@@ -131,8 +132,9 @@ impl Instance {
         Ok(())
     }
 
-    /// Logs the values that act and that nobody set: as a warning if the differential is another one than the study's, which
-    /// these values belong to, otherwise as part of what is simulated. Load torques among them may turn the wheels backward.
+    /// Logs start values that have an effect but were not set. They belong to the differential of the study, so they
+    /// are a warning for any other differential, and otherwise part of the description of the scene. Also warns if load
+    /// torques among them turn the wheels backward.
     fn report_unset(&self) {
         let Snapshot { parameters, inputs, set, .. } = &self.now;
         let is_own = set.has_own_differential();
@@ -151,7 +153,7 @@ impl Instance {
         }
     }
 
-    /// Whether the scene can feel a variable that changes now.
+    /// True if a change of the variable affects the present scene.
     pub fn is_felt(&mut self, reference: u32) -> bool {
         let situation = self.situation(self.now.phase == Phase::Initialization);
         felt::is_felt(reference as usize, &mut self.now.parameters, situation)
@@ -161,7 +163,7 @@ impl Instance {
         Situation { own_steps: self.now.kind == Kind::CoSimulation, from_start }
     }
 
-    /// Logs that a value that was set while the simulation runs changes nothing, if so.
+    /// Logs a warning if a value that was set while the simulation runs has no effect.
     pub fn warn_of_set_value(&mut self, reference: u32, value: f64) {
         if self.now.phase.is_running() && self.log.is_on(Category::Warning) {
             let (index, situation) = (reference as usize, self.situation(false));
@@ -173,13 +175,13 @@ impl Instance {
         }
     }
 
-    /// Logs that values change nothing, once for each variable.
+    /// Logs that values have no effect, once for each variable.
     fn warn_of_unfelt(&mut self, found: impl IntoIterator<Item = Problem>) {
         for problem in found {
-            // a tolerance that the host announced is none that the user set
-            let is_hosts =
+            // a tolerance announced by the host does not count as set by the user
+            let is_announced =
                 tolerance_row().is_some_and(|(row, _)| row.name == problem.variable) && !self.now.tolerance_chosen;
-            if !is_hosts && !self.unfelt.contains(&problem.variable) {
+            if !is_announced && !self.unfelt.contains(&problem.variable) {
                 self.log.warning(&problem.to_string());
                 self.unfelt.push(problem.variable);
             }
@@ -196,7 +198,7 @@ impl Instance {
         Ok(())
     }
 
-    /// As a new instance, except for the settings of the log.
+    /// Resets everything to a new instance, except for the settings of the log.
     pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.interface, self.now.kind);
         self.announced = None;
@@ -205,13 +207,13 @@ impl Instance {
         Ok(())
     }
 
-    /// After an internal error only the parameters are reliable.
+    /// Enters the error state after an internal error. Only the parameters are reliable then.
     pub fn fail(&mut self) {
         (self.now.simulation, self.now.discrete) = (None, None);
         self.now.phase = Phase::Error;
     }
 
-    /// The simulation; in initialisation mode it is built on demand from the values set so far.
+    /// Returns the simulation. In initialisation mode, it is built on demand from the values set so far.
     #[inline]
     pub fn simulation(&mut self) -> CallResult<&mut Simulation> {
         if self.now.simulation.is_none() {
@@ -233,7 +235,7 @@ impl Instance {
         Ok(())
     }
 
-    /// A step from the current time to `point` + `h` [s].
+    /// Advances from the current time to `point` + `h` [s].
     #[inline]
     pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
         let time = self.simulation()?.time();
@@ -264,7 +266,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Logs warnings about the time up to now, each once in a run.
+    /// Logs warnings about the simulation so far, each once per run.
     #[inline]
     pub fn warn_while_running(&mut self) {
         if self.log.is_on(Category::Warning) {
@@ -280,7 +282,7 @@ impl Instance {
         }
     }
 
-    /// Logs what is known of a run at its end, once.
+    /// Logs warnings that are known only at the end of a run, once.
     pub fn warn_at_end(&mut self) {
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning))
             && let Some(warning) = simulation.unreported_at_end(&mut self.reported)
@@ -289,19 +291,19 @@ impl Instance {
         }
     }
 
-    /// Replaces everything by a snapshot of an instance of the same kind, made by the same version of FMI. The stop time and the
-    /// tolerance that the host announced to this instance take precedence over those of the snapshot.
+    /// Restores a snapshot of an instance of the same kind and the same version of FMI. The stop time and the tolerance
+    /// that the host announced to this instance take precedence over those of the snapshot.
     pub fn restore(&mut self, snapshot: &Snapshot) -> CallResult {
         let now = &self.now;
         if snapshot.version != now.version {
             return Err(CallError::error(format!(
-                "the state belongs to an instance made by FMI {}.0, this instance was made by FMI {}.0",
+                "the state belongs to an instance created with FMI {}.0, but this instance was created with FMI {}.0",
                 snapshot.version, now.version
             )));
         }
         if snapshot.kind != now.kind {
             return Err(CallError::error(format!(
-                "the state belongs to an instance for {:?}, this instance is for {:?}",
+                "the state belongs to an instance for {:?}, but this instance is for {:?}",
                 snapshot.kind, now.kind
             )));
         }
@@ -311,12 +313,12 @@ impl Instance {
         }
         self.now = restored;
         self.changing = u32::MAX;
-        // the host that saved the state may not have handled events, or this host does not
+        // the snapshot has no published values if its host did not handle events; they must go if this host does not
         let lacks_values = self.now.discrete.is_none() && self.now.phase.is_running();
         if lacks_values || !self.allowed.events { self.publish() } else { Ok(()) }
     }
 
-    /// Refuses a step that does not begin at the present `time` [s], or ends after the stop time.
+    /// Refuses a step that does not start at the present `time` [s], or that ends after the stop time.
     pub fn check_step(&self, time: f64, point: f64, h: f64) -> CallResult {
         if !(h.is_finite() && h > 0.0) {
             return Err(CallError::error(format!("communication step size {h} s is not finite and positive")));
@@ -334,7 +336,7 @@ impl Instance {
         }
     }
 
-    /// The error of a step that ends at `until`, after the stop time `stop` [s].
+    /// Returns the error of a step that ends at `until` [s], after the stop time `stop` [s].
     #[cold]
     fn after_stop(&self, until: f64, stop: f64) -> CallError {
         let mut message = format!("the step ends at {until} s, after the stop time {stop} s");
@@ -353,7 +355,7 @@ fn initial_problems(problems: &[problem::Problem]) -> CallError {
     CallError::error(format!("initialisation failed:\n{}", problem::list(problems)))
 }
 
-/// Row of the solver's tolerance, and access to its value.
+/// Returns the row of the solver's tolerance, and access to its value.
 pub fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     variables::table().rows.iter().find(|row| is_tolerance(row)).and_then(|row| match row.access {
         Access::Real(slot) => Some((row, slot)),
@@ -361,12 +363,12 @@ pub fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     })
 }
 
-/// Whether `row` is the solver's tolerance, which the host may also announce.
+/// True if `row` is the solver's tolerance, which the host may also announce.
 pub fn is_tolerance(row: &Variable) -> bool {
     row.name == "solver.relative_tolerance"
 }
 
-/// Instances run on any thread, and share constants, the table of variables and FMU states.
+/// Compile-time check that instances can run on any thread and share constants, the table of variables and FMU states.
 const _: () = {
     const fn movable<T: Send>() {}
     const fn shared<T: Send + Sync>() {}

@@ -1,23 +1,24 @@
-//! Messages to the host's logger by category. The library writes nowhere else.
+//! Messages to the host's logger, by category. The library has no other output.
 //!
-//! FMI 2.0.4, sections 2.1.3 and 2.1.5, and FMI 3.0.2, section 2.2.4: a call that does not return OK has called the logger; other
-//! messages are debug logging, which the host switches on and filters by category. Errors are logged always.
+//! FMI 2.0.4, sections 2.1.3 and 2.1.5, and FMI 3.0.2, section 2.2.4: the logger receives a message for every call that
+//! does not return OK. Other messages are debug logging, which the host enables and filters by category. Errors are
+//! always logged.
 
 use std::ffi::CStr;
 
 use super::Status;
 
-/// Log category, as listed in the model description.
+/// Log category of the model description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Category {
-    /// A call returned an error. Logged always.
+    /// A call returned an error. Always logged.
     Error = 0,
     /// A remark on a simulation that continues, or a call that returned a warning.
     Warning = 1,
     /// A call was discarded.
     Discard = 2,
-    /// What is simulated.
+    /// Description of the simulated scene, and statistics of the solver.
     Events = 3,
 }
 
@@ -27,10 +28,10 @@ impl Category {
         (Self::Error, "Refused or failed calls; logged always"),
         (Self::Warning, "Unusual values; the simulation continues"),
         (Self::Discard, "Refused values and discarded steps"),
-        (Self::Events, "What is simulated"),
+        (Self::Events, "Description of the simulated scene, and statistics of the solver"),
     ];
 
-    /// Name at the FMI boundary.
+    /// Name in the FMI interface.
     pub const fn name(self) -> &'static CStr {
         match self {
             Self::Error => c"logStatusError",
@@ -57,22 +58,23 @@ pub trait Sink: Send {
     fn send(&self, status: Status, category: Category, message: &str);
 }
 
-/// The host's logger, and which messages it receives.
+/// The host's logger, with the settings that select its messages.
 pub struct Log {
     sink: Option<Box<dyn Sink>>,
-    /// Whether debug logging is on.
+    /// True if debug logging is on.
     logging_on: bool,
-    /// Categories that the host chose, a bit each.
+    /// Categories selected by the host, as a bit mask.
     categories: u8,
 }
 
 impl Log {
-    /// A log into `sink`, if the host has a logger.
+    /// Creates a log that writes to `sink`, if the host has a logger.
     pub fn new(sink: Option<Box<dyn Sink>>, logging_on: bool) -> Self {
         Self { sink, logging_on, categories: ALL_CATEGORIES }
     }
 
-    /// Sets what is logged; returns the names of unknown categories. No names mean all categories.
+    /// Sets which messages are logged, and returns the names of unknown categories. An empty list of names means all
+    /// categories.
     pub fn configure<'a>(&mut self, logging_on: bool, names: impl ExactSizeIterator<Item = &'a CStr>) -> Vec<&'a CStr> {
         self.logging_on = logging_on;
         self.categories = if names.len() == 0 || !logging_on { ALL_CATEGORIES } else { 0 };
@@ -86,7 +88,7 @@ impl Log {
         unknown
     }
 
-    /// Whether messages of a call that returns OK are logged in `category`.
+    /// True if messages of a call that returns OK are logged in `category`.
     #[inline]
     pub fn is_on(&self, category: Category) -> bool {
         self.logging_on && self.is_chosen(category)
@@ -96,21 +98,21 @@ impl Log {
         self.categories & (1 << category as u8) != 0
     }
 
-    /// An event during a call that returns OK.
+    /// Logs an event during a call that returns OK.
     pub fn event(&self, message: &str) {
         if self.is_on(Category::Events) {
             self.send(Status::Ok, Category::Events, message);
         }
     }
 
-    /// A warning during a call that returns OK.
+    /// Logs a warning during a call that returns OK.
     pub fn warning(&self, message: &str) {
         if self.is_on(Category::Warning) {
             self.send(Status::Warning, Category::Warning, message);
         }
     }
 
-    /// The reason why a call returns `status`, which is not OK.
+    /// Logs the reason why a call returns `status`, which is not OK.
     pub fn status(&self, status: Status, message: &str) {
         let category = Category::of(status);
         if category == Category::Error || self.is_chosen(category) {

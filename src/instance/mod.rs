@@ -1,14 +1,17 @@
-//! An instance as both versions of FMI see it: its states, values, steps, events and derivatives, on top of
-//! `model::Simulation`; and the checked access to what a host passes by pointers. `fmi2` and `fmi3` are thin interfaces over it.
+//! FMU instance behind both versions of FMI: its states, values, steps, events and derivatives, on top of
+//! `model::Simulation`. This module also checks access to the memory that a host passes by pointers. `fmi2` and `fmi3`
+//! are thin interfaces on top of it.
 //!
 //! Decisions that the standards leave open:
-//! - A refused call changes nothing, so the instance keeps its state: an error for a wrong value reference does not end a
+//! - A refused call changes nothing, so the instance keeps its state. For example, an error for a wrong value reference
+//!   does not end a simulation. Only a failed initialisation and an internal error lead to the state `error`.
 //!   simulation. Only a failed initialisation and an internal error lead to the state `error`.
-//! - The state `fatal` is never entered: instances share no mutable data, so a reset always restores an instance.
-//! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
-//! - Stop time and tolerance that a host announced to an instance take precedence over those of a restored state. The start time
+//! - The state `fatal` is never entered. Instances share no mutable data, so a reset always restores an instance.
+//! - Parameters and inputs can be read in any state, and outputs from initialisation mode on.
+//! - A stop time and a tolerance announced to an instance take precedence over those of a restored state. The start
+//!   time belongs to the state, like its time.
 //!   belongs to the state, like its time.
-//! - A stop time may equal the start time: the start can be read and saved, and no step is possible.
+//! - A stop time may equal the start time. The start can then be read and saved, but no step is possible.
 
 mod basic;
 pub mod c_types;

@@ -1,4 +1,4 @@
-//! A panic inside a call becomes a message for the host's log instead of text on stderr.
+//! Panic guard: a panic inside a call becomes a message for the host's log instead of text on stderr.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -6,11 +6,11 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// Whether this thread is inside a call of this library.
+    /// True while this thread is inside a call of this library.
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `body`; returns the message of a panic in it, and prints nothing.
+/// Runs `body`. Returns the message of a panic in it, and prints nothing.
 pub fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     // the hook belongs to this library's copy of std; panics elsewhere in the process keep their hook

@@ -1,8 +1,8 @@
-//! States of an instance, and which call is legal in which of them.
+//! States of an instance, and the calls that are legal in each state.
 //!
-//! Model exchange and co-simulation share the states before the start and after the end; in between, each has its own
-//! states, so one table serves both. A call of one kind alone that is legal in a shared state also checks the
-//! instance's kind.
+//! Model exchange and co-simulation share the states before the start and after the end. In between, each has its own
+//! states, so one table serves both. A call of only one kind that is legal in a shared state also checks the instance's
+//! kind.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,25 +12,25 @@ use super::{CallError, CallResult, Interface};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
-    /// After the instance was made, or reset.
+    /// The instance was created or reset.
     Instantiated = 0,
-    /// Initialization mode.
+    /// The instance is in initialization mode.
     Initialization = 1,
-    /// Co-simulation: ready for a step; step mode of FMI 3.0.
+    /// Co-simulation: the instance is ready for a step. Called step mode in FMI 3.0.
     StepComplete = 2,
-    /// A step was discarded; values are those of the last successful time.
+    /// A step was discarded. Values are those of the last successful time.
     StepFailed = 3,
-    /// After the end.
+    /// The simulation has ended.
     Terminated = 4,
-    /// Initialisation failed, or an internal error.
+    /// Initialisation failed, or an internal error occurred.
     Error = 5,
-    /// At an event.
+    /// The instance is at an event.
     Event = 6,
-    /// Model exchange, between events.
+    /// Model exchange: the instance is between events.
     ContinuousTime = 7,
     /// FMI 3.0: structural parameters may be set.
     Configuration = 8,
-    /// FMI 3.0, co-simulation: within a step, while the host is called back.
+    /// FMI 3.0, co-simulation: the host is called back within a step.
     IntermediateUpdate = 9,
 }
 
@@ -52,17 +52,17 @@ impl Phase {
         ]
     };
 
-    /// The state as a bit.
+    /// Returns the state as a bit.
     pub const fn bit(self) -> u16 {
         1 << self as u8
     }
 
-    /// Whether a simulation runs.
+    /// True if a simulation is running.
     pub fn is_running(self) -> bool {
         matches!(self, Self::StepComplete | Self::Event | Self::ContinuousTime | Self::IntermediateUpdate)
     }
 
-    /// Name in messages.
+    /// Returns the name for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Instantiated => "instantiated",
@@ -81,16 +81,16 @@ impl Phase {
 
 /// A function of FMI that is legal in certain states only.
 pub trait LegalCall: Copy {
-    /// The version of FMI that has it.
+    /// Version of FMI that has the function.
     const INTERFACE: &'static Interface;
 
-    /// Name of the C function.
+    /// Returns the name of the C function.
     fn name(self) -> &'static str;
 
-    /// States in which the call is legal, a bit each.
+    /// Returns the states in which the call is legal, as a bit mask.
     fn phases(self) -> u16;
 
-    /// Whether the call is legal in `phase`.
+    /// True if the call is legal in `phase`.
     fn legal(self, phase: Phase) -> bool {
         self.phases() & phase.bit() != 0
     }
@@ -111,7 +111,7 @@ fn illegal(phases: u16, phase: Phase) -> CallError {
     CallError::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name()))
 }
 
-/// The table of calls of a version of FMI: an enum `Call` of rows `Name "function" states;`.
+/// Defines the table of calls of a version of FMI: an enum `Call` of rows `Name "function" states;`.
 macro_rules! calls {
     ($interface:expr; $($call:ident $name:literal $phases:expr;)+) => {
         /// A function of FMI that is legal in certain states only.

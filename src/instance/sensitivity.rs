@@ -1,4 +1,4 @@
-//! Directional derivatives and adjoint derivatives, of a running simulation and of the start that is being chosen.
+//! Directional and adjoint derivatives of a running simulation, and of initial values during initialisation.
 
 use crate::FULL;
 
@@ -10,7 +10,7 @@ use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, Simu
 use crate::variables::{Access, OutputSource, table};
 
 impl Instance {
-    /// Derivatives of unknowns along a direction of knowns.
+    /// Returns derivatives of unknowns along a direction of knowns.
     pub fn get_directional_derivative<'a>(
         &mut self,
         unknown: impl Iterator<Item = u32>,
@@ -28,8 +28,8 @@ impl Instance {
         Ok(())
     }
 
-    /// For each known the sum over unknowns of `seed` times their derivative by it: a column of derivatives at a time, but for
-    /// knowns that the scene does not feel.
+    /// Returns, for each known, the sum over unknowns of `seed` times the derivative with respect to the known.
+    /// Derivatives are computed column by column, except for knowns without effect in the scene.
     pub fn get_adjoint_derivative<'a>(
         &mut self,
         unknown: impl Iterator<Item = u32>,
@@ -49,7 +49,7 @@ impl Instance {
                 column.fill(0.0);
                 columns.write(&unknowns, std::iter::once(known), &mut column)?;
                 let product = column.iter().zip(seed.clone()).map(|(slope, seed)| slope * seed).sum();
-                // a finite seed may be so large that the sum is not
+                // the sum may overflow for a large finite seed
                 *sum = finite_slope(row(known.0)?, product)?;
                 Ok(())
             })
@@ -58,7 +58,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Lets `act` take derivatives, where any are asked for.
+    /// Calls `act` with the source of derivatives, if there are unknowns.
     fn with_columns(&mut self, unknowns: &Unknowns, act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
         if unknowns.0.is_empty() {
             return Ok(());
@@ -72,22 +72,26 @@ impl Instance {
     }
 }
 
-/// Refuses calls that ask for derivatives of variables in a build without them.
+/// Refuses derivatives of variables in a build without them.
 #[inline]
 pub fn check_built() -> CallResult {
-    if FULL { Ok(()) } else { Err(CallError::error("this build, for real time, has no derivatives of variables")) }
+    if FULL {
+        Ok(())
+    } else {
+        Err(CallError::error("this build for real-time targets has no derivatives of variables"))
+    }
 }
 
-/// Where derivatives are taken.
+/// Source of derivatives.
 enum Columns<'a> {
-    /// At the start that is being chosen.
+    /// Initial values, during initialisation.
     Initial(&'a Snapshot, &'a GearCache),
-    /// Of a simulation under its present inputs.
+    /// A simulation under its present inputs.
     Running(&'a Simulation),
 }
 
 impl Columns<'_> {
-    /// Writes the derivatives of `unknowns` along `known` to `slopes`, which are zero before.
+    /// Writes the derivatives of `unknowns` along `known` to `slopes`, which must be zero before.
     fn write(
         &self,
         unknowns: &Unknowns,
@@ -128,7 +132,7 @@ impl Columns<'_> {
     }
 }
 
-/// Derivatives along a direction; each kind is computed on demand.
+/// Derivatives along a direction. Each kind is computed on demand.
 pub struct Slopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
@@ -160,7 +164,7 @@ impl<'a> Slopes<'a> {
                 along.slope(|lines| of(&lines[k]))
             }
             OutputSource::Constant(_) => 0.0,
-            // the ledger changes with time alone
+            // the ledger changes only with time
             OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
             OutputSource::State(k) => {
                 self.states.get_or_insert_with(|| simulation.states_of(|i| direction.q[i], &direction.v))[k]

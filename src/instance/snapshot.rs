@@ -1,7 +1,7 @@
-//! The FMU state: an owned copy of all that changes, and its form as bytes.
+//! FMU state: an owned copy of all data that changes, and its serialised form.
 //!
-//! Bytes, little-endian: magic (8), format version (u32), hash of the interface's GUID (u64), length of the payload (u64),
-//! payload (postcard), FNV-1a checksum of all before (u64).
+//! Serialised form, little-endian: magic (8 bytes), format version (u32), hash of the interface's GUID (u64), length of
+//! the payload (u64), payload (postcard), and FNV-1a checksum of everything before it (u64).
 
 use serde::{Deserialize, Serialize};
 
@@ -14,26 +14,26 @@ use crate::variables::unset::SetValues;
 use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
-/// Incremented whenever the payload changes in meaning or layout.
+/// Format version, incremented whenever the payload changes in meaning or layout.
 const VERSION: u32 = 19;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
-/// Everything of an instance that changes. Cloning copies the state and shares the constants.
+/// Data of an instance that change. Cloning copies the state and shares the constants.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// First number of the version of FMI whose functions made the instance.
+    /// Major version of FMI with which the instance was created.
     pub version: u32,
     /// Model exchange or co-simulation.
     pub kind: Kind,
-    /// State as FMI counts states.
+    /// State of FMI's state machine.
     pub phase: Phase,
     /// Parameters as set so far.
     pub parameters: Parameters,
     /// Inputs as set so far.
     pub inputs: Inputs,
-    /// Their input_derivatives, where the host set derivatives.
+    /// Derivatives of the inputs, if the host set any.
     pub input_derivatives: Option<InputDerivatives>,
-    /// Inputs whose derivatives were set since the last step, a bit each.
+    /// Inputs whose derivatives were set since the last step, as a bit mask.
     pub derivatives_set: u32,
     /// Start time [s].
     pub start_time: f64,
@@ -41,17 +41,17 @@ pub struct Snapshot {
     pub stop_time: Option<f64>,
     /// Published values of the outputs that change only at events, if the host handles events.
     pub discrete: Option<Discrete>,
-    /// Whether the host set the solver's tolerance itself.
+    /// True if the host set the solver's tolerance as a parameter.
     pub tolerance_chosen: bool,
     /// Variables that the host has set.
     pub set: SetValues,
-    /// The simulation; none before initialisation, or when something was set since it was built.
-    #[serde(skip)] // it follows from the parameters and what `Payload` adds
+    /// The simulation; `None` before initialisation, or if a value was set since it was built.
+    #[serde(skip)] // rebuilt from the parameters and `Running`
     pub simulation: Option<Simulation>,
 }
 
 impl Snapshot {
-    /// A new instance.
+    /// Creates the snapshot of a new instance.
     pub fn new(interface: &Interface, kind: Kind) -> Self {
         Self {
             version: interface.version,
@@ -71,17 +71,18 @@ impl Snapshot {
     }
 }
 
-/// What of a simulation is serialised behind its snapshot: all but what follows from the parameters. It is large for a small stack.
-/// The inputs are those that act, which may be others than the host has set.
+/// Data of a simulation that are serialised after its snapshot: everything that does not follow from the parameters.
+/// The data are boxed, because they are large for a small stack. The inputs are those of the simulation, which may
+/// differ from the host's values.
 type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>);
 
 impl Snapshot {
-    /// Starts a simulation from the parameters and inputs, or returns every problem with them.
+    /// Starts a simulation from the parameters and inputs. Fails with every problem found.
     pub fn start(&self, cache: &GearCache) -> Result<Simulation, Vec<Problem>> {
         self.start_from(&self.parameters, &self.inputs, cache)
     }
 
-    /// Starts a simulation from other parameters and inputs, or returns every problem with them.
+    /// Starts a simulation from other parameters and inputs. Fails with every problem found.
     pub fn start_from(
         &self,
         parameters: &Parameters,
@@ -95,7 +96,8 @@ impl Snapshot {
         Simulation::start_with(&self.effective(parameters), inputs, self.start_time, &given(cache))
     }
 
-    /// Takes over the stop time and the tolerance of `experiment`, if it has them. A tolerance that was set as a parameter stays.
+    /// Adopts the stop time and the tolerance of `experiment`, if they are given. A tolerance that was set as a
+    /// parameter stays.
     pub fn follow(&mut self, experiment: &Experiment, cache: &GearCache) -> CallResult {
         self.stop_time = experiment.stop.or(self.stop_time);
         let (Some(requested), false, Some((row, slot))) =
@@ -112,7 +114,8 @@ impl Snapshot {
         Ok(())
     }
 
-    /// Rebuilds the simulation under the present parameters: a running one continues, another one will start again on demand.
+    /// Rebuilds the simulation with the present parameters. A running simulation continues; any other one starts again
+    /// on demand.
     #[cold]
     #[inline(never)] // its frame is large for a small stack
     fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
@@ -123,13 +126,13 @@ impl Snapshot {
         self.resume((state, accepted), cache)
     }
 
-    /// Continues what was `running`, if anything, under the present parameters.
+    /// Continues a `running` simulation, if there is one, with the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
         if let (Some(running), accepted) = running {
             let resumed =
                 Simulation::resume_with(&self.effective(&self.parameters), &running.1, running.0, &given(cache));
             let mut resumed = resumed.map_err(|p| problem::list(&p))?;
-            // a step does not compare both
+            // steps with input ramps pass the derivatives themselves
             if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {
                 resumed.set_input_derivatives(self.input_derivatives);
             }
@@ -138,8 +141,8 @@ impl Snapshot {
         Ok(())
     }
 
-    /// `parameters` for the simulation: in model exchange every planet has its own states, and the motion between completed steps
-    /// is the host's, so that there is no history of it.
+    /// Returns the `parameters` of the simulation. In model exchange, every planet has its own states. The host
+    /// computes the motion between completed steps, so mesh history and input ramps are off.
     fn effective(&self, parameters: &Parameters) -> Parameters {
         let mut parameters = *parameters;
         let own_steps = self.kind == Kind::CoSimulation;
@@ -149,9 +152,9 @@ impl Snapshot {
         parameters
     }
 
-    /// The snapshot as bytes.
+    /// Serialises the snapshot.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        // as `Running` has it
+        // same layout as `Running`
         let simulation = self.simulation.as_ref();
         let running =
             (simulation.map(|s| ((s.state(), s.watched()), s.inputs())), simulation.and_then(Simulation::accepted));
@@ -167,7 +170,7 @@ impl Snapshot {
         Ok(bytes)
     }
 
-    /// The snapshot in `bytes`, or why they cannot be used.
+    /// Reads a snapshot from `bytes`. Fails with the reason if they cannot be used.
     pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
         let (mut snapshot, running) = Self::read(open(bytes)?)?;
         snapshot.check(&running)?;
@@ -175,7 +178,7 @@ impl Snapshot {
         Ok(*snapshot)
     }
 
-    /// What a payload holds.
+    /// Reads the content of a payload.
     #[inline(never)]
     fn read(payload: &[u8]) -> Result<(Box<Self>, Running), String> {
         let read = postcard::take_from_bytes(payload);
@@ -186,7 +189,7 @@ impl Snapshot {
         Ok(found)
     }
 
-    /// Checks that the values are valid; the checksum cannot show that.
+    /// Checks that all values are valid, which the checksum cannot show.
     fn check(&self, (state, accepted): &Running) -> Result<(), String> {
         let Self {
             version,
@@ -242,7 +245,7 @@ fn given(cache: &GearCache) -> Given<'_> {
     Given { cache: Some(cache), ..Given::default() }
 }
 
-/// Checks everything around the payload and returns it.
+/// Checks header and checksum, and returns the payload.
 fn open(bytes: &[u8]) -> Result<&[u8], String> {
     let truncated = || format!("the serialised state is truncated at {} bytes", bytes.len());
     let mut rest = bytes;

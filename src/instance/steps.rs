@@ -1,4 +1,5 @@
-//! Co-simulation with events: steps that end at an event or at the end of a solver's step, and values that change only at events.
+//! Co-simulation with events: steps that end at an event or at the end of a solver step, and values that change only at
+//! events.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,14 +7,14 @@ use super::{CallError, CallResult, Instance, Kind, Phase};
 use crate::model::{Event, StepFailure, Update, Way, six_digits};
 use crate::numeric::finite;
 
-/// What the host of a co-simulation allows.
+/// Features that the host of a co-simulation allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Allowed {
-    /// It handles events in event mode. Hosts of model exchange always do.
+    /// True if the host handles events in event mode. Hosts of model exchange always do.
     pub events: bool,
-    /// A step may end at an event.
+    /// True if a step may end early, at an event.
     pub early_return: bool,
-    /// Addresses of the host's function to call at the solver's steps, and of that function's argument; 0 = none.
+    /// Address of the host's callback after solver steps, and address of its argument; 0 = none.
     pub update: [usize; 2],
 }
 
@@ -37,16 +38,16 @@ pub struct Iteration {
     pub is_needed: bool,
 }
 
-/// How a step, or a part of it, ended.
+/// End of a step, or of a part of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
-    /// The time that was reached [s].
+    /// Time that was reached [s].
     pub time: f64,
-    /// Whether the host is to handle an event.
+    /// True if the host must handle an event.
     pub event: bool,
-    /// Whether an event has ended the step before its end.
+    /// True if an event has ended the step early.
     pub early: bool,
-    /// Whether the step is over, at its end or early; otherwise only a part of it is done.
+    /// True if the step is finished, on time or early. False if only a part of it is done.
     pub is_done: bool,
 }
 
@@ -59,8 +60,8 @@ impl Instance {
         Err(CallError::error("this call is for co-simulation, but the instance is for model exchange"))
     }
 
-    /// A step from `point` over `h` to `until` [s], or to the first event if the host allows early return. Inputs that were set
-    /// may cause an event at `point`. With `in_parts`, only up to the end of the solver's next step.
+    /// Advances from `point` by `h` to `until` [s], or to the first event if the host allows early return. Inputs that
+    /// were set may cause an event at `point`. With `in_parts`, advances only to the end of the next solver step.
     pub fn step_to_event(&mut self, [point, h, until]: [f64; 3], in_parts: bool) -> CallResult<Ended> {
         self.check_co_simulation()?;
         let time = self.simulation()?.time();
@@ -76,7 +77,7 @@ impl Instance {
     fn move_to_event(&mut self, until: f64, in_parts: bool) -> CallResult<Ended> {
         let may_end_early = self.allowed.early_return;
         let simulation = self.simulation()?;
-        // a command that changes what friction holds is an event at the start of the step
+        // a command that starts or stops sticking is an event at the start of the step
         if may_end_early && simulation.begin() && simulation.time() < until {
             return self.ended(until, in_parts);
         }
@@ -99,7 +100,7 @@ impl Instance {
         self.ended(until, is_part)
     }
 
-    /// Returns how a step to `until` [s], or a part of a step, has ended at the present.
+    /// Returns how a step to `until` [s], or a part of it, has ended at the present time.
     fn ended(&mut self, until: f64, is_part: bool) -> CallResult<Ended> {
         let simulation = self.simulation()?;
         let (time, count) = (simulation.time(), simulation.events().count());
@@ -113,7 +114,7 @@ impl Instance {
         Ok(Ended { time, event: event && is_done, early, is_done })
     }
 
-    /// The error of a step that failed.
+    /// Returns the error of a step that failed.
     #[cold]
     pub fn step_failed(&mut self, failure: &StepFailure) -> CallError {
         self.now.phase = Phase::StepFailed;
@@ -126,7 +127,7 @@ impl Instance {
         ))
     }
 
-    /// Present values of the outputs that change only at events.
+    /// Returns the present values of the outputs that change only at events.
     fn present(&mut self) -> CallResult<Discrete> {
         let simulation = self.simulation()?;
         Ok(Discrete { event: *simulation.events().last(), held: simulation.ledger().held })
@@ -138,7 +139,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Publishes the next event that was not published yet, and what friction holds now. Returns true if more events remain.
+    /// Publishes the next unpublished event and the bodies that friction holds now. Returns true if more events remain.
     fn publish_next(&mut self) -> CallResult<bool> {
         let mut reported = self.present()?;
         let events = *self.simulation()?.events();
@@ -149,8 +150,8 @@ impl Instance {
         Ok(reported.event.count != events.count())
     }
 
-    /// Outputs that change only at events: published values if the host handles events, otherwise present values. Before the
-    /// end of initialisation nothing is published.
+    /// Returns the outputs that change only at events: published values if the host handles events, otherwise present
+    /// values. Before the end of initialisation, nothing is published.
     pub fn discrete(&mut self) -> CallResult<Discrete> {
         match self.now.discrete {
             Some(reported) if self.allowed.events => Ok(reported),
@@ -158,7 +159,7 @@ impl Instance {
         }
     }
 
-    /// Enters event mode: in model exchange, or between steps of co-simulation.
+    /// Enters event mode, in model exchange or between steps of co-simulation.
     pub fn enter_event_mode_of_any(&mut self) -> CallResult {
         if self.now.kind == Kind::CoSimulation && !self.allowed.events {
             return Err(CallError::error("the host has said that it does not use event mode"));
@@ -173,18 +174,19 @@ impl Instance {
         Ok(())
     }
 
-    /// Leaves event mode: the host's solver continues.
+    /// Leaves event mode, after which the host's solver continues.
     pub fn enter_continuous_time_mode_of_exchange(&mut self) -> CallResult {
         self.check_model_exchange()?;
         self.enter_continuous_time_mode()
     }
 
-    /// Discrete values follow from the states and inputs; there is nothing to iterate.
+    /// Does nothing: discrete values follow directly from the states and inputs, without iteration.
     pub fn evaluate_discrete_states(&mut self) -> CallResult {
         Ok(())
     }
 
-    /// Event iteration of either kind of instance. The first iteration changes all that is due; each reports one event.
+    /// Performs an event iteration of either kind of instance. The first iteration makes all pending changes; each
+    /// iteration reports one event.
     pub fn update_discrete_states(&mut self) -> CallResult<Iteration> {
         let update = if self.now.kind == Kind::CoSimulation {
             self.apply_commands()?;
@@ -197,15 +199,15 @@ impl Instance {
         Ok(Iteration { update, is_needed: self.publish_next()? })
     }
 
-    /// True if an iteration in model exchange only reports an event of the iterations before. Nothing changes twice at a time,
-    /// so the iteration ends.
+    /// True if an iteration in model exchange only reports an event of earlier iterations. Nothing changes twice at the
+    /// same time, so the iteration ends.
     fn only_reports(&mut self) -> CallResult<bool> {
         let published = self.now.discrete.map(|discrete| discrete.event.count);
         let simulation = self.simulation()?;
         Ok(simulation.is_accepted() && published.is_some_and(|count| count != simulation.events().count()))
     }
 
-    /// Applies the inputs now if they cause an event. Otherwise, they act from the next step on.
+    /// Applies the inputs now if they cause an event. Otherwise, they apply from the next step on.
     fn apply_commands(&mut self) -> CallResult {
         let simulation = self.simulation()?;
         let mut begun = simulation.clone();
@@ -215,13 +217,13 @@ impl Instance {
         Ok(())
     }
 
-    /// Structural parameters may be set from here on.
+    /// Enters configuration mode, in which structural parameters may be set.
     pub fn enter_configuration(&mut self) -> CallResult {
         self.now.phase = Phase::Configuration;
         Ok(())
     }
 
-    /// Structural parameters stay as they are from here on.
+    /// Leaves configuration mode; structural parameters are then fixed.
     pub fn exit_configuration(&mut self) -> CallResult {
         self.now.phase = Phase::Instantiated;
         Ok(())

@@ -1,11 +1,11 @@
-//! What a host keeps by pointers of its own: states, as pointers to snapshots or as bytes, and the categories of its log.
+//! Data that the host stores: states, as pointers to snapshots or as bytes, and the categories of its log.
 
 use std::cell::Cell;
 use std::ptr;
 
 use super::{CallError, CallResult, FmuState, HostMemory, Instance, Snapshot, Text};
 
-/// The snapshot behind `state`, for as long as the call lasts.
+/// Returns the snapshot behind `state`, for as long as the call lasts.
 unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {
     let state = state.cast::<Snapshot>();
     if state.is_null() || !state.is_aligned() {
@@ -15,7 +15,7 @@ unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot>
     Ok(unsafe { &*state })
 }
 
-/// Stores `snapshot` in `state`; allocates a state if there is none yet.
+/// Stores `snapshot` in `state`, and allocates a state if necessary.
 unsafe fn store(state: &Cell<FmuState>, snapshot: Snapshot) -> CallResult {
     let old = state.get().cast::<Snapshot>();
     if old.is_null() {
@@ -30,16 +30,16 @@ unsafe fn store(state: &Cell<FmuState>, snapshot: Snapshot) -> CallResult {
 }
 
 /// # Safety
-/// For all of these: every pointer that is not NULL points to what FMI says for as long as the call lasts.
+/// Every pointer that is not NULL points to what FMI specifies for as long as the call lasts.
 #[allow(clippy::missing_safety_doc)]
 impl Instance {
-    /// Stores the present state. An existing one is overwritten.
+    /// Stores the present state. An existing state is overwritten.
     pub unsafe fn get_state(&self, host: &HostMemory, state: *mut FmuState) -> CallResult {
         // SAFETY: the caller's promise
         unsafe { store(host.value("FMUstate", state)?, self.now.clone()) }
     }
 
-    /// Goes back to a state.
+    /// Restores a state.
     pub unsafe fn set_state(&mut self, host: &HostMemory, state: FmuState) -> CallResult {
         // SAFETY: the caller's promise
         self.restore(unsafe { snapshot(host, state) }?)
@@ -54,13 +54,13 @@ impl Instance {
         let state = unsafe { host.value("FMUstate", state)? };
         let old = state.replace(ptr::null_mut()).cast::<Snapshot>();
         if !old.is_null() && old.is_aligned() {
-            // SAFETY: it came from `Box::into_raw` in `store`, and the host's pointer to it is cleared
+            // SAFETY: it comes from `Box::into_raw` in `store`, and the host's pointer to it is cleared
             drop(unsafe { Box::from_raw(old) });
         }
         Ok(())
     }
 
-    /// Writes how many bytes a state takes.
+    /// Writes the size of a serialised state in bytes.
     pub unsafe fn serialized_size(&self, host: &HostMemory, state: FmuState, size: *mut usize) -> CallResult {
         // SAFETY: the caller's promise
         let (snapshot, size) = unsafe { (snapshot(host, state)?, host.output_value("size", size)?) };
@@ -68,13 +68,13 @@ impl Instance {
         Ok(())
     }
 
-    /// Writes a state as bytes. `size` must be the size that was asked for.
+    /// Writes a state as bytes. `size` must be the size from [`Self::serialized_size`].
     pub unsafe fn serialize(&self, host: &HostMemory, state: FmuState, bytes: *mut u8, size: usize) -> CallResult {
         // SAFETY: the caller's promise
         let (snapshot, target) = unsafe { (snapshot(host, state)?, host.output("serializedState", bytes, size)?) };
         let bytes = snapshot.to_bytes().map_err(CallError::error)?;
         if bytes.len() != size {
-            return Err(CallError::error(format!("the state takes {} bytes, not {size}", bytes.len())));
+            return Err(CallError::error(format!("the state needs {} bytes, not {size}", bytes.len())));
         }
         for (byte, target) in bytes.into_iter().zip(target.iter()) {
             target.write(byte);
@@ -82,7 +82,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Makes a state of bytes. Invalid bytes change nothing.
+    /// Restores a state from bytes. Invalid bytes change nothing.
     pub unsafe fn deserialize(
         &self,
         host: &HostMemory,
@@ -97,7 +97,7 @@ impl Instance {
         unsafe { store(host.value("FMUstate", state)?, snapshot) }
     }
 
-    /// Sets what is logged. No categories mean all.
+    /// Sets which messages are logged. An empty list of categories means all.
     pub unsafe fn configure_log(
         &mut self,
         host: &HostMemory,

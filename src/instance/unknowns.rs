@@ -1,14 +1,14 @@
-//! Unknowns of derivatives: outputs that a host names, and the check that their derivatives are finite.
+//! Unknowns of derivatives: outputs named by the host. Their derivatives must be finite.
 
 use super::values::{finite, row, wrong_type};
 use super::{CallError, CallResult};
 use crate::variables::{Access, OutputSource, Variable};
 
-/// Variables whose derivatives are asked for.
+/// Variables whose derivatives are requested.
 pub struct Unknowns(pub Vec<(&'static Variable, OutputSource)>);
 
 impl Unknowns {
-    /// The variables of `references`. Fails if one of them has no derivatives.
+    /// Returns the variables of `references`. Fails if one of them has no derivatives.
     pub fn of(references: impl Iterator<Item = u32>) -> CallResult<Self> {
         references
             .map(|reference| row(reference).and_then(|row| Ok((row, output_source(row)?))))
@@ -17,12 +17,12 @@ impl Unknowns {
     }
 }
 
-/// The derivative of a variable, if it is finite.
+/// Returns the derivative of a variable if it is finite.
 pub fn finite_slope(row: &Variable, slope: f64) -> CallResult<f64> {
     finite(row, slope).map_err(|error| CallError { message: format!("the derivative of {}", error.message), ..error })
 }
 
-/// Source of a variable that has derivatives.
+/// Returns the source of a variable that has derivatives.
 pub fn output_source(row: &Variable) -> CallResult<OutputSource> {
     match row.access {
         Access::Output(source) => Ok(source),

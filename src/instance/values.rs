@@ -1,4 +1,4 @@
-//! Getting and setting variables by value reference. A set call is checked as a whole before anything is set.
+//! Reading and setting variables by value reference. A call that sets values checks all of them before it sets any.
 
 use super::exchange::check_state;
 use super::instance::is_tolerance;
@@ -6,7 +6,7 @@ use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase};
 use crate::model::{LedgerReadings, Motion, STATES, removed_method};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
-/// FMI type of a variable, as FMI's functions name it.
+/// FMI type of a variable, as used in the names of FMI functions.
 fn type_name(row: &Variable) -> &'static str {
     match row.access {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => "Real",
@@ -16,7 +16,7 @@ fn type_name(row: &Variable) -> &'static str {
     }
 }
 
-/// The row of a value reference.
+/// Returns the row of a value reference.
 pub fn row(reference: u32) -> CallResult<&'static Variable> {
     let rows = &table().rows;
     usize::try_from(reference).ok().and_then(|i| rows.get(i)).ok_or_else(|| {
@@ -27,17 +27,17 @@ pub fn row(reference: u32) -> CallResult<&'static Variable> {
     })
 }
 
-/// The error of a call for another type.
+/// Returns the error of a call for another type.
 pub fn wrong_type(row: &Variable) -> CallError {
     CallError::error(format!("{} is of type {}", row.name, type_name(row)))
 }
 
-/// The error of any String access: there are no String variables.
+/// Returns the error of any String access, because there are no String variables.
 pub fn string_error(reference: u32) -> CallError {
     row(reference).map_or_else(|error| error, wrong_type)
 }
 
-/// `number` if it is finite: the host's solver may try states at which a variable has no finite value.
+/// Returns `number` if it is finite. The host's solver may try states at which a variable has no finite value.
 pub fn finite(row: &Variable, number: f64) -> CallResult<f64> {
     if number.is_finite() {
         return Ok(number);
@@ -48,14 +48,14 @@ pub fn finite(row: &Variable, number: f64) -> CallResult<f64> {
     )))
 }
 
-/// The error of a single value, with unit and range of its variable.
+/// Returns the error of a single value, with unit and range of its variable.
 fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
     let Some(range) = row.range.filter(|_| !value.is_finite()) else { return CallError::discard(problem) };
     let unit = row.unit.map_or("", |u| u.name);
     CallError::discard(format!("{problem}; the range is [{}, {}] {unit}", range.min, range.max))
 }
 
-/// The error of setting an output now.
+/// Returns the error of setting an output.
 fn output_error(reference: u32, row: &Variable) -> CallError {
     let name = row.name;
     CallError::error(if row.variability == Variability::Fixed {
@@ -75,7 +75,7 @@ fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
     CallError::error(format!("{}: {value} is not one of {}{removed}", row.name, choices.join(", ")))
 }
 
-/// Outcome of a call that sets `count` values, all or none: an error says that none was set.
+/// Adds to an error of a call with `count` values that none of them was set.
 pub fn all_or_none(count: usize, outcome: CallResult) -> CallResult {
     outcome.map_err(|error| match count {
         0 | 1 => error,
@@ -87,7 +87,7 @@ pub fn all_or_none(count: usize, outcome: CallResult) -> CallResult {
 }
 
 impl Instance {
-    /// Reads real variables. Computes only what the requested variables need, and what they share only once.
+    /// Reads real variables. Computes only what the requested variables need, and shared quantities only once.
     pub fn get_real<'a>(
         &mut self,
         references: impl Iterator<Item = u32>,
@@ -145,9 +145,9 @@ impl Instance {
         Ok(*slot(&mut self.now.parameters))
     }
 
-    /// Sets real variables, and continuous states where the host integrates them.
+    /// Sets real variables, and continuous states that the host integrates.
     pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
-        // a single value needs no look at the others before it is set
+        // a single value needs no check of other values before it is set
         let is_checked = references.len() != 1 || self.now.kind == Kind::ModelExchange;
         let mut states = None;
         if is_checked {
@@ -183,7 +183,8 @@ impl Instance {
         Ok(())
     }
 
-    /// All states with new values of those among the references; none if there is none among them.
+    /// Returns all states, in which those among the references have their new values. Returns `None` if there are no
+    /// states among them.
     fn with_states_set(
         &mut self,
         references: InputArray<u32>,
@@ -191,7 +192,7 @@ impl Instance {
     ) -> CallResult<Option<[f64; STATES]>> {
         let mut states = None;
         for (reference, value) in references.iter().zip(values.iter()) {
-            // other outputs are refused before
+            // other outputs have already been refused
             if let (Access::Output(_), Some(k)) = (row(reference)?.access, table().state(reference)) {
                 if states.is_none() {
                     states = Some(self.simulation()?.states());
@@ -202,7 +203,7 @@ impl Instance {
         Ok(states)
     }
 
-    /// Sets integers; enumerations too.
+    /// Sets integers and enumerations.
     pub fn set_integer(&mut self, pairs: impl Iterator<Item = (u32, i32)> + Clone) -> CallResult {
         for (reference, value) in pairs.clone() {
             let row = row(reference)?;
@@ -243,9 +244,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Value that a variable takes if it is set to `value`. Ranges of inputs are checked immediately, those of parameters only in a
-    /// running simulation. Before that, parameters must be finite, and initialisation checks all their ranges together. A value that
-    /// `is_checked` already is at most rounding away from its range, however often its variable is set in one call.
+    /// Returns the value that a variable takes if it is set to `value`. Ranges of inputs are checked immediately, but
+    /// ranges of parameters only in a running simulation. Before that, parameters must be finite, and initialisation
+    /// checks all their ranges together. A value that `is_checked` already exceeds its range at most by rounding, even
+    /// if one call sets its variable several times.
     fn accepted_real(&mut self, reference: u32, value: f64, is_checked: bool) -> CallResult<f64> {
         let row = row(reference)?;
         let (last, at_once) = match row.access {
@@ -283,7 +285,8 @@ impl Instance {
         }
     }
 
-    /// Passes the new values to a running simulation; before, the simulation is discarded and rebuilt on demand.
+    /// Passes the new values to a running simulation. Before the start, the simulation is discarded and rebuilt on
+    /// demand.
     fn changed(&mut self, parameters: bool) {
         let now = &mut self.now;
         if !now.phase.is_running() {

@@ -1,7 +1,7 @@
 //! The linear systems of a step on the second-order block.
 //!
-//! With y = (q, v), q̇ = B v, K = ∂v̇/∂q and D = ∂v̇/∂v the q-rows of (I/s − J) U = r are solved by hand, so that the
-//! matrix to factorise has the order of the velocities alone:
+//! With y = (q, v), q̇ = B v, K = ∂v̇/∂q and D = ∂v̇/∂v, the q-rows of (I/s − J) U = r are eliminated by hand. The
+//! remaining matrix has only the order of the velocities:
 //!
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
@@ -19,10 +19,11 @@ pub struct Block<const N: usize> {
 }
 
 impl<const N: usize> Block<N> {
-    /// Nothing yet.
+    /// Empty; [`Block::fill`] computes the inverse.
     pub const EMPTY: Self = Self { inverse: Inverse::EMPTY, stiffness: [[0.0; N]; N], s: 0.0 };
 
-    /// Inverts I/s − J; `None` if it is singular. It is written where it stays, as matrices cost more to move than to invert.
+    /// Inverts I/s − J in place, because moving the matrices costs more than inverting them. Returns `None` if the
+    /// matrix is singular.
     #[inline(always)]
     pub fn fill<E: SecondOrder<N> + ?Sized>(
         &mut self,
@@ -30,22 +31,22 @@ impl<const N: usize> Block<N> {
         lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
-        if N > IN_REGISTERS { self.fill_apart(system, lin, s) } else { self.fill_here(system, lin, s) }
+        if N > IN_REGISTERS { self.fill_out_of_line(system, lin, s) } else { self.fill_inline(system, lin, s) }
     }
 
-    /// Compiled once: a call costs little beside so many numbers.
+    /// Out-of-line copy for large systems, for which the cost of a call is negligible.
     #[inline(never)]
-    fn fill_apart<E: SecondOrder<N> + ?Sized>(
+    fn fill_out_of_line<E: SecondOrder<N> + ?Sized>(
         &mut self,
         system: (&E, Shape),
         lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
-        self.fill_here(system, lin, s)
+        self.fill_inline(system, lin, s)
     }
 
     #[inline(always)]
-    fn fill_here<E: SecondOrder<N> + ?Sized>(
+    fn fill_inline<E: SecondOrder<N> + ?Sized>(
         &mut self,
         (system, shape): (&E, Shape),
         lin: &Linearisation<N, E::Rates>,
@@ -73,17 +74,17 @@ impl<const N: usize> Block<N> {
     /// Solves for the right-hand side `r` in place.
     #[inline(always)]
     pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
-        if N > IN_REGISTERS { self.solve_apart(system, r) } else { self.solve_here(system, r) }
+        if N > IN_REGISTERS { self.solve_out_of_line(system, r) } else { self.solve_inline(system, r) }
     }
 
-    /// Compiled once, as `fill_apart`.
+    /// Out-of-line copy for large systems.
     #[inline(never)]
-    fn solve_apart<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
-        self.solve_here(system, r);
+    fn solve_out_of_line<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
+        self.solve_inline(system, r);
     }
 
     #[inline(always)]
-    fn solve_here<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
+    fn solve_inline<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
         let s = self.s;
         let pulled = times(shape, &self.stiffness, &r.q);
         add_times(&mut r.v, 1.0, &pulled);

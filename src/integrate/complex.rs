@@ -1,11 +1,11 @@
 //! Complex numbers and the complex linear system of collocation methods on the second-order block.
 //!
-//! As [`Block`](super::block::Block), with a complex number a in place of 1/s:
+//! The equations are those of [`Block`](super::block::Block), with a complex number a in place of 1/s:
 //!
 //!   (a I − D − K B / a) U_v = r_v + K r_q / a,   U_q = (r_q + B U_v) / a.
 //!
-//! Where D and −K B store or dissipate energy, as those of a mechanical system do, a and 1/a of positive real part keep the
-//! pivots away from zero without exchanging rows.
+//! The matrices D and −K B of a mechanical system store or dissipate energy. If a and 1/a have positive real parts, the
+//! pivots therefore stay away from zero without row exchanges.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -31,7 +31,7 @@ impl Complex {
         Self { re: self.re * scale, im: -self.im * scale }
     }
 
-    /// Between |z| and √2 |z|.
+    /// Cheap magnitude, from |z| to √2 |z|.
     #[inline]
     fn size(self) -> f64 {
         self.re.abs() + self.im.abs()
@@ -64,13 +64,13 @@ impl Mul for Complex {
 
 /// a I − J, factorised.
 pub struct ComplexBlock<const N: usize> {
-    /// As the real factors: U above the diagonal, L below, reciprocal pivots on it.
+    /// Factors: U above the diagonal, L below it, and reciprocal pivots on it.
     m: [[Complex; N]; N],
     per_a: Complex,
 }
 
 impl<const N: usize> ComplexBlock<N> {
-    /// Factorises a I − J; `None` if it is singular.
+    /// Factorises a I − J. Returns `None` if the matrix is singular.
     #[inline]
     pub fn new<E: SecondOrder<N> + ?Sized>(system: &E, lin: &Linearisation<N, E::Rates>, a: Complex) -> Option<Self> {
         let (n, mut product) = (system.degrees_of_freedom(), lin.by_position);
@@ -90,7 +90,7 @@ impl<const N: usize> ComplexBlock<N> {
                 m[k][j] = (k + 1..n).fold(m[k][j], |rest, i| rest - m[k][i] * m[i][j]);
             }
             let pivot = m[k][k];
-            // the comparison fails for NaN too
+            // false for NaN
             if !(pivot.size() > LEAST_PIVOT * largest && pivot.size().is_finite()) {
                 return None;
             }

@@ -1,5 +1,5 @@
-//! Control of the step size: Gustafsson's predictive controller (Hairer & Wanner, section IV.8), and what was learned of motion
-//! after kinks and after jumps of the inputs.
+//! Step-size control: Gustafsson's predictive controller (Hairer & Wanner, section IV.8). It also remembers step sizes
+//! that were right after kinks and after jumps of the inputs.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,17 +10,17 @@ use crate::numeric::{Finite, finite};
 
 pub(super) const SAFETY: f64 = 0.9;
 const LARGEST_GROWTH: f64 = 6.0;
-/// Growth of the step that is tried after kinks, from one kink to the next.
+/// Maximum growth of the first step after a kink, from one kink to the next.
 const AFTER_KINK_GROWTH: f64 = 4.0;
-/// Least error remembered: a smaller one would make the predictive controller too cautious.
+/// Smallest error that is remembered. A smaller one would make the predictive controller too cautious.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 /// Number of steps after a jump whose sizes are remembered.
 const STEPS_AFTER_JUMP: usize = 8;
-/// Part of the size before the jump below which a step is short.
+/// Fraction of the step size before the jump. Steps up to this size still count as short.
 const SHORT: f64 = 0.5;
-/// Error aimed at in steps after jumps, as a fraction of the tolerance.
+/// Target error of steps after jumps, as a fraction of the tolerance.
 const AFTER_JUMP_ERROR: f64 = 0.3;
-/// Growth of such a step from one jump to the next.
+/// Maximum growth of a step after a jump, from one jump to the next.
 const AFTER_JUMP_GROWTH: f64 = 2.0;
 
 /// State of the step-size controller between calls.
@@ -32,42 +32,43 @@ pub struct Control {
     pub last: f64,
     /// Error of the last accepted step, as a fraction of the tolerance.
     pub last_error: f64,
-    /// Whether the last accepted step ended on a kink.
+    /// True if the last accepted step ended on a kink.
     pub on_kink: bool,
-    /// Size of step [s] that was right after the last kink: motion after a kink is faster than before.
+    /// Step size that was right after the last kink [s]. Motion after a kink is faster than before it.
     pub after_kink: f64,
-    /// Sizes of the steps that were right after the last jumps of the inputs.
+    /// Step sizes that were right after the last jumps of the inputs.
     pub after_jump: AfterJump,
 }
 
 finite!(Control { next, last, last_error; on_kink, after_kink, after_jump });
 
-/// Memory of the steps after jumps of the inputs. Such a jump starts fast motion that decays within a few steps, and hosts that hold
-/// inputs make a jump at every communication point. So the k-th step after a jump is tried with the size that was right for the k-th
-/// step after the last one, until steps are about as long again as before the jump.
+/// Memory of the steps after jumps of the inputs. A jump starts a fast motion that decays within a few steps, and a
+/// host that holds inputs causes a jump at every communication point. The k-th step after a jump is therefore tried
+/// with the size that was right for the k-th step after the previous jump. The memory is used until steps are about as
+/// long as before the jump.
 ///
-/// At these sizes the error grows in proportion to the jump and with the fifth power of the size. So the memory holds the right size
-/// for a jump as large as the first, and the fifth root of the ratio of both scales it.
+/// The error of these steps is proportional to the jump and to the fifth power of the step size. The memory therefore
+/// holds the right sizes for the first jump, and scales them by the fifth root of the ratio of the two jumps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AfterJump {
-    /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] where none follows a jump any more.
+    /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] when the memory is not used any more.
     step: u32,
-    /// Whether the memory decides on sizes. A jump that is too small to cut the next step short leaves the control as it is.
+    /// True if the memory determines step sizes. It does not after a jump too small to shorten the next step.
     decides: bool,
-    /// First jump of the accelerations [rad/s²]; 0 before.
+    /// First jump of the accelerations [rad/s²]; 0 before the first jump.
     first: f64,
-    /// Fifth root of the last jump over the first.
+    /// Fifth root of the ratio of the last jump to the first.
     root: f64,
-    /// Size predicted before the jump [s].
+    /// Step size predicted before the jump [s].
     before: f64,
-    /// Right sizes for a jump as large as the first [s]; 0 where none is known.
+    /// Right step sizes for a jump as large as the first [s]; 0 if unknown.
     sizes: [f64; STEPS_AFTER_JUMP],
 }
 
 finite!(AfterJump { first, root, before, sizes; step, decides });
 
 impl AfterJump {
-    /// No jump yet.
+    /// Memory before the first jump.
     const NONE: Self = Self {
         step: STEPS_AFTER_JUMP as u32,
         decides: false,
@@ -88,7 +89,7 @@ impl AfterJump {
         self.decides = self.size().is_some_and(|size| size < SHORT * before);
     }
 
-    /// Takes a jump of the accelerations by `jump` [rad/s²].
+    /// Scales the memory for a jump of the accelerations by `jump` [rad/s²].
     fn scale(&mut self, jump: f64) {
         if self.first == 0.0 {
             self.first = jump;
@@ -96,14 +97,14 @@ impl AfterJump {
         self.root = fifth_root(jump / self.first);
     }
 
-    /// Size of the next step [s], where it is known.
+    /// Remembered size of the next step [s], if there is one.
     #[inline]
     fn size(&self) -> Option<f64> {
         let size = *self.sizes.get(self.step as usize).filter(|_| self.decides)?;
         (size > 0.0).then(|| size / self.root)
     }
 
-    /// Forgets sizes above `next` [s], with which the step is tried again.
+    /// Limits the remembered size of a rejected step to `next` [s], the size of the next attempt.
     fn learn_of_rejection(&mut self, next: f64) {
         if let Some(size) = self.sizes.get_mut(self.step as usize) {
             *size = size.min(next * self.root);
@@ -111,8 +112,8 @@ impl AfterJump {
         }
     }
 
-    /// Remembers an accepted step of size `h` in whose place one of size `right` would have been right; `cut` if it was shorter than its
-    /// error demands.
+    /// Remembers that `right` [s] would have been the right size of an accepted step of size `h` [s]. `cut` is true if
+    /// the step was shorter than its error required.
     #[inline]
     fn learn(&mut self, h: f64, right: f64, cut: bool) {
         let Some(size) = self.sizes.get_mut(self.step as usize) else { return };
@@ -126,19 +127,19 @@ impl AfterJump {
 }
 
 impl Control {
-    /// A controller whose first step is tried with `first` [s].
+    /// Returns a controller that tries the first step with size `first` [s].
     pub fn new(first: f64) -> Self {
         let after_jump = AfterJump::NONE;
         Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX, after_jump }
     }
 
-    /// True if all numbers are finite and no step size is negative; those of steps to come are positive. The size after a kink may be
-    /// without bound. What was learned of jumps is checked apart.
+    /// True if all numbers are finite, future step sizes are positive and the last one is not negative. The size after
+    /// a kink may be unbounded. `AfterJump::is_valid` checks the memory of jumps.
     pub fn is_valid(&self) -> bool {
         self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 
-    /// Inputs jump: accelerations change at once by `jump` [rad/s²], if that is known.
+    /// Reacts to a jump of the inputs, which changes accelerations by `jump` [rad/s²], if that is known.
     pub fn jump(&mut self, jump: Option<f64>) {
         match jump {
             Some(0.0) => return,
@@ -148,26 +149,26 @@ impl Control {
         self.after_jump.start(self.next);
     }
 
-    /// True in steps whose size was learned of jumps: a fast motion decays in them.
+    /// True in steps whose sizes come from the memory of jumps, while a fast motion decays.
     #[inline]
     pub(super) fn follows_jump(&self) -> bool {
         self.after_jump.decides && self.after_jump.step < STEPS_AFTER_JUMP as u32
     }
 
-    /// Size to try the next step with [s]; `again` after an attempt that was rejected.
+    /// Size to try for the next step [s]. `again` is true after a rejected attempt.
     #[inline]
     pub(super) fn wanted(&self, again: bool) -> f64 {
         let next = if again { self.next } else { self.after_jump.size().unwrap_or(self.next) };
         if self.on_kink { next.min(self.after_kink) } else { next }
     }
 
-    /// Tries the step with size `next` [s] again after an attempt was rejected.
+    /// Sets the size of the next attempt to `next` [s] after a rejected one.
     pub(super) fn reject(&mut self, next: f64) {
         self.next = next;
         self.after_jump.learn_of_rejection(next);
     }
 
-    /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
+    /// Predicts the step after an accepted one of size `h` [s], whose `error` is a fraction of the tolerance.
     #[inline(never)]
     pub(super) fn accept(&mut self, method: &impl Method, h: f64, cut: bool, error: f64, just_rejected: bool) {
         let by_error = method.root(error) / SAFETY;

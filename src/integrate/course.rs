@@ -1,27 +1,27 @@
-//! Where an integration stands: at the end of its last completed step, and within the pending step after it.
+//! Progress of an integration: the end of its last completed step, and the pending step after it.
 //!
-//! A step whose error is small enough is pending until a time beyond its end is asked for. Until then its continuous
-//! extension gives the motion at any time within it. Steps do not depend on these times.
+//! A step whose error is small enough is pending until a time beyond its end is requested. Until then, its dense output
+//! gives the motion at any time within the step. Steps do not depend on the requested times.
 
 use serde::{Deserialize, Serialize};
 
 use super::Point;
 use crate::numeric::{Finite, finite};
 
-/// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
-/// ends and coefficients b. A component that does not change in the step keeps its bits.
+/// Dense output of a component, y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))), from its values at both ends of
+/// the step and the coefficients b. A component that does not change within the step keeps its bits.
 #[inline]
 pub fn extended(start: f64, end: f64, coefficients: [f64; 3], fraction: f64) -> f64 {
     let inner = coefficients[0] + fraction * (coefficients[1] + fraction * coefficients[2]);
     start + fraction * ((end - start) + (1.0 - fraction) * inner)
 }
 
-/// Continuous extension of a step.
+/// Dense output of a step, its continuous extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extension<const N: usize> {
-    /// Begin of the step.
+    /// Start of the step.
     pub start: Point<N>,
-    /// Its end.
+    /// End of the step.
     pub end: Point<N>,
     /// Coefficients b₀, b₁ and b₂ of [`extended`].
     pub coefficients: [Point<N>; 3],
@@ -31,7 +31,7 @@ impl<const N: usize> Extension<N> {
     /// No motion.
     pub const NONE: Self = Self { start: Point::ZERO, end: Point::ZERO, coefficients: [Point::ZERO; 3] };
 
-    /// The motion after a fraction of the step.
+    /// Returns the motion after a fraction of the step.
     #[inline]
     pub fn at(&self, fraction: f64) -> Point<N> {
         let Self { start, end, coefficients } = self;
@@ -46,8 +46,8 @@ impl<const N: usize> Extension<N> {
         at
     }
 
-    /// Defect of the extension halfway through a step of size `h` [s]: `slope`, by the equations, less the slope of the
-    /// extension.
+    /// Defect of the dense output halfway through a step of size `h` [s]: the `slope` from the equations minus the
+    /// slope of the dense output.
     #[inline]
     pub fn defect(&self, slope: &Point<N>, h: f64) -> Point<N> {
         let Self { start, end, coefficients } = self;
@@ -62,22 +62,22 @@ impl<const N: usize> Extension<N> {
     }
 }
 
-/// How a step came about, for the control of the next ones.
+/// Circumstances of a step, used to control the next steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Size of the step [s].
     pub h: f64,
-    /// Its error as a fraction of the tolerance.
+    /// Error of the step as a fraction of the tolerance.
     pub error: f64,
-    /// Whether it is shorter than its error demands.
+    /// True if the step is shorter than its error requires.
     pub cut: bool,
-    /// Whether it ends on a kink.
+    /// True if the step ends on a kink.
     pub to_kink: bool,
-    /// Whether a longer step was rejected just before.
+    /// True if a longer step was rejected just before.
     pub after_rejection: bool,
-    /// Number of consecutive attempts before this one that were rejected for their ledger.
+    /// Number of consecutive attempts rejected immediately before this one because their ledger did not close.
     pub unbalanced: u32,
-    /// Size of the first of these attempts [s].
+    /// Size of the first of these rejected attempts [s].
     pub whole: f64,
     /// Number of consecutive steps up to this one that were cut at a switch but ended before it.
     pub short: u32,
@@ -92,64 +92,65 @@ impl Attempt {
     }
 }
 
-/// A step of small enough error that is not completed yet.
+/// A step whose error is small enough and that is not completed yet.
 #[derive(Clone, Copy, Debug)]
 pub struct Pending<P> {
-    /// How it came about.
+    /// Circumstances of the step.
     pub attempt: Attempt,
-    /// Ledger rates at its begin and halfway.
+    /// Ledger rates at the start and halfway.
     pub ledger_rates: [P; 2],
-    /// Kinetic and stored energy at its begin.
+    /// Kinetic and stored energy at the start.
     pub energy: [f64; 2],
-    /// Part of the step that is taken: all of it, unless the equations change within it.
+    /// Fraction of the step that is accepted: 1, unless the equations change within the step.
     pub part: f64,
-    /// Where torques change at the end of that part, and the integration goes on: the jump of the accelerations [rad/s²].
+    /// Jump of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the integration
+    /// continues.
     pub jump: Option<f64>,
 }
 
-/// Where an integration stands.
+/// Progress of an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<const N: usize, P> {
     /// End of the last completed step.
     pub point: Point<N>,
-    /// Its time [s].
+    /// Time of this point [s].
     pub time: f64,
-    /// The step from there on.
+    /// Step that starts at this point.
     pub pending: Option<Pending<P>>,
-    /// The motion in it; without a pending step, room for that of the next one.
+    /// Dense output of the pending step. Without a pending step, memory for the next dense output.
     pub extension: Extension<N>,
-    /// Time at which these equations end, because they change [s]: no step is completed beyond it.
+    /// Time at which these equations end because they change [s]. No step is completed beyond it.
     pub end: f64,
-    /// Time at which they are expected to end [s]: steps are fitted to it, but may go beyond.
+    /// Time at which these equations are expected to end [s]. Steps are fitted to this time but may pass it.
     pub expected: f64,
-    /// Longest step [s].
+    /// Maximum step size [s].
     pub longest: f64,
-    /// Difference of times that a double can resolve [s].
+    /// Smallest difference of times that a double can resolve [s].
     pub resolution: f64,
 }
 
 impl<const N: usize, P> Course<N, P> {
-    /// From `point` at `time` to `end` [s].
+    /// Starts an integration from `point` at `time` to `end` [s].
     pub fn new(point: Point<N>, time: f64, end: f64) -> Self {
         let resolution = 4.0 * f64::EPSILON * end.abs().max(time.abs()).max(1e-9);
         let (pending, extension) = (None, Extension::NONE);
         Self { point, time, pending, extension, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
     }
 
-    /// Ends the equations at `end` [s]. A pending step is taken up to there, or dropped if that leaves nothing of it.
+    /// Ends the equations at `end` [s]. A pending step is accepted up to this time, or dropped if it starts there.
     pub fn end_at(&mut self, end: f64) {
         self.end = end;
-        self.take_until(end);
+        self.accept_until(end);
     }
 
-    /// Lets torques change at `time` [s], where accelerations jump by `jump` [rad/s²]: a pending step is taken up to there, and the
-    /// integration goes on. Returns whether there is such a step.
+    /// Changes torques at `time` [s], where accelerations jump by `jump` [rad/s²]. A pending step is accepted up to
+    /// this time, and the integration continues. Returns true if there is a pending step.
     pub fn change_at(&mut self, time: f64, jump: f64) -> bool {
-        self.take_until(time);
+        self.accept_until(time);
         self.pending.as_mut().map(|pending| pending.jump = Some(jump)).is_some()
     }
 
-    fn take_until(&mut self, end: f64) {
+    fn accept_until(&mut self, end: f64) {
         if let Some(pending) = &mut self.pending {
             let part = (end - self.time) / pending.attempt.h;
             if part > 0.0 {

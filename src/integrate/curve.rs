@@ -1,18 +1,18 @@
-//! A quantity within a step of the integrator, by the continuous extension: its extremes, and where it takes a value.
+//! Extremes and crossings of a quantity within a step of the integrator, from the dense output.
 
 use super::course::extended;
 
-/// Margin for rounding in how far a curve goes at most.
+/// Margin for rounding in the bound on how far a curve moves.
 const MARGIN: f64 = 1.001;
 
-/// A component of the continuous extension of a step, or a linear combination of components; see [`extended`].
+/// A component of the dense output of a step, or a linear combination of components; see [`extended`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
-    /// Value at the begin of the step.
+    /// Value at the start of the step.
     pub start: f64,
-    /// Value at its end.
+    /// Value at the end of the step.
     pub end: f64,
-    /// Coefficients b of the extension, 0 for a straight line.
+    /// Coefficients b of the dense output; 0 for a straight line.
     pub coefficients: [f64; 3],
 }
 
@@ -22,25 +22,26 @@ impl Curve {
         if fraction == 1.0 { self.end } else { extended(self.start, self.end, self.coefficients, fraction) }
     }
 
-    /// Coefficients of the derivative by the fraction, a cubic.
+    /// Coefficients of the derivative with respect to the fraction, a cubic.
     fn slope(&self) -> [f64; 4] {
         let Self { start, end, coefficients: [a, b, c] } = *self;
         [end - start + a, 2.0 * (b - a), 3.0 * (c - b), -4.0 * c]
     }
 
-    /// Extends `extremes`, the least and the largest value so far, over a span.
+    /// Extends `extremes`, the smallest and the largest value so far, by the values over a span.
     pub fn extend(&self, extremes: &mut [f64; 2], [from, to]: [f64; 2]) {
         let with = |[least, largest]: [f64; 2], value: f64| [least.min(value), largest.max(value)];
         *extremes = with(with(*extremes, self.at(from)), self.at(to));
         let slope = self.slope();
         let slope_at = |t: f64| slope[0] + t * (slope[1] + t * (slope[2] + t * slope[3]));
-        // between its own extremes the slope is monotonous
+        // the slope is monotonic between its own extremes
         let turns = quadratic_roots([slope[1], 2.0 * slope[2], 3.0 * slope[3]]).map(|t| t.clamp(from, to));
         let [first, second] = [turns[0].min(turns[1]), turns[0].max(turns[1])];
         for [low, high] in [[from, first], [first, second], [second, to]] {
             let slope = slope_at(low);
             if slope * slope_at(high) < 0.0 {
-                // up to the extreme the curve is nowhere steeper than here: most extremes lie within what was before, and need no search
+                // up to its extreme, the curve is nowhere steeper than at `low`; most extremes stay within `extremes`,
+                // and need no search
                 let farthest = self.at(low) + MARGIN * slope * (high - low);
                 if farthest < extremes[0] || farthest > extremes[1] {
                     *extremes = with(*extremes, self.at(root(slope_at, [low, high])));
@@ -51,13 +52,14 @@ impl Curve {
         }
     }
 
-    /// Fraction of the step, within `span`, at which the curve takes `value`, which lies between those at the ends.
+    /// Fraction of the step, within `span`, at which the curve takes `value`. The value must be between the values at
+    /// the ends of the span.
     pub fn crossing(&self, value: f64, span: [f64; 2]) -> f64 {
         root(|t| self.at(t) - value, span)
     }
 }
 
-/// Real roots of a quadratic with the coefficients `c`, from the constant on; 0 in place of a missing root.
+/// Real roots of a quadratic whose coefficients `c` start with the constant. A missing root is replaced by 0.
 fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
     let discriminant = c[1] * c[1] - 4.0 * c[2] * c[0];
     if discriminant.is_nan() || discriminant <= 0.0 {
@@ -67,7 +69,7 @@ fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
     [q / c[2], c[0] / q].map(|root| if root.is_nan() { 0.0 } else { root })
 }
 
-/// A root of `of` in a span at whose ends its signs differ, by bisection to the last bit.
+/// Root of `of` in a span at whose ends `of` has different signs, by bisection to the last bit.
 fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let begin = of(low);
     loop {

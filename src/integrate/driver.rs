@@ -1,5 +1,5 @@
-//! Adaptive stepping to a given time: error control and statistics by cause. A step cut short by the end of the interval does not shrink
-//! the prediction of its size.
+//! Adaptive stepping to a given time, with error control and statistics by cause. A step shortened by the end of the
+//! interval does not reduce the predicted step size.
 
 use super::control::{Control, SAFETY};
 use super::{
@@ -13,11 +13,11 @@ pub struct Step<'a, const N: usize, P> {
     pub h: f64,
     /// Time at the end [s].
     pub time: f64,
-    /// State at the begin.
+    /// State at the start.
     pub start: &'a Point<N>,
     /// State at the end.
     pub end: &'a Point<N>,
-    /// Ledger rates at begin, middle and end.
+    /// Ledger rates at the start, in the middle and at the end.
     pub ledger_rates: [P; 3],
 }
 
@@ -30,10 +30,10 @@ pub enum AfterStep {
     Stop,
 }
 
-/// Why an interval could not be completed; the state is that of the last accepted step.
+/// Cause of an interval that could not be completed. The state is that of the last accepted step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure<E> {
-    /// The step size fell below what time can resolve.
+    /// The step size fell below the resolution of time.
     StepTooSmall {
         /// The step size required [s].
         size: f64,
@@ -42,31 +42,32 @@ pub enum Failure<E> {
     TooManySteps,
     /// A step of fixed size could not be solved.
     Diverged,
-    /// The observer of accepted steps refused one.
+    /// The observer of accepted steps rejected one.
     Refused(E),
-    /// The ledger of a step does not close up to where torques change.
+    /// The ledger of a step does not close up to the time at which torques change.
     NotClosed,
 }
 
-/// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
+/// Maximum ratio of the fitted to the predicted step size. The margin of [`SAFETY`] covers the larger error.
 const LONGEST_FIT: f64 = 1.1;
-/// Steps before the end of an interval that are made equal.
+/// Number of steps before the end of an interval that are made equal.
 const LAST_STEPS: f64 = 3.0;
-/// Number of attempts to find a switch by a straight line through the distances at both ends of a step. The line does not find
-/// the switch if the distance jumps, as it does for a held body whose speed reverses. Further attempts bisect the step.
+/// Number of attempts to locate a switch by a straight line through the distances at both ends of a step. This line
+/// misses the switch if the distance jumps, as it does for a held body whose speed reverses. Further attempts bisect
+/// the step.
 const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
 pub(super) const LARGEST_SHRINK: f64 = 5.0;
-/// Part of a step above which its middle follows from that of the whole step along a straight line: it lacks little more than the rounding
-/// of times.
+/// Accepted fraction of a step above which the rates at its middle are extrapolated from those of the whole step. The
+/// missing rest is then little more than the rounding of times.
 const WHOLE: f64 = 1.0 - 1e-5;
-/// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
-/// along the motion, and its kinks affect the motion less.
+/// Allowed imbalance of a step's ledger, as a multiple of the tolerance and relative to the energy exchanged in the
+/// step. Heat is a quadrature along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
-/// Imbalance, as a fraction of the allowed one, from which on the middle of a step after a jump is refined.
+/// Imbalance, as a fraction of the allowed one, above which the middle of a step after a jump is refined.
 const UNREFINED: f64 = 0.05;
-/// Number of consecutive attempts whose ledger does not close after which the step is taken at the size of the first of them: an
-/// imbalance that remains does not depend on the size.
+/// Number of consecutive attempts whose ledger does not close before the step is accepted at the size of the first one.
+/// An imbalance that remains does not depend on the step size.
 const UNBALANCED: u32 = 8;
 /// Tolerance, step-size control, counters and work budget of an integration.
 pub struct SolverContext<'a> {
@@ -74,14 +75,14 @@ pub struct SolverContext<'a> {
     pub tolerance: f64,
     /// Step-size control.
     pub control: &'a mut Control,
-    /// Counts.
+    /// Counters.
     pub statistics: &'a mut Statistics,
-    /// Attempts at steps that are left.
+    /// Number of attempts left.
     pub budget: &'a mut u64,
 }
 
-/// Integrates from `time` to `until` by `method`, calling `observe` after each completed step, which may end the
-/// integration early. Every attempt at a step is taken from the budget, so that the caller bounds the work.
+/// Integrates from `time` to `until` [s] with `method`. Calls `observe` after each completed step; the observer may end
+/// the integration early. Every attempt at a step is taken from the budget, so the caller bounds the work.
 pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
     system: &S,
@@ -97,12 +98,12 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     outcome
 }
 
-/// Integrates until the pending step of `course` contains `until` [s] or the equations end there, calling `observe` after
-/// each completed step with the motion that it was while pending, and the part of it that was taken; it may end the integration
-/// early.
+/// Integrates until the pending step of `course` contains `until` [s], or until the equations end. Calls `observe`
+/// after each completed step, with its dense output and the fraction of the step that was accepted. The observer may
+/// end the integration early.
 ///
-/// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
-/// completed, and thus leaves no trace.
+/// Steps, their sizes and their counts do not depend on the requested times. No step beyond `until` is completed, so it
+/// leaves no trace.
 #[inline]
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
@@ -116,18 +117,18 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let resolution = course.resolution;
     let ends = until + resolution >= course.end;
     let mut after_rejection = false;
-    // whether an attempt from here was rejected, so that its size decides on the next one
+    // true if an attempt from this point was rejected; its size then determines the next one
     let mut retries = false;
-    // consecutive attempts whose ledger did not close, and the size of the first of them
+    // number of consecutive attempts whose ledger did not close, and size of the first of them
     let (mut unbalanced, mut whole) = (0, 0.0);
     let (mut in_a_row, mut cuts) = (0, 0);
-    // consecutive steps that were cut at a switch but ended before it
+    // number of consecutive steps that were cut at a switch but ended before it
     let mut short = 0;
     let mut switch_at = f64::INFINITY;
     let mut lin = Linearisation::default();
-    // energies where it was taken, if that is where the next step begins
+    // energies at the point of the linearisation, if the next step starts there
     let mut begin: Option<[f64; 2]> = None;
-    // the begin of a step is counted once, however often it is linearised again
+    // the start of a step is counted once, even if it is linearised again
     let mut is_counted = course.pending.is_some();
     loop {
         if let Some(pending) = &course.pending {
@@ -177,10 +178,10 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 imbalance = ledger.relative() / (LEDGER * tolerance);
             }
             if imbalance > 1.0 {
-                // copies, so that both points may stay in registers
+                // copies, so that both points can stay in registers
                 let ends = [course.point, end];
                 let floor = system.energy_floor([&ends[0], &ends[1]], tolerance, ledger.residual);
-                // without a floor, a host that traps divisions by zero would stop here
+                // a floor of 0 is skipped, because a host may trap divisions by zero
                 if floor > 0.0 {
                     imbalance = imbalance.min(ledger.residual / floor);
                 }
@@ -190,7 +191,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                     return Err(Failure::NotClosed);
                 }
                 unbalanced = pending.attempt.unbalanced + 1;
-                // the error of the whole step allows a longer one after it
+                // the error of the whole step allows a longer step after it
                 (after_rejection, retries) = (unbalanced < UNBALANCED, true);
                 whole = if unbalanced == 1 { h } else { pending.attempt.whole };
                 statistics.rejected_ledger += 1;
@@ -248,7 +249,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 switch_at = (h * fraction.clamp(least, most)).max(resolution);
                 continue;
             }
-            // not a number where either is not
+            // NaN if either is NaN
             error = if halfway.size < error { error } else { halfway.size };
             if error <= 1.0 {
                 short = if h == switch_at { short + 1 } else { 0 };
@@ -278,7 +279,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
 }
 
 impl<const N: usize, P> Course<N, P> {
-    /// Time that is left to the end of the equations, or to where it is expected [s].
+    /// Time left until the equations end, or are expected to end [s].
     #[inline]
     fn remaining(&self) -> f64 {
         let is_ahead = self.expected > self.time + self.resolution;
@@ -286,8 +287,8 @@ impl<const N: usize, P> Course<N, P> {
     }
 }
 
-/// Ledger rates in place of those halfway in the pending step, with which Simpson's rule gives what Boole's rule gives with two more
-/// points. Heat of a fast motion decays too quickly for three points.
+/// Ledger rates that replace the halfway rates of the pending step. With them, Simpson's rule gives the result of
+/// Boole's rule with two more points. Three points are too few for the heat of a fast motion that decays.
 #[inline(never)]
 fn refined<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
@@ -309,8 +310,8 @@ fn refined<const N: usize, S: SecondOrder<N> + ?Sized>(
     system.combined([(ends, first), (quarters, &quarter), (middle, halfway), (quarters, &three_quarters), (ends, last)])
 }
 
-/// The step to take when `wanted` is predicted and `remaining` is left, and whether it was fitted to the end: the last
-/// few steps are made equal, and slightly longer than predicted where that saves one.
+/// Returns the size of the next step from the predicted size `wanted` and the time `remaining`, and true if it was
+/// fitted to the end. The last few steps are made equal, and slightly longer than predicted if that saves one.
 #[inline]
 fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     let steps = remaining / (LONGEST_FIT * wanted);
@@ -323,12 +324,13 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
-/// Whether positions change within `h` [s] by more than rounding: what stands on a kink does not get past it in steps to it.
+/// True if positions change within `h` [s] by more than rounding. A system at rest on a kink does not leave it by steps
+/// that end on the kink.
 fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
     point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs())
 }
 
-/// Writes the equations linearised to `lin`; returns the energies.
+/// Linearises the equations into `lin` and returns the energies.
 #[inline(never)]
 fn linearise<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,

@@ -1,7 +1,7 @@
-//! Steps of fixed size and bounded work, for hosts that run in real time.
+//! Fixed-size steps with bounded work, for hosts that run in real time.
 //!
-//! R. Alexander's two-stage SDIRK method of order 2 (SIAM J. Numer. Anal. 14:1006, 1977): L-stable, stiffly accurate,
-//! γ = 1 − 1/√2. With s = γh each stage solves
+//! R. Alexander's two-stage SDIRK method of order 2 (SIAM J. Numer. Anal. 14:1006, 1977) is L-stable and stiffly
+//! accurate, with γ = 1 − 1/√2. With s = γh, each stage solves
 //!
 //!   v = v₀ + s a(q, v),   q = q₀ + s B v
 //!
@@ -9,23 +9,24 @@
 //!
 //!   (I − s D − s² K B) δ = v₀ + s a(q, v) − v,   v += θ δ,   q = q₀ + s B v,
 //!
-//! on the second-order block: one factorisation of the order of the velocities an iteration. Rosenbrock methods need a
-//! single linearisation, but a step longer than a contact starts on one side of a kink and ends on the other, and must be
-//! linearised at its end. The system shortens an iteration (θ < 1) that would jump deep into a contact which the
-//! linearisation does not contain yet.
+//! on the second-order block, which takes one factorisation of the order of the velocities per iteration. Rosenbrock
+//! methods need a single linearisation. However, a step longer than a contact starts on one side of a kink and ends on
+//! the other, and must be linearised at its end. The system shortens an iteration (θ < 1) that would jump deep into a
+//! contact that the linearisation does not contain yet.
 
 use super::linear::{Inverse, Shape};
 use super::{AfterStep, Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-/// Newton iterations a stage. An impact between teeth needs three to be detected and one to converge.
+/// Newton iterations per stage. An impact between teeth needs three iterations to be detected and one to converge.
 const ITERATIONS: u32 = 4;
-/// Steps longer than requested by less than this fraction are not divided: communication points are rounded.
+/// Fraction by which a step may exceed the requested size without being divided, because communication points are
+/// rounded.
 const ROUNDING: f64 = 1e-6;
 
-/// Integrates from `time` to `until` in equal steps of at most `step` [s], calling `observe` after each, which may end
-/// the integration early. Every step is taken from the budget.
+/// Integrates from `time` to `until` in equal steps of at most `step` [s]. Calls `observe` after each step; the
+/// observer may end the integration early. Every step is taken from the budget.
 pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     system: &S,
     point: &mut Point<N>,
@@ -66,7 +67,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     Ok(())
 }
 
-/// One step; `None` if a matrix is singular or a value not finite.
+/// Computes one step. Returns `None` if a matrix is singular or a value is not finite.
 fn sdirk<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     (start, time): (&Point<N>, f64),
@@ -96,7 +97,7 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
         let rate = system.rates(&v);
         Point { q: std::array::from_fn(|i| base.q[i] + s * rate[i]), v }
     };
-    // the way from `near` is itself an iteration that may jump
+    // the first move, from `near`, may itself jump too far
     let mut y = at(near.v);
     for _ in 0..ITERATIONS {
         let lin = system.linearise_at(&y, time);

@@ -1,35 +1,36 @@
-//! Inverse of the small dense matrix of a step, which is applied once a stage.
+//! Inverse of the small dense matrix of a step, applied once per stage.
 //!
-//! With the inner degrees of freedom, p, apart from the others, c,
+//! With the inner degrees of freedom p separate from the others c,
 //!
 //!   A = [C B; D P],   S = C − B P⁻¹ D,   x_c = S⁻¹ (b_c − B P⁻¹ b_p),   x_p = P⁻¹ b_p − P⁻¹ D x_c
 //!
-//! P is nearly diagonal: bodies such as planets act on each other through the others alone. What is applied is kept as
-//! columns, and a solution is a sum of them: that suits vectors of any width, as does eliminating by whole rows.
+//! P is nearly diagonal, because inner bodies such as planets act on each other only through the other bodies. The
+//! inverse is stored as columns, and a solution is a sum of columns. Sums of columns and elimination of whole rows suit
+//! vector registers of any width.
 //!
-//! No rows are exchanged: the matrix is that of a mechanical system, row-scaled by inertias, whose pivots are positive unless
-//! the step is far too long; a vanishing pivot is rejected and the step becomes shorter.
+//! No rows are exchanged. The matrix belongs to a mechanical system and is row-scaled by inertias, so its pivots are
+//! positive unless the step is far too long. A vanishing pivot is rejected, and the step becomes shorter.
 
 use std::ops::Range;
 
 use super::{Matrix, SecondOrder};
 use crate::numeric::lanes;
 
-/// Least pivot over the element on the diagonal that it comes from.
+/// Smallest allowed ratio of a pivot to the diagonal element it comes from.
 pub const LEAST_PIVOT: f64 = 1e-10;
 
 /// The inverse of a matrix of order `N`.
 pub struct Inverse<const N: usize> {
-    /// Of p: [−B P⁻¹; P⁻¹]; of c: [S⁻¹; −P⁻¹ D S⁻¹].
+    /// Columns [−B P⁻¹; P⁻¹] for p and [S⁻¹; −P⁻¹ D S⁻¹] for c.
     columns: Matrix<N>,
 }
 
-/// Divides row `k` of `a` by its pivot, which once was `before`, and leaves the reciprocal in its place; `None` if the pivot
-/// vanishes or is not finite.
+/// Divides row `k` of `a` by its pivot, which originally was `before`, and stores the reciprocal in the pivot's place.
+/// Returns `None` if the pivot vanishes or is not finite.
 #[inline(always)]
 fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option<()> {
     let pivot = a[k][k];
-    // the comparison fails for NaN too
+    // false for NaN
     if !(pivot.abs() > LEAST_PIVOT * before.abs() && pivot.is_finite()) {
         return None;
     }
@@ -41,7 +42,7 @@ fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option
     Some(())
 }
 
-/// Takes so much of row `k` from row `i` that its element in column `k` vanishes; what the inverse has there takes its place.
+/// Eliminates the element in row `i`, column `k` with row `k`, and stores the element of the inverse in its place.
 #[inline(always)]
 fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
     let factor = a[i][k];
@@ -62,8 +63,8 @@ pub fn add_times<const N: usize>(to: &mut [f64; N], x: f64, of: &[f64; N]) {
     }
 }
 
-/// Which degrees of freedom there are: asked for once a step, as a system may be behind a table of functions, and passed on as
-/// a value, which is a constant where the system is known.
+/// Layout of the degrees of freedom. It is read only once per step, because a system may be a trait object. It is
+/// passed as a value, which is a constant if the system is known at compile time.
 #[derive(Clone, Copy)]
 pub struct Shape {
     first: usize,
@@ -72,32 +73,33 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// That of `system`.
+    /// Layout of `system`.
     #[inline(always)]
     pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
         let (Range { start, end }, count) = (system.inner(), system.rows().min(N));
         Self { first: start.min(count), end: end.min(count), count }
     }
 
-    /// All of them.
+    /// Number of all rows.
     #[inline(always)]
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The inner ones.
+    /// Range of the inner rows.
     #[inline(always)]
     fn inner(&self) -> Range<usize> {
         self.first..self.end
     }
 
-    /// True if there are inner ones.
+    /// True if there are inner rows.
     #[inline(always)]
     fn has_inner(&self) -> bool {
         self.first < self.end
     }
 
-    /// The others, before and behind them: two plain loops are faster than one through both.
+    /// Ranges of the other rows, before and after the inner ones. Two plain loops are faster than one loop over both
+    /// ranges.
     #[inline(always)]
     fn others(&self) -> [Range<usize>; 2] {
         [0..self.first, self.end..self.count]
@@ -105,10 +107,10 @@ impl Shape {
 }
 
 impl<const N: usize> Inverse<N> {
-    /// Nothing yet.
+    /// Empty; [`Inverse::fill`] computes the inverse.
     pub const EMPTY: Self = Self { columns: [[0.0; N]; N] };
 
-    /// Inverts `a`, of which nothing is left; `None` if a pivot vanishes or is not finite.
+    /// Inverts `a` and overwrites it. Returns `None` if a pivot vanishes or is not finite.
     #[inline(always)]
     pub fn fill(&mut self, shape: Shape, a: &mut Matrix<N>) -> Option<()> {
         let (inner, columns) = (shape.inner(), &mut self.columns);
@@ -179,7 +181,8 @@ impl<const N: usize> Inverse<N> {
     }
 }
 
-/// Adds the `inner` columns of a matrix times `x`, in pairs: of bodies that are alike, two give exactly twice what one gives.
+/// Adds the `inner` columns of a matrix times `x`, in pairs, so that two identical bodies give exactly twice the result
+/// of one.
 #[inline(always)]
 fn add_in_pairs<const N: usize>(columns: &Matrix<N>, inner: &Range<usize>, x: &[f64; N], sum: &mut [f64; N]) {
     let one = |k: usize, i: usize| columns[inner.start + k][i] * x[inner.start + k];
@@ -204,7 +207,7 @@ fn add_each<const N: usize>(sum: &mut [f64; N], term: impl Fn(usize) -> f64) {
     }
 }
 
-/// Adds the other `columns` of a matrix times `x`.
+/// Adds the `columns` of the other rows times `x`.
 #[inline(always)]
 fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mut [f64; N]) {
     for others in shape.others() {
@@ -214,7 +217,7 @@ fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mu
     }
 }
 
-/// Σ of `columns` times `x`.
+/// Product of a matrix, stored as `columns`, and `x`.
 #[inline(always)]
 pub fn times<const N: usize>(shape: Shape, columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let mut sum = [0.0; N];

@@ -1,4 +1,4 @@
-//! Interface of one-step methods: all that the driver, the step-size control and the tests use of them.
+//! Interface of one-step methods, as used by the driver, the step-size control and the tests.
 
 use super::{Extension, Linearisation, Point, SecondOrder, Statistics};
 use crate::numeric::lanes;
@@ -6,33 +6,34 @@ use crate::numeric::lanes;
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<const N: usize, P> {
-    /// Estimate of the local error of its end.
+    /// Estimate of the local error at the end of the step.
     pub error: Point<N>,
-    /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`].
+    /// Size of this error as a fraction of the tolerance, see [`ErrorNorm::judge`].
     pub size: f64,
-    /// The motion halfway; none where the end is in error, upon which nobody asks for the extension either.
+    /// Result of the check halfway; `None` if the error at the end is too large. The dense output is then not used
+    /// either.
     pub halfway: Option<Halfway<P>>,
 }
 
-/// What a step finds halfway.
+/// Result of the check halfway through a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Halfway<P> {
-    /// Error of the motion there, as a fraction of the allowed one.
+    /// Error of the dense output halfway, as a fraction of the allowed error.
     pub size: f64,
-    /// Ledger rates.
+    /// Ledger rates halfway.
     pub ledger_rates: P,
 }
 
-/// How much more an error halfway counts than one at the end: the middle is but one place of the motion in between, and
-/// forces there show errors of stiff motions, which a stiffly accurate method has damped at the end.
+/// Weight of an error halfway relative to an error at the end. The middle is only one point of the motion in between,
+/// and its forces show errors of stiff motions that a stiffly accurate method has damped at the end.
 const BETWEEN: f64 = 2.0;
 
 impl<const N: usize, P: Copy> Trial<N, P> {
-    /// The trial with a look at the middle of its motion, unless its end is in error already. Halfway in a step of size `h` from
-    /// `time` the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
-    /// part of h.
+    /// Adds the check halfway through the step, unless the error at the end is already too large. Halfway through a
+    /// step of size `h` from `time`, the dense output violates the equations by a defect. `solve` turns the defect into
+    /// an error by multiplying it with (I/s − J)⁻¹, where s is a fraction of h.
     #[inline]
-    pub fn looked_into<S: SecondOrder<N, Rates = P> + ?Sized>(
+    pub fn with_midpoint_check<S: SecondOrder<N, Rates = P> + ?Sized>(
         self,
         system: &S,
         (extension, time, h): (&Extension<N>, f64, f64),
@@ -53,17 +54,18 @@ impl<const N: usize, P: Copy> Trial<N, P> {
     }
 }
 
-/// Weighted norm of errors relative to the tolerance: it accepts steps and stops iterations within them.
+/// Weighted norm of errors relative to the tolerance. It decides whether steps are accepted and when iterations within
+/// them stop.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorNorm<const N: usize> {
     /// Reciprocals of the natural magnitudes of positions and velocities.
     pub weights: Point<N>,
-    /// Relative tolerance: an error, weighted, must not exceed it.
+    /// Relative tolerance, which a weighted error must not exceed.
     pub tolerance: f64,
 }
 
 impl<const N: usize> ErrorNorm<N> {
-    /// Largest component of `of` over the allowed one; ignores NaN.
+    /// Largest component of `of` divided by the allowed one; ignores NaN.
     #[inline]
     pub fn size(&self, of: &Point<N>) -> f64 {
         let mut largest = 0.0f64;
@@ -73,7 +75,8 @@ impl<const N: usize> ErrorNorm<N> {
         largest / self.tolerance
     }
 
-    /// Largest component of the error of a step to `end` over the allowed one; NaN if anything is not finite.
+    /// Largest component of the error of a step to `end`, divided by the allowed one. Returns NaN if any number is not
+    /// finite.
     #[inline]
     pub fn judge(&self, error: &Point<N>, end: &Point<N>) -> f64 {
         let weight = &self.weights;
@@ -82,21 +85,21 @@ impl<const N: usize> ErrorNorm<N> {
             let q = (error.q[i] * weight.q[i]).abs();
             let v = (error.v[i] * weight.v[i]).abs();
             largest = largest.max(q).max(v);
-            // max() ignores NaN, a sum does not, nor does a product with zero
+            // max() ignores NaN, but a sum does not, and neither does a product with zero
             sum += q + v + 0.0 * (end.q[i] + end.v[i]);
         }
         if sum.is_finite() { largest / self.tolerance } else { f64::NAN }
     }
 }
 
-/// A one-step method with an error estimate. It has no memory from step to step, so that snapshots need not contain it.
+/// A one-step method with an error estimate. It keeps no data between steps, so snapshots need not contain it.
 pub trait Method {
-    /// Order p of the error estimate, 3 or 4: the estimate falls as h^(p+1).
+    /// Order p of the error estimate, 3 or 4: the estimate is proportional to h^(p+1).
     fn estimate(&self) -> u32;
 
-    /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it fails (a singular
-    /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations, and writes the
-    /// motion in the step, of several hundred bytes, to where it stays.
+    /// Computes one step of size `h` [s] from `start`, a point with its time, at which `lin` was evaluated. Returns
+    /// `None` if the matrix is singular or an iteration does not converge; a shorter step is then tried. Counts its
+    /// evaluations. Writes the dense output in place, because it has several hundred bytes.
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
@@ -107,23 +110,24 @@ pub trait Method {
         to: (&mut Statistics, &mut Extension<N>),
     ) -> Option<Trial<N, S::Rates>>;
 
-    /// x^(1/(p+1)), to a per mille, which suffices for a step size.
+    /// x^(1/(p+1)), accurate to 0.1 %, which suffices for a step size.
     #[inline]
     fn root(&self, x: f64) -> f64 {
         if self.estimate() == 3 { x.sqrt().sqrt() } else { fifth_root(x) }
     }
 }
 
-/// Degrees of freedom up to which all of a point is in registers at once, and sums over stages are compiled into the steps.
+/// Maximum number of degrees of freedom for which a whole point fits in registers. Sums over stages are then inlined
+/// into the steps.
 pub const IN_REGISTERS: usize = 6;
-/// Numbers that are summed at a time beyond.
-const TOGETHER: usize = 8;
+/// Chunk size of sums over stages of larger systems.
+const CHUNK: usize = 8;
 
-/// y += scale Σ weight_j u_j over the first stages.
+/// y += scale Σ weight_j u_j, over as many stages as there are weights.
 #[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
     if N > IN_REGISTERS {
-        return combine_in_parts(y, weights, scale, u);
+        return combine_in_chunks(y, weights, scale, u);
     }
     let mut sum = *y;
     for (weight, u) in weights.iter().zip(u) {
@@ -132,7 +136,7 @@ pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u:
     *y = sum;
 }
 
-/// y += weight u, two by two if positions and velocities are so.
+/// y += weight u, in vector lanes if the size allows it.
 #[inline(always)]
 fn add_times<const N: usize>(y: &mut Point<N>, weight: f64, u: &Point<N>) {
     if N.is_multiple_of(2) {
@@ -143,27 +147,28 @@ fn add_times<const N: usize>(y: &mut Point<N>, weight: f64, u: &Point<N>) {
     }
 }
 
-/// The same a few numbers after the other, so that each sum stays in a register instead of going to memory once a stage.
+/// y += scale Σ weight_j u_j for large systems, chunk by chunk. Each partial sum stays in registers instead of going
+/// through memory once per stage.
 #[inline(never)]
-fn combine_in_parts<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    const { assert!(N <= IN_REGISTERS || (2 * N).is_multiple_of(TOGETHER), "all of a point is in one of the parts") };
-    for (k, part) in y.row_mut().chunks_exact_mut(TOGETHER).enumerate() {
-        let mut sum = [0.0; TOGETHER];
-        sum.copy_from_slice(part);
+fn combine_in_chunks<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    const { assert!(N <= IN_REGISTERS || (2 * N).is_multiple_of(CHUNK), "chunks cover the whole point") };
+    for (k, chunk) in y.row_mut().chunks_exact_mut(CHUNK).enumerate() {
+        let mut sum = [0.0; CHUNK];
+        sum.copy_from_slice(chunk);
         for (weight, u) in weights.iter().zip(u) {
             let weight = weight * scale;
-            for (sum, u) in sum.iter_mut().zip(&u.row()[TOGETHER * k..]) {
+            for (sum, u) in sum.iter_mut().zip(&u.row()[CHUNK * k..]) {
                 *sum += weight * u;
             }
         }
-        part.copy_from_slice(&sum);
+        chunk.copy_from_slice(&sum);
     }
 }
 
-/// x^(1/5) to a per mille.
+/// x^(1/5), accurate to 0.1 %.
 #[inline(never)]
 pub(super) fn fifth_root(x: f64) -> f64 {
-    // a fifth of the exponent is near; Newton's method on y⁵ = x does the rest
+    // a fifth of the exponent is a first guess, which Newton's method on y⁵ = x refines
     const BIAS: u64 = 1023 << 52;
     let x = x.clamp(1e-30, 1e30);
     let mut y = f64::from_bits(x.to_bits() / 5 + BIAS / 5 * 4);

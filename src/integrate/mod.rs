@@ -1,7 +1,7 @@
-//! Integration of second-order systems M v̇ = f(q, v), q̇ = B v: stiff, small, without heap allocation.
+//! Integration of small stiff second-order systems M v̇ = f(q, v), q̇ = B v, without heap allocation.
 //!
-//! The interface of a system, one-step methods (one a file), their linear algebra, and the drivers with adaptive and fixed
-//! steps. Nothing here is specific to gears.
+//! This module contains the interface of a system, one-step methods (one per file), their linear algebra, and drivers
+//! with adaptive and fixed steps. Nothing here is specific to gears.
 
 mod block;
 mod complex;

@@ -1,18 +1,20 @@
-//! Radau IIA: implicit, order 5, three stages of stage order 3, L-stable and stiffly accurate.
+//! Radau IIA: an implicit method of order 5 with three stages of stage order 3, L-stable and stiffly accurate.
 //!
-//! E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.8: stages by
-//! simplified Newton iterations in transformed variables, which separate the stages into a real and a complex system. With
-//! Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, block diagonal with γ and (α, −β; β, α), an iteration is
+//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.8. The
+//! stages are found by simplified Newton iterations in transformed variables, which separate them into a real and a
+//! complex system. With Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, block diagonal with γ and (α, −β; β, α), an
+//! iteration is
 //!
 //!   (Λ/h − J) ΔW = T⁻¹ F(y₀ + T W) − Λ W/h.
 //!
-//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. For a stiff component the
-//! method damps the error within the step, but the estimate does not vanish. A step whose estimate is too large is therefore
-//! judged by a second estimate, with f(y₀ + e) for f(y₀). The continuous extension is the collocation polynomial, of order 3.
+//! The error estimate has order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. For a stiff
+//! component, the method damps the error within the step, but the estimate does not vanish. A step whose estimate is
+//! too large is therefore judged by a second estimate, with f(y₀ + e) in place of f(y₀). The continuous extension is
+//! the collocation polynomial, of order 3.
 //!
-//! Unlike in the code RADAU5 of the same authors, no step uses data of the previous step. The Jacobian is evaluated at the start
-//! of each step. The first iteration from Z = 0 gives the stages of the motion linearised there, also by time. It needs no
-//! evaluation, because f(y₀) is known.
+//! Unlike in the code RADAU5 of the same authors, no step uses data of the previous step. The Jacobian is evaluated at
+//! the start of each step. The first iteration from Z = 0 gives the stages of the motion that is linearised at the
+//! start, with respect to time as well. It needs no evaluation, because f(y₀) is known.
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
@@ -25,13 +27,13 @@ pub struct Radau;
 
 /// √6.
 const SQRT_6: f64 = 2.449_489_742_783_178;
-/// Nodes c_i of the stages, in parts of the step.
+/// Nodes c_i of the stages, as fractions of the step.
 const C: [f64; 3] = [(4.0 - SQRT_6) / 10.0, (4.0 + SQRT_6) / 10.0, 1.0];
 /// Real eigenvalue γ of A⁻¹.
 const GAMMA: f64 = 3.637_834_252_744_496;
 /// Complex eigenvalues α ± iβ of A⁻¹.
 const LAMBDA: Complex = Complex { re: 2.681_082_873_627_752_3, im: 3.050_430_199_247_410_5 };
-/// T: the real eigenvector of A⁻¹, then real and imaginary part of the complex one, as columns.
+/// T: the real eigenvector of A⁻¹, then the real and imaginary parts of the complex one, as columns.
 const T: [[f64; 3]; 3] = [
     [9.123_239_487_089_295e-2, -0.141_255_295_020_954_2, -3.002_919_410_514_742_4e-2],
     [0.241_717_932_707_107, 0.204_129_352_293_799_93, 0.382_942_112_757_261_9],
@@ -46,7 +48,7 @@ const INVERSE: [[f64; 3]; 3] = [
 /// e_i of the error estimate.
 const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * SQRT_6) / 3.0, (-13.0 + 7.0 * SQRT_6) / 3.0, -1.0 / 3.0];
 
-/// Largest number of iterations. A shorter step is cheaper than more iterations.
+/// Maximum number of iterations. A shorter step is cheaper than more iterations.
 const ITERATIONS: i32 = 10;
 /// Share of the tolerance allowed as iteration error, small compared with the error estimate.
 const LEFT_OVER: f64 = 0.01;
@@ -59,7 +61,7 @@ impl Method for Radau {
         3
     }
 
-    // out of line, because its stages would enlarge the stack frame of the loop of steps
+    // out of line, because its stages would enlarge the stack frame of the step loop
     #[inline(never)]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
@@ -152,7 +154,7 @@ impl Method for Radau {
         *extension = Extension { start: *start, end, coefficients };
         let trial = Trial { error, size, halfway: None };
         let solve = |defect: &mut Point<N>| real.solve((system, shape), defect);
-        Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
+        Some(trial.with_midpoint_check(system, (extension, time, h), norm, counts, solve))
     }
 }
 
@@ -210,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn error_estimate_and_extension_are_exact_for_what_they_should_be() {
+    fn error_estimate_and_extension_are_exact_for_powers_up_to_three() {
         for n in 1..=3 {
             let sum = |weights: &[f64; 3]| -> f64 { (0..3).map(|i| weights[i] * C[i].powi(n)).sum() };
             for at in [0.1, 0.5, 0.9] {

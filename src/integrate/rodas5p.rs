@@ -1,17 +1,17 @@
 //! Rodas5P: a Rosenbrock method of order 5 with embedded order 4, eight stages, L-stable and stiffly accurate.
 //!
-//! G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
+//! Source: G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). On stiff problems with smooth forcing
-//! (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle, its error stays O(h⁴).
+//! (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle, the error stays O(h⁴).
 //!
 //! In the transformed variables U (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
 //! 1996, section IV.7) a step of size h from y₀ is
 //!
 //!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
 //!
-//! where the last stage starts from the embedded solution. A driven system is the autonomous one with ṫ = 1 as one more
-//! equation, whose U_i are h g_i with constants g_i = γ (1 + Σ c_ij g_j). Stages are at t₀ + h Σ a_ij g_j, and
-//! h g_i ∂f/∂t is added to the right-hand side.
+//! where the last stage starts from the embedded solution. A driven system becomes autonomous with the additional
+//! equation ṫ = 1, whose U_i are h g_i with constants g_i = γ (1 + Σ c_ij g_j). The stages are at t₀ + h Σ a_ij g_j,
+//! and h g_i ∂f/∂t is added to the right-hand side.
 
 use super::block::Block;
 use super::linear::Shape;
@@ -53,7 +53,7 @@ impl Method for Rodas5P {
                 } else {
                     combine(&mut y, &[1.0], 1.0, &u[row..]);
                 }
-                acceleration = system.accelerate_at(&y, time + h * PLACES[stage]);
+                acceleration = system.accelerate_at(&y, time + h * NODES[stage]);
             }
             let mut r = Point { q: system.rates(&y.v), v: acceleration };
             if let Some(row) = stage.checked_sub(1) {
@@ -81,7 +81,7 @@ impl Method for Rodas5P {
         let trial = Trial { error, size, halfway: None };
         counts.evaluations += C.len() as u64;
         let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
-        Some(trial.looked_into(system, (extension, time, h), norm, counts, solve))
+        Some(trial.with_midpoint_check(system, (extension, time, h), norm, counts, solve))
     }
 }
 
@@ -91,8 +91,8 @@ const STAGES: usize = 8;
 /// Diagonal coefficient γ.
 const GAMMA: f64 = 0.211_937_563_194_290_14;
 
-/// a_ij from the second stage on. Stages without a row start from the one before plus its U: they are embedded solutions,
-/// the last one that of the error estimate.
+/// a_ij from the second stage onwards. Stages without a row start from the previous stage plus its U. They are embedded
+/// solutions; the last one gives the error estimate.
 const A: [&[f64]; 5] = [
     &[3.0],
     &[2.849_394_379_747_939, 0.458_422_422_044_639_23],
@@ -107,7 +107,7 @@ const A: [&[f64]; 5] = [
     ],
 ];
 
-/// c_ij from the second stage on.
+/// c_ij from the second stage onwards.
 const C: [&[f64]; STAGES - 1] = [
     &[-14.155_112_264_123_755],
     &[-17.972_960_358_859_52, -2.859_693_295_451_294],
@@ -144,23 +144,23 @@ const G: [f64; STAGES] = {
     let mut g = [0.0; STAGES];
     let mut stage = 0;
     while stage < STAGES {
-        let carried = if stage == 0 { 0.0 } else { weighted(C[stage - 1], &g) };
-        g[stage] = GAMMA * (1.0 + carried);
+        let sum = if stage == 0 { 0.0 } else { weighted(C[stage - 1], &g) };
+        g[stage] = GAMMA * (1.0 + sum);
         stage += 1;
     }
     g
 };
 
-/// Places of the stages in the step; embedded solutions are at its end.
-const PLACES: [f64; STAGES] = {
-    let mut places = [1.0; STAGES];
-    places[0] = 0.0;
+/// Nodes of the stages, as fractions of the step. Embedded solutions are at its end.
+const NODES: [f64; STAGES] = {
+    let mut nodes = [1.0; STAGES];
+    nodes[0] = 0.0;
     let mut row = 0;
     while row < A.len() {
-        places[row + 1] = weighted(A[row], &G);
+        nodes[row + 1] = weighted(A[row], &G);
         row += 1;
     }
-    places
+    nodes
 };
 
 const fn weighted(weights: &[f64], g: &[f64; STAGES]) -> f64 {

@@ -17,6 +17,6 @@ pub struct Statistics {
     pub rejected_switch: u64,
     /// Evaluations of the right-hand side, including those of linearisations and of the ledger.
     pub evaluations: u64,
-    /// Evaluations of the Jacobian, each with its factorisation.
+    /// Evaluations of the Jacobian, each followed by a factorisation.
     pub jacobians: u64,
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Rows and columns per degree of freedom.
+/// Square matrix with a row and a column per degree of freedom.
 pub type Matrix<const N: usize> = [[f64; N]; N];
 
 /// Positions and velocities of `N` degrees of freedom.
@@ -25,7 +25,7 @@ impl<const N: usize> Point<N> {
     /// All zero.
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
 
-    /// From as many positions and velocities as fit; others are zero.
+    /// Creates a point from as many positions and velocities as fit; the others are zero.
     #[inline]
     pub fn of<const M: usize>([q, v]: [&[f64; M]; 2]) -> Self {
         let (mut point, n) = (Self::ZERO, N.min(M));
@@ -42,24 +42,24 @@ impl<const N: usize> Point<N> {
         v[..n].copy_from_slice(&self.v[..n]);
     }
 
-    /// Positions and velocities in one row, which fills vectors better than two.
+    /// Returns positions and velocities as one row, which fills vector registers better than two.
     #[inline]
     #[allow(unsafe_code)]
     pub fn row(&self) -> &[f64] {
-        // SAFETY: two arrays of N numbers, one behind the other (repr(C)).
+        // SAFETY: two arrays of N numbers, one directly after the other (repr(C)).
         unsafe { std::slice::from_raw_parts(std::ptr::from_ref(self).cast(), 2 * N) }
     }
 
-    /// The same, to be changed.
+    /// Returns positions and velocities as one mutable row.
     #[inline]
     #[allow(unsafe_code)]
     pub fn row_mut(&mut self) -> &mut [f64] {
-        // SAFETY: as above.
+        // SAFETY: two arrays of N numbers, one directly after the other (repr(C)).
         unsafe { std::slice::from_raw_parts_mut(std::ptr::from_mut(self).cast(), 2 * N) }
     }
 }
 
-/// Rounding of positions at the end of a step, relative to them.
+/// Relative rounding of positions at the end of a step.
 pub const POSITION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Energy of a step that the ledger cannot account for.
@@ -72,17 +72,17 @@ pub struct Imbalance {
 }
 
 impl Imbalance {
-    /// A ledger that closes.
+    /// Imbalance of a ledger that closes.
     pub const NONE: Self = Self { residual: 0.0, exchanged: 0.0 };
 
-    /// The residual over the energy exchanged.
+    /// Residual divided by the exchanged energy.
     #[inline]
     pub fn relative(&self) -> f64 {
         if self.residual > 0.0 { self.residual / self.exchanged.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
 
-/// Accelerations with their exact derivatives at a point. It is large: within steps it is written where it stays.
+/// Accelerations with their exact derivatives at a point. It is large, so steps compute it in place.
 #[derive(Clone, Copy, Debug)]
 pub struct Linearisation<const N: usize, P> {
     /// v̇.
@@ -105,35 +105,35 @@ impl<const N: usize, P: Default> Default for Linearisation<N, P> {
 
 /// A second-order system q̇ = B v, v̇ = a(q, v). Imposed motions are degrees of freedom with a given v̇.
 ///
-/// A system may be driven: then v̇ = a(q, v, t), with the time counted from the begin of the integration. One that is not
-/// leaves the three functions of time as they are here, and nothing is computed for them.
+/// A system may be driven, v̇ = a(q, v, t), with the time counted from the start of the integration. A system that is
+/// not driven keeps the default functions of time, which cost nothing.
 ///
-/// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster. A system
-/// may be smaller than its type: what lies beyond [`Self::degrees_of_freedom`] is zero and stays zero.
+/// Sizes are known at compile time, so the loops of these small systems unroll, which makes them several times faster.
+/// A system may be smaller than its type: rows from [`Self::degrees_of_freedom`] on are zero and stay zero.
 pub trait SecondOrder<const N: usize> {
-    /// Ledger rates: powers that are integrated along with the motion but do not act on it.
+    /// Ledger rates: powers that are integrated along the motion but do not act on it.
     type Rates: Copy + Default;
 
-    /// Degrees of freedom, `N` or less.
+    /// Number of degrees of freedom, at most `N`.
     #[inline]
     fn degrees_of_freedom(&self) -> usize {
         N
     }
 
-    /// Rows of the linear systems, at least the degrees of freedom. Rows beyond have zeros and change nothing; a number that is known
-    /// at compile time makes shorter and faster code.
+    /// Number of rows of the linear systems, at least the number of degrees of freedom. Additional rows are zero and
+    /// have no effect. A number known at compile time makes the code shorter and faster.
     #[inline]
     fn rows(&self) -> usize {
         self.degrees_of_freedom()
     }
 
-    /// Degrees of freedom that depend on each other little and are eliminated first.
+    /// Range of the degrees of freedom that are weakly coupled to each other and eliminated first.
     #[inline]
     fn inner(&self) -> Range<usize> {
         N..N
     }
 
-    /// B v.
+    /// Returns B v.
     #[inline]
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         *v
@@ -143,13 +143,13 @@ pub trait SecondOrder<const N: usize> {
     #[inline]
     fn times_rates(&self, _m: &mut Matrix<N>) {}
 
-    /// Accelerations and ledger rates.
+    /// Returns accelerations and ledger rates.
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Self::Rates);
 
-    /// Accelerations, ledger rates and exact derivatives.
+    /// Returns accelerations, ledger rates and exact derivatives.
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Rates>;
 
-    /// Whether accelerations depend on the time as well.
+    /// True if accelerations depend on time as well.
     #[inline]
     fn is_driven(&self) -> bool {
         false
@@ -161,7 +161,7 @@ pub trait SecondOrder<const N: usize> {
         self.evaluate(at)
     }
 
-    /// The accelerations of it alone, as stages of a step ask for them.
+    /// Accelerations only, for the stages of a step.
     #[inline]
     fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         self.evaluate_at(at, time).0
@@ -178,16 +178,18 @@ pub trait SecondOrder<const N: usize> {
         [0.0; N]
     }
 
-    /// Turns ledger rates at `at` into those before torques changed, where they have changed.
+    /// Converts ledger rates at `at` to the rates before the torques changed. Does nothing if they did not change.
     #[inline]
     fn take_change_back(&self, _at: &Point<N>, _rates: &mut Self::Rates) {}
 
-    /// Σ weight · rates at five places of a step; without rates that matter, those in the middle.
+    /// Σ weight · rates over five points of a step. The default, for rates that are not used, returns those in the
+    /// middle.
     fn combined(&self, of: [(f64, &Self::Rates); 5]) -> Self::Rates {
         *of[2].1
     }
 
-    /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
+    /// Reciprocals of the natural magnitudes of q and v. The error of a step, weighted with them, must not exceed the
+    /// tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 
     /// Kinetic and stored energy.
@@ -196,44 +198,45 @@ pub trait SecondOrder<const N: usize> {
         [0.0; 2]
     }
 
-    /// Writes [`Self::linearise_at`] to `lin` and returns [`Self::energy`] at the same point, for systems that find both in
-    /// one go.
+    /// Writes [`Self::linearise_at`] to `lin` and returns [`Self::energy`] at the same point, for systems that compute
+    /// both at the same time.
     #[inline]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Self::Rates>) -> [f64; 2] {
         *lin = self.linearise_at(at, time);
         self.energy(at)
     }
 
-    /// Imbalance of the ledger of a step of size `h`, from the energies at its ends and the ledger rates at its start, middle
-    /// and end.
+    /// Imbalance of the ledger of a step of size `h` [s], from the energies at both ends and the ledger rates at start,
+    /// middle and end.
     #[inline]
     fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Rates; 3]) -> Imbalance {
         Imbalance::NONE
     }
 
-    /// Energy that the ledger of a step between `ends` does not resolve, if the motion has the relative `tolerance`; may be less
-    /// if it is below the `residual` of the ledger. It is evaluated only if the ledger does not close otherwise.
+    /// Energy that the ledger of a step between `ends` does not resolve if the motion has the relative `tolerance`. The
+    /// result may be too small if it is below the `residual` of the ledger. It is evaluated only if the ledger does not
+    /// close otherwise.
     fn energy_floor(&self, _ends: [&Point<N>; 2], _tolerance: f64, _residual: f64) -> f64 {
         0.0
     }
 
-    /// The fraction of an iteration from `from` to `to` to take, so that it does not jump deep into a contact whose force
-    /// it has not evaluated yet.
+    /// Fraction of an iteration from `from` to `to` that may be applied without jumping deep into a contact whose force
+    /// is not evaluated yet.
     #[inline]
     fn reach(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
         1.0
     }
 
-    /// Where the first kink of the accelerations lies on the way that a step of size `h` from `at` will take, as the
-    /// fraction of the step to take instead, as far as that can be seen from `at`.
+    /// Fraction of a step of size `h` from `at` at which the first kink of the accelerations is expected, as far as
+    /// `at` shows it. The step is shortened to this fraction.
     #[inline]
     fn kink(&self, _at: &Point<N>, _h: f64) -> Option<f64> {
         None
     }
 
-    /// Where a switch of the system's equations falls within the step from `start` to `end`, as the fraction of the step
-    /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to. Both ends come with
-    /// their times [s].
+    /// Fraction of the step from `start` to `end` to which it must be shortened because a switch of the equations is
+    /// within it. Returns `None` without such a switch, or if the switch is already close enough to the end. Both ends
+    /// include their times [s].
     #[inline]
     fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None

@@ -1,17 +1,17 @@
-//! The differential as a mechanical system. Its modules; each uses only those before it:
+//! The differential as a mechanical system. Modules in the order of their dependencies:
 //!
 //! - `scene`: drives, inputs, material, integration, and the plan of bodies,
 //! - `thermal`: temperatures,
-//! - `effect_kinds`: what effects are made of: forces on bodies, dry friction, changes to teeth,
+//! - - `effect_kinds`: components of effects: forces on bodies, dry friction, changes to teeth,
 //! - `effects`: the effects, one file each, and their list,
-//! - `setup`: all parameters, and contradictions between them,
-//! - `assembly`: from parameters to constants,
+//! - `setup`: all parameters, and checks for contradictions,
+//! - `assembly`: constants computed from the parameters,
 //! - `dynamics`: the equations of motion and their state,
-//! - `outputs`: the values that can be read,
-//! - `run`: a running simulation and its steps,
-//! - `readings`: what is read from a simulation, and what it reports,
+//! - `outputs`: motion, forces and ledger values as they are computed from a state,
+//! - `run`: a running simulation; its module comment gives the order of a step,
+//! - `readings`: values read from a simulation, and its reports,
 //! - `start`: the start of a simulation,
-//! - `exchange`: model exchange and sensitivities.
+//! - `exchange`: model exchange, and sensitivities.
 
 mod assembly;
 mod dynamics;

@@ -3,16 +3,16 @@
 pub use libm::{acos, asin, atan2, cos, pow, sin, tan};
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Square root of `x`, which processors round correctly. `libm` takes an SSE instruction, which waits for AVX
-/// instructions before it.
+/// Square root of `x`, correctly rounded by the processor. `libm` would use an SSE instruction, which waits for
+/// preceding AVX instructions.
 #[inline(always)]
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
-/// Sine and cosine of `x`, cheaper than one by one.
+/// Sine and cosine of `x`, cheaper than two separate calls.
 ///
-/// Up to 1/2 by Taylor series whose remainder is below rounding; arcs along a flank are seldom longer.
+/// For |x| up to 1/2 it uses Taylor series whose remainder is below rounding. Arcs along a flank are rarely longer.
 #[inline(always)]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() > 0.5 {

@@ -1,4 +1,4 @@
-//! Check that all numbers of a value are finite. Structs name all their fields, so that none can be forgotten.
+//! Check that all numbers of a value are finite. Structs list all their fields, so that none can be forgotten.
 
 /// Largest magnitude: the product of two such numbers is finite.
 const LARGEST: f64 = 1e150;
@@ -33,8 +33,8 @@ impl<T: Finite, U: Finite> Finite for (T, U) {
     }
 }
 
-/// Implements [`Finite`] for structs. Fields with real numbers come first; all others follow after a semicolon. A field that is
-/// missing does not compile.
+/// Implements [`Finite`] for structs. Fields with real numbers come first; all others follow after a semicolon.
+/// Compilation fails if a field is missing.
 macro_rules! finite {
     ($($struct:ty { $($field:ident),+ $(; $($other:ident),+)? })+) => {$(
         impl $crate::numeric::Finite for $struct {

@@ -1,4 +1,5 @@
-//! A value with its first and second derivative by one variable: exact derivatives of closed forms, used at the start.
+//! A value with its first and second derivative with respect to one variable, used at initialisation to differentiate
+//! closed forms exactly.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,22 +1,23 @@
-//! Vector instructions: the same arithmetic in fewer instructions.
-//!
-//! Every x86-64 processor adds and multiplies two numbers at a time. Where a number that was written alone is read as one of
-//! two, or the other way round, a processor waits: what is worked on two by two is so throughout.
-//!
-//! Wider ones are used where the processor has them. A task is compiled twice, for what every processor of its kind has and for AVX2. Neither fuses or reorders operations, so
-//! that both give the same bits.
+//! Vector instructions, which do the same arithmetic with fewer instructions.
+//! //!
+//! Every x86-64 processor adds and multiplies two numbers at a time. If a number is written alone and then read as one
+//! of a pair, or conversely, the processor stalls. Data processed in pairs is therefore always read and written in
+//! pairs.
+//! //!
+//! Wider instructions are used if the processor has them. A task is compiled twice: for the baseline instruction set
+//! and for AVX2. Neither version fuses or reorders operations, so both produce the same bits.
 
 #[cfg(target_arch = "x86_64")]
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
-/// Adds `x` times the numbers `of` to those of `to`, two by two.
+/// Adds `x` times the numbers `of` to the numbers `to`, two at a time.
 #[inline(always)]
 pub fn add_times(to: &mut [f64], x: f64, of: &[f64]) {
     let (mut to, mut of) = (to.chunks_exact_mut(2), of.chunks_exact(2));
     for (to, of) in (&mut to).zip(&mut of) {
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code)]
-        // SAFETY: both are two numbers.
+        // SAFETY: both chunks contain two numbers.
         unsafe {
             use std::arch::x86_64::{_mm_add_pd, _mm_loadu_pd, _mm_mul_pd, _mm_set1_pd, _mm_storeu_pd};
             let (to, of) = (to.as_mut_ptr(), of.as_ptr());
@@ -32,14 +33,14 @@ pub fn add_times(to: &mut [f64], x: f64, of: &[f64]) {
     }
 }
 
-/// Multiplies the numbers `of` by `x`, two by two.
+/// Multiplies the numbers `of` by `x`, two at a time.
 #[inline(always)]
 pub fn multiply(of: &mut [f64], x: f64) {
     let mut of = of.chunks_exact_mut(2);
     for of in &mut of {
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code)]
-        // SAFETY: they are two numbers.
+        // SAFETY: the chunk contains two numbers.
         unsafe {
             use std::arch::x86_64::{_mm_loadu_pd, _mm_mul_pd, _mm_set1_pd, _mm_storeu_pd};
             _mm_storeu_pd(of.as_mut_ptr(), _mm_mul_pd(_mm_loadu_pd(of.as_ptr()), _mm_set1_pd(x)));
@@ -50,7 +51,7 @@ pub fn multiply(of: &mut [f64], x: f64) {
     of.into_remainder().iter_mut().for_each(|of| *of *= x);
 }
 
-/// Writes numbers two by two.
+/// Writes numbers two at a time.
 #[inline(always)]
 pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
     for (from, to) in from.chunks(2).zip(to.chunks_mut(2)) {
@@ -59,7 +60,7 @@ pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
             (&[first, second], to @ [_, _]) => {
                 use std::arch::x86_64::{_mm_set_pd, _mm_storeu_pd};
                 #[allow(unsafe_code)]
-                // SAFETY: they are two numbers.
+                // SAFETY: the chunk contains two numbers.
                 unsafe {
                     _mm_storeu_pd(to.as_mut_ptr(), _mm_set_pd(second, first));
                 }
@@ -69,16 +70,16 @@ pub fn write<const N: usize>(from: [f64; N], to: &mut [f64; N]) {
     }
 }
 
-/// Work that gains from wider vectors. Its `run` is to be inlined, and what it calls too, as far as it is to gain.
+/// Work that benefits from wider vectors. Its `run` and the functions called by it must be inlined to benefit.
 pub trait Task {
-    /// What it gives.
+    /// Result of the task.
     type Output;
-    /// Does it.
+    /// Runs the task.
     fn run(self) -> Self::Output;
 }
 
-/// Environment variable that keeps tasks from wider instructions where it is "narrow": for tools that do not know all of
-/// them, and to compare results.
+/// Environment variable that disables wider instructions if its value is "narrow". It serves tools that do not support
+/// all instructions, and comparisons of results.
 pub const VARIABLE: &str = "BEVEL_DIFFERENTIAL_VECTORS";
 
 #[cfg(target_arch = "x86_64")]
@@ -96,7 +97,7 @@ pub fn in_lanes<T: Task>(task: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
     if are_wide() {
         #[allow(unsafe_code)]
-        // SAFETY: the processor has the instructions.
+        // SAFETY: the processor has AVX2.
         return unsafe { wide(task) };
     }
     narrow(task)

@@ -1,8 +1,8 @@
 //! A local minimum of a function of a few variables, from its exact gradient and Hessian.
 //!
-//! Newton's method, damped where the Hessian is not positive definite (Levenberg). The gradient also vanishes at maxima and
-//! saddle points: where it does, the Hessian decides, and the search goes on along a direction in which the function
-//! curves down (J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd edition, sections 3.4 and 4.3).
+//! Newton's method is damped if the Hessian is not positive definite (Levenberg). The gradient also vanishes at maxima
+//! and saddle points. If it vanishes, the Hessian decides, and the search continues along a direction in which the
+//! function curves down (J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd edition, sections 3.4 and 4.3).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,46 +10,47 @@ use super::sqrt;
 
 /// A function to be minimised.
 pub trait Landscape {
-    /// Its value at `x`.
+    /// Value of the function at `x`.
     fn value(&self, x: &DVector<f64>) -> f64;
     /// Gradient and Hessian at `x`.
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>);
-    /// Whether a minimum at `x` would be wanted; beyond the search ends.
+    /// True if a minimum at `x` would be acceptable. The search ends at the first `x` for which it is false.
     fn is_near(&self, _x: &DVector<f64>) -> bool {
         true
     }
 }
 
-/// How to search.
+/// Settings of the search.
 #[derive(Clone, Debug)]
 pub struct Search {
     /// Largest change of a variable in one step, so that the search does not leap over a nearby minimum.
     pub longest: f64,
-    /// Largest component of the gradient at a balance.
+    /// Largest gradient component accepted as a balance.
     pub balance: f64,
-    /// The same where rounding of the values allows no better.
+    /// Largest gradient component accepted if rounding of the values prevents `balance`.
     pub rough: f64,
-    /// From a saddle point the search leaves in the direction of this vector rather than against it.
+    /// Preferred direction in which the search leaves a saddle point.
     pub lean: DVector<f64>,
-    /// A direction of which it is known that a valley follows it: the damping hardly hinders steps along it, and takes along
-    /// what nothing else holds.
+    /// Known direction of a valley. Damping hardly limits steps along this direction, and variables that nothing else
+    /// constrains move along with it.
     pub valley: Option<DVector<f64>>,
 }
 
-/// Iterations; a handful is enough, but along a valley, where contacts come and go.
+/// Maximum number of iterations. A few are enough, except along a valley in which contacts open and close.
 const MAX_ITERATIONS: usize = 200;
 const MAX_ITERATIONS_ALONG: usize = 2000;
-/// Trials of one step, with growing damping or shrinking length.
+/// Maximum number of trials of one step, with growing damping or shrinking length.
 const TRIALS: usize = 60;
-/// Part of the damping that acts along a valley.
+/// Fraction of the damping that acts along a valley.
 const EASE: f64 = 1e-4;
-/// Curvature relative to the Hessian's diagonal that counts as none: a flat valley is no saddle.
+/// Curvature relative to the Hessian's diagonal below which the function counts as flat: a flat valley is not a saddle
+/// point.
 const FLAT: f64 = 1e-9;
-/// Inverse iterations for the direction of least curvature, each of which gains a digit at least.
+/// Number of inverse iterations for the direction of smallest curvature. Each gains at least one digit.
 const INVERSE_ITERATIONS: usize = 16;
 
 impl Search {
-    /// The minimum that descent from `start` reaches, if it reaches one.
+    /// Minimum reached by descent from `start`, or `None`.
     pub fn minimum(&self, landscape: &dyn Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
         let (mut x, mut damping) = (start, 0.0);
         let mut value = landscape.value(&x);
@@ -76,7 +77,7 @@ impl Search {
         None
     }
 
-    /// A step from a saddle point along `way`, as long as it leads down: where it ends, and the value there.
+    /// Takes a step from a saddle point along `way` that decreases the value. Returns the new point and its value.
     fn leave(
         &self,
         landscape: &dyn Landscape,
@@ -92,7 +93,7 @@ impl Search {
             .find(|&(_, there)| there < value)
     }
 
-    /// A damped Newton step that leads down: where it ends, and the value there.
+    /// Takes a damped Newton step that decreases the value. Returns the new point and its value.
     fn step(
         &self,
         landscape: &dyn Landscape,
@@ -101,7 +102,7 @@ impl Search {
         damping: &mut f64,
     ) -> Option<(DVector<f64>, f64)> {
         let curvature = hessian.diagonal().amax();
-        // on a slope without curvature the damping limits the step
+        // on a slope without curvature, the damping limits the step
         let size = if curvature > 0.0 { curvature } else { gradient.amax() / self.longest };
         for _ in 0..TRIALS {
             let mut damped = hessian.clone();
@@ -113,7 +114,7 @@ impl Search {
             if let Some(step) = step.filter(|step| step.amax() < self.longest) {
                 let trial = x - step;
                 let there = landscape.value(&trial);
-                // near the minimum values differ by less than their rounding
+                // near the minimum, values differ by less than their rounding
                 let level = there <= value + 1e-12 * size;
                 if there < value || level && landscape.slopes(&trial).0.norm() < gradient.norm() {
                     *damping = if *damping < 1e-14 { 0.0 } else { *damping * 0.1 };
@@ -126,8 +127,8 @@ impl Search {
     }
 }
 
-/// Newton's method from `x`, near a minimum, as long as each step halves the gradient at least. Where the curvature is that
-/// of a contact just touching, the gradient falls only linearly.
+/// Continues Newton's method from `x`, near a minimum, as long as each step at least halves the gradient. If the
+/// curvature is that of a contact that barely touches, the gradient decreases only linearly.
 fn polished(
     landscape: &dyn Landscape,
     mut x: DVector<f64>,
@@ -138,7 +139,7 @@ fn polished(
         let Some(cholesky) = hessian.cholesky() else { break };
         let trial = &x - cholesky.solve(&gradient);
         let (next, curvature) = landscape.slopes(&trial);
-        // written so that NaN ends it, too
+        // written so that NaN also ends the loop
         let halved = next.amax() <= 0.5 * gradient.amax();
         if !halved {
             break;
@@ -148,10 +149,10 @@ fn polished(
     x
 }
 
-/// A direction in which a function with this Hessian curves down, on the side of `lean`; `None` if there is none.
+/// Direction of negative curvature of this Hessian, on the side of `lean`, or `None`.
 fn downward(hessian: &DMatrix<f64>, lean: &DVector<f64>) -> Option<DVector<f64>> {
     let n = lean.len();
-    // variables of different units, each scaled by its own curvature, which keeps the signs of all curvatures
+    // variables of different units are scaled by their own curvature, which keeps the signs of all curvatures
     let scale = DVector::from_fn(n, |i, _| {
         let own = hessian[(i, i)].abs();
         if own > 0.0 { 1.0 / sqrt(own) } else { 1.0 }
@@ -161,7 +162,7 @@ fn downward(hessian: &DMatrix<f64>, lean: &DVector<f64>) -> Option<DVector<f64>>
     if shifted(FLAT).is_some() {
         return None;
     }
-    // the smallest shift of these that makes it definite is near the most negative curvature
+    // the smallest of these shifts that makes it definite is near the most negative curvature
     let cholesky = (0..=40).map(|k| FLAT * 2f64.powi(k)).find_map(shifted)?;
     let units = (0..n).map(|i| DVector::from_fn(n, |j, _| if i == j { 1.0 } else { 0.0 }));
     std::iter::once(lean.component_div(&scale)).chain(units).find_map(|start| {

@@ -1,5 +1,5 @@
-//! Elementary functions with the same bits on every system, from the `libm` crate, numbers that carry derivatives, and the
-//! search for roots and minima.
+//! Elementary functions with the same bits on every system, from the `libm` crate; numbers with derivatives; search for
+//! roots and minima.
 
 mod elementary;
 mod finite;

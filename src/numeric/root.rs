@@ -1,17 +1,17 @@
-//! The root of a rising function, from its values and slopes: Newton's method within a bracket.
+//! Root of a rising function, from its values and slopes: Newton's method within a bracket.
 
-/// Evaluations; a dozen is enough.
+/// Maximum number of evaluations; a dozen is enough.
 const MAX_EVALUATIONS: usize = 200;
 
-/// Where `f`, which rises from below 0 at 0, reaches 0, within `balance` of its value and as close as rounding allows; `None`
-/// where it is below 0 up to `most`. `f` returns value and slope.
+/// Root of `f`, which rises from below 0 at 0. The result is within `balance` of the value 0 and as close as rounding
+/// allows. Returns `None` if `f` is below 0 up to `most`. `f` returns value and slope.
 ///
-/// Newton's steps start at the far end: a function that curves up never lets them pass the root. A step that leaves the
-/// bracket, or comes after one that did not halve the value, is a bisection instead.
+/// Newton's steps start at the far end, so for a function that curves up they never pass the root. A bisection replaces
+/// a step that leaves the bracket or follows a step that did not halve the value.
 pub fn rising_root(f: impl Fn(f64) -> [f64; 2], most: f64, balance: f64) -> Option<f64> {
     let (mut low, mut high, mut x) = (0.0, most, most);
     let [mut value, mut slope] = f(x);
-    // written so that NaN ends it, too
+    // written so that NaN also returns `None`
     let reached = value >= 0.0;
     if !reached {
         return None;

@@ -1,10 +1,10 @@
-//! Formulas written once for numbers and for numbers that carry exact derivatives.
+//! Formulas written once for plain numbers and for numbers with exact derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::elementary::{cos, pow, sin, sqrt};
 
-/// Operations of formulas: implemented by `f64` for values alone, by [`Dual`] for values with derivatives.
+/// Operations of formulas, implemented by `f64` for values only and by [`Dual`] for values with derivatives.
 pub trait Scalar:
     Copy
     + Add<Output = Self>
@@ -16,7 +16,7 @@ pub trait Scalar:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Whether values carry derivatives.
+    /// True if values have derivatives.
     const HAS_SLOPES: bool;
     /// A constant.
     fn constant(value: f64) -> Self;
@@ -56,7 +56,7 @@ pub trait Scalar:
         let slope = exponent * f / self.value();
         self.through([f, slope, (exponent - 1.0) * slope / self.value()])
     }
-    /// Magnitude; its slope at zero is taken as one.
+    /// Magnitude; its slope at zero is defined as one.
     fn abs(self) -> Self {
         if self.value() < 0.0 { -self } else { self }
     }
@@ -78,7 +78,7 @@ impl Scalar for f64 {
     }
 }
 
-/// A value with its derivatives by `K` variables (forward differentiation).
+/// A value with its derivatives with respect to `K` variables (forward differentiation).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const K: usize> {
     /// Value.

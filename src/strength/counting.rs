@@ -1,26 +1,27 @@
 //! Load cycles of a tooth: rolling of a gear relative to the carrier, and the flank that a mesh loads.
-//!
-//! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier: a planet's tooth once by
-//! the left and once by the right side gear, on opposite flanks (it is an idler); a side gear's tooth N times, on the
-//! same flank as long as the torque keeps its direction. Straight ahead nothing rolls and nothing counts.
+//! //!
+//! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier. A planet's tooth is loaded
+//! once by the left and once by the right side gear, on opposite flanks, because a planet is an idler. A side gear's
+//! tooth is loaded N times, on the same flank as long as the torque keeps its direction. In straight driving nothing
+//! rolls, and nothing counts.
 
 use serde::{Deserialize, Serialize};
 
 use crate::numeric::{TAU, finite};
 
-/// Rolling of a gear with a dead band of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
+/// Rolling of a gear with a dead band of one tooth pitch. Rocking within a pitch brings no new tooth into mesh.
 ///
-/// The window of one pitch is pushed along by the gear's angle; only what pushes it counts.
+/// The angle of the gear pushes a window of one pitch along. Only the motion that pushes the window counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rolling {
-    /// Place of the gear in its window [rad], −½ to ½ pitch.
+    /// Position of the gear in its window [rad], −½ to ½ pitch.
     pub place: f64,
 }
 
 finite!(Rolling { place });
 
 impl Rolling {
-    /// Turns the gear relative to the carrier by `step` [rad], of either sign, with teeth `pitch` [rad] apart; returns
+    /// Turns the gear relative to the carrier by `step` [rad] of either sign. Teeth are `pitch` [rad] apart. Returns
     /// the revolutions that count.
     pub fn advance(&mut self, step: f64, pitch: f64) -> f64 {
         let wanted = self.place + step;
@@ -31,7 +32,8 @@ impl Rolling {
         (wanted - self.place).abs() / TAU
     }
 
-    /// The part of `step` [rad] that would count: 0 while the gear stays in its window, 1 while it pushes it all the way.
+    /// Fraction of `step` [rad] that would count: 0 while the gear stays in its window, 1 if it pushes the window
+    /// during the whole step.
     pub fn counting(&self, step: f64, pitch: f64) -> f64 {
         let beyond = (self.place + step).abs() - pitch / 2.0;
         if beyond > 0.0 { (beyond / step.abs()).min(1.0) } else { 0.0 }
@@ -40,8 +42,8 @@ impl Rolling {
 
 /// Flank (0 or 1) of a gear's teeth that a mesh loads.
 ///
-/// A side gear has one mesh position, `far` = false; a planet has two, the left (`far` = false) and the right one
-/// (`far` = true), which load opposite flanks as long as both drive. `driving`: the carrier drives the side gear.
+/// A side gear has one mesh position, `far` = false. A planet has two, the left (`far` = false) and the right one
+/// (`far` = true), which load opposite flanks if both drive. `driving` is true if the carrier drives the side gear.
 pub fn loaded_flank(far: bool, driving: bool) -> usize {
     usize::from(far == driving)
 }

@@ -8,16 +8,16 @@ use crate::numeric::finite;
 /// Damage by load on one flank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlankDamage {
-    /// Of the root, by bending.
+    /// Damage of the root by bending.
     pub root: Damage,
-    /// Of the flank, by pitting.
+    /// Damage of the flank by pitting.
     pub pitting: Damage,
 }
 
-/// What one mesh does to a gear in a cycle.
+/// Damage that one mesh causes to a gear in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Flank that carries, 0 or 1: [`super::loaded_flank`].
+    /// Loaded flank, 0 or 1: [`super::loaded_flank`].
     pub flank: usize,
     /// Damage to the root.
     pub root: f64,
@@ -25,10 +25,10 @@ pub struct Cycle {
     pub pitting: f64,
 }
 
-/// Damage of the teeth of a gear, all teeth taken as alike: `Copy`, no allocation.
+/// Damage of the teeth of a gear, all assumed to be equal: `Copy`, no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ToothDamage {
-    /// Rolling that decides what counts.
+    /// Rolling that determines which passages count.
     pub rolling: Rolling,
     /// Both flanks.
     pub flanks: [FlankDamage; 2],
@@ -40,8 +40,8 @@ finite! {
 }
 
 impl ToothDamage {
-    /// Counts an interval in which the gear turned by `angle` [rad] relative to the carrier, while each of its meshes did as
-    /// much as `cycles` say on the mean: each passes every tooth once per revolution.
+    /// Counts an interval in which the gear turned by `angle` [rad] relative to the carrier. `cycles` contains the mean
+    /// damage of one passage for each mesh of the gear. Each mesh passes every tooth once per revolution.
     pub fn add(&mut self, angle: f64, pitch: f64, cycles: impl IntoIterator<Item = Cycle>) {
         let turns = self.rolling.advance(angle, pitch);
         if turns > 0.0 {
@@ -53,12 +53,12 @@ impl ToothDamage {
         }
     }
 
-    /// Damage sum of the worse root [1].
+    /// Damage sum of the more damaged root [1].
     pub fn worst_root(&self) -> f64 {
         self.flanks[0].root.sum.max(self.flanks[1].root.sum)
     }
 
-    /// Damage sum of the worse flank [1].
+    /// Damage sum of the more damaged flank [1].
     pub fn worst_pitting(&self) -> f64 {
         self.flanks[0].pitting.sum.max(self.flanks[1].pitting.sum)
     }

@@ -4,15 +4,15 @@
 //! θ_fl = C μ w |v₁ − v₂| / (√b (B√|v₁| + B√|v₂|)),     C = 2M/π^1.5 = 0.7860
 //! ```
 //!
-//! with the line load w, half the width of contact b = √(4 w R/(π E*)), the flanks' speeds v₁, v₂ along the profile and the
-//! thermal contact coefficient B = √(λ ρ c) of both. The heat is spread over the contact as Hertz's pressure is, and flows
-//! straight into both flanks; M = 2.1883 is the largest value of ∫ √(1 − s²)/√(x − s) ds from −1 to x. ISO/TR 13989-1 and
-//! ISO/TS 10300-20 write C as 1.11/√2.
+//! with the line load w, half the contact width b = √(4 w R/(π E*)), the flanks' speeds v₁, v₂ along the profile and
+//! the thermal contact coefficient B = √(λ ρ c) of both flanks. The heat flow is distributed over the contact like
+//! Hertz's pressure and enters both flanks perpendicularly. M = 2.1883 is the largest value of ∫ √(1 − s²)/√(x − s) ds
+//! from −1 to x. ISO/TR 13989-1 and ISO/TS 10300-20 write C as 1.11/√2.
 
 use crate::contact::tooth_friction::Sliding;
 use crate::numeric::{PI, sqrt};
 
-/// C, of a heat flow spread as a half ellipse.
+/// C for a heat flow distributed as a half ellipse.
 const ELLIPSE: f64 = 0.785_983_4;
 
 /// Constants of the formula.
@@ -43,8 +43,8 @@ impl Flash {
 mod tests {
     use super::*;
 
-    /// Temperature at x of a half-space over which a heat flow √(1 − s²) has moved, in its own units: by Simpson's rule in the
-    /// root of the distance.
+    /// Dimensionless temperature at x of a half-space over which a heat flow √(1 − s²) has moved, by Simpson's rule in
+    /// the root of the distance.
     fn warmed(x: f64) -> f64 {
         let (most, n) = ((x + 1.0_f64).sqrt(), 4000);
         let f = |k: usize| {
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_constant_is_that_of_a_moving_source() {
+    fn the_constant_matches_a_moving_source() {
         let largest = (0..=4000).map(|k| warmed(-1.0 + k as f64 / 2000.0)).fold(0.0, f64::max);
         assert!((2.0 * largest / PI.powf(1.5) / ELLIPSE - 1.0).abs() < 1e-5, "{}", 2.0 * largest / PI.powf(1.5));
         // the standard's constant has three digits

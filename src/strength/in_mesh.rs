@@ -1,8 +1,8 @@
-//! Swings of the load while teeth are in mesh, counted tooth by tooth.
-//!
-//! Each tooth has the damage of its own passages. A planet's tooth meshes once per revolution with each side gear, which load
-//! opposite flanks; of a side gear one tooth meshes with each planet. All planets count as equal, and so do the teeth of a side
-//! gear that are in mesh at an instant: the heaviest mesh of a side counts for all.
+//! Load swings while teeth are in mesh, counted tooth by tooth.
+//! //!
+//! Each tooth has the damage of its own passages. A planet's tooth meshes once per revolution with each side gear, on
+//! opposite flanks. In a side gear, one tooth meshes with each planet. All planets count as equal, and so do the teeth
+//! of a side gear that are in mesh at an instant: the most heavily loaded mesh of a side represents all.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,28 +14,28 @@ use crate::numeric::finite;
 /// Teeth of planets and side gears: `Copy`, no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TeethInMesh {
-    /// Which teeth are in mesh.
+    /// Position of the gears, which determines the teeth in mesh.
     place: MeshPlace,
-    /// Teeth in mesh with the left and with the right side gear.
+    /// Passages of the teeth in mesh with the left and with the right side gear.
     passages: [Passage; 2],
-    /// Teeth of the planets, after their passages.
+    /// Damage of the planets' teeth from finished passages.
     planets: ToothSums,
-    /// Teeth of the side gears, after their passages.
+    /// Damage of the side gears' teeth from finished passages.
     sides: [ToothSums; 2],
 }
 
 finite!(TeethInMesh { place, passages, planets, sides });
 
 impl TeethInMesh {
-    /// Lets the planets roll by `angle` [rad] without counting.
+    /// Rolls the planets by `angle` [rad] without counting.
     pub fn roll(&mut self, rating: &Rating, angle: f64) {
         if self.place.advance(angle / rating.pitch[0]).is_some() {
             self.passages = Default::default();
         }
     }
 
-    /// Counts an interval in which the planets, `planets` of them, roll by `angle` [rad]. `forces` [N] bend the teeth of each side
-    /// at its start, in its middle and at its end, positive on the drive flank.
+    /// Counts an interval in which `planets` planets roll by `angle` [rad]. `forces` [N] bend the teeth of each side at
+    /// the start, in the middle and at the end of the interval, positive on the drive flank.
     pub fn add(&mut self, rating: &Rating, planets: usize, angle: f64, forces: [Three; 2]) {
         let before = self.place;
         let change = self.place.advance(angle / rating.pitch[0]);
@@ -65,8 +65,8 @@ impl TeethInMesh {
         }
     }
 
-    /// Largest damage of a planet's tooth and of a tooth of either side gear, at the root of each flank as
-    /// [`loaded_flank`] numbers them.
+    /// Largest damage of a planet's tooth and of a tooth of each side gear, at the root of each flank. Flanks are
+    /// numbered as in [`loaded_flank`].
     pub fn worst(&self, rating: &Rating, planets: usize) -> (RootSum, [RootSum; 2]) {
         let open = self.passages.map(|passage| passage.sums(rating));
         let mut worst = (self.planets.worst(), self.sides.map(|side| side.worst()));
@@ -90,7 +90,8 @@ fn raise(worst: &mut RootSum, known: RootSum, more: RootSum) {
     }
 }
 
-/// The planets' tooth in mesh with a side gear: with the other one it is half a revolution away.
+/// Tooth of the planets in mesh with side gear `side`. The tooth in mesh with the other side gear is half a revolution
+/// away.
 fn planet_tooth(place: &MeshPlace, rating: &Rating, side: usize) -> (usize, usize) {
     place.tooth_of(rating.teeth[0], side * (rating.teeth[0] / 2))
 }
@@ -101,7 +102,7 @@ fn side_teeth(place: &MeshPlace, rating: &Rating, planets: usize) -> impl Iterat
     (0..planets).map(move |planet| place.tooth_of(teeth, planet * teeth / planets))
 }
 
-/// Damage of a planet's tooth by flanks of the planet: its passages with both side gears load opposite ones.
+/// Damage of a planet's tooth by flank. Passages with the two side gears load opposite flanks.
 fn planet_roots(sums: &RootSums, side: usize) -> RootSum {
     let [drive, coast] = sums[0];
     let mut roots = [0.0; 2];

@@ -1,14 +1,15 @@
-//! Values at the begin, in the middle and at the end of an interval, and what Simpson's parabola through them says.
+//! Values at the start, in the middle and at the end of an interval, and Simpson's parabola through them.
 
-/// Such values of one quantity.
+/// Values of one quantity at the start, in the middle and at the end of an interval.
 pub type Three = [f64; 3];
 
-/// By how much the value in the middle is off the straight line, twice.
+/// Twice the amount by which the straight line exceeds the value in the middle.
 pub fn second_difference([begin, middle, end]: Three) -> f64 {
     begin - 2.0 * middle + end
 }
 
-/// Where the parabola turns within the interval: its value there, and the part of the interval before.
+/// Value at the turning point of the parabola within the interval, and the fraction of the interval before it, or
+/// `None`.
 pub fn extremum(values: Three) -> Option<(f64, f64)> {
     let [begin, middle, end] = values;
     let (difference, lean) = (second_difference(values), end - begin);
@@ -16,7 +17,7 @@ pub fn extremum(values: Three) -> Option<(f64, f64)> {
         .then(|| (middle - lean * lean / (8.0 * difference), 0.5 - lean / (4.0 * difference)))
 }
 
-/// The largest value of the parabola, and the part of the interval before.
+/// Largest value of the parabola, and the fraction of the interval before it.
 pub fn crest(values: Three) -> (f64, f64) {
     let ends = if values[0] > values[2] { (values[0], 0.0) } else { (values[2], 1.0) };
     match extremum(values) {
@@ -25,13 +26,13 @@ pub fn crest(values: Three) -> (f64, f64) {
     }
 }
 
-/// The parabola at `part` of the interval.
+/// Value of the parabola at the fraction `part` of the interval.
 pub fn at([begin, middle, end]: Three, part: f64) -> f64 {
     let bend = 2.0 * second_difference([begin, middle, end]);
     begin + part * (end - begin - bend * (1.0 - part))
 }
 
-/// Mean of a quantity by Simpson's rule, each value weighted by the rate at which the interval is passed.
+/// Mean of a quantity by Simpson's rule, with each value weighted by the rate at which the interval is passed.
 pub fn mean(values: Three, rates: Three) -> f64 {
     let weights = [rates[0].abs(), 4.0 * rates[1].abs(), rates[2].abs()];
     let passed = weights[0] + weights[1] + weights[2];
@@ -48,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_of_a_parabola_are_found_and_those_outside_are_none() {
+    fn turning_points_of_a_parabola_are_found_only_within_the_interval() {
         for sign in [1.0, -1.0] {
             for place in [0.01, 0.3, 0.5, 0.9] {
                 let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - place) * (t - place)))).unwrap();

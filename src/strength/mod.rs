@@ -1,8 +1,9 @@
-//! Strength of the teeth: contact pressure, root stress, and the damage that both do as the gears turn.
-//!
-//! Formulas of forces and angles without model state: a simulation passes the values along each accepted step. [`Rating`] holds
-//! the constants of a pair of gears, [`ToothDamage`] the damage of passages through the mesh, [`TeethInMesh`] that of swings
-//! of the load meanwhile, tooth by tooth, which [`Rainflow`] counts.
+//! Strength of the teeth: contact pressure, root stress, and the resulting damage while the gears turn.
+//! //!
+//! The formulas use forces and angles and have no access to the model state: a simulation passes the values of each
+//! accepted step. [`Rating`] contains the constants of a pair of gears. [`ToothDamage`] contains the damage of passages
+//! through the mesh. [`TeethInMesh`] contains, tooth by tooth, the damage of load swings during the passages, which
+//! [`Rainflow`] counts.
 
 pub mod counting;
 mod damage;

@@ -1,14 +1,14 @@
-//! Load cycles of a tooth while it is in mesh, and what they do to its roots.
-//!
-//! A tooth in mesh touches with one flank or, when the torque reverses, with the other. The force on its drive flank
-//! bends the fillet at that flank into tension and that at the coast flank into compression, a force on the coast flank
-//! the other way round. So both fillets have the same history of stress with opposite signs: a cycle of one is a cycle
-//! of the other with the mean negated. One rainflow count serves both.
-//!
-//! A tooth that rolls through its mesh comes without load and leaves without load, so that all its cycles close; the largest of
-//! them is the passage itself, which counts elsewhere ([`super::ToothDamage`]). A cycle only closes inside a range that is at
-//! least as large, so the largest one is still open until the tooth leaves. All cycles of a standing tooth count, open ones as
-//! halves, so that the sum does not depend on rounding of two equal peaks.
+//! Load cycles of a tooth while it is in mesh, and the damage that they cause to its roots.
+//! //!
+//! A tooth in mesh touches with one flank or, if the torque reverses, with the other. A force on its drive flank causes
+//! tension in the fillet at that flank and compression in the fillet at the coast flank. A force on the coast flank
+//! does the opposite. Both fillets therefore have the same stress history with opposite signs: a cycle of one is a
+//! cycle of the other with the mean negated. One rainflow count serves both.
+//! //!
+//! A tooth that rolls through its mesh enters and leaves without load, so all its cycles close. The largest of them is
+//! the passage itself, which is counted separately ([`super::ToothDamage`]). A cycle only closes inside a range that is
+//! at least as large, so the largest cycle stays open until the tooth leaves. All cycles of a tooth that stays in mesh
+//! count. Its open cycles count as halves, so that the sum does not depend on rounding of two equal peaks.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,16 +16,16 @@ use super::mean_stress::pulsating_range;
 use super::{Damage, LoadCycle, Rainflow, Rating};
 use crate::numeric::finite;
 
-/// Reversals of stress up to this part of the strength are not counted.
+/// Fraction of the strength up to which reversals of stress are not counted.
 const GATE: f64 = 0.01;
 
-/// Damage of planet and side gear, each at the root of the drive and of the coast flank.
+/// Damage of planet and side gear, each at the root of the drive flank and of the coast flank.
 pub type RootSums = [[f64; 2]; 2];
 
 /// A tooth in mesh: `Copy`, no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passage {
-    /// Force that bends it, positive on the drive flank [N].
+    /// Force that bends the tooth, positive on the drive flank [N].
     history: Rainflow,
     /// Damage of closed cycles.
     roots: [[Damage; 2]; 2],
@@ -34,7 +34,7 @@ pub struct Passage {
 finite!(Passage { history, roots });
 
 impl Passage {
-    /// A tooth that comes into mesh as the gears roll on.
+    /// Returns a tooth that enters the mesh while the gears roll on.
     pub fn rolling(rating: &Rating) -> Self {
         let mut passage = Self { history: Rainflow::returning(gate(rating)), ..Self::default() };
         passage.add_force(rating, 0.0);
@@ -90,7 +90,7 @@ fn count(rating: &Rating, roots: &mut [[Damage; 2]; 2], cycle: LoadCycle) {
     for (root, roots) in rating.root.iter().zip(roots) {
         for (damage, mean) in roots.iter_mut().zip([cycle.mean, -cycle.mean]) {
             let range = pulsating_range(&LoadCycle { mean, ..cycle }, rating.sensitivity);
-            // the mean stress is counted as it is: the planet's idler strength is for teeth that roll
+            // the mean stress is counted explicitly: the planet's idler strength is for teeth that roll
             damage.add(&rating.bending[1], root.stress(range), cycle.count);
         }
     }

@@ -1,43 +1,44 @@
-//! Place of the gears between their teeth: which tooth of each gear is in mesh.
-//!
-//! A tooth carries the load of its mesh over one pitch, from half a pitch before its middle to half a pitch behind. Where two
-//! teeth share the load, elastic wind-up rocks the gears without a change of teeth: the tooth before comes back only when
-//! the gears have returned by [`SLACK`].
+//! Position of the gears between their teeth, which determines the tooth of each gear that is in mesh.
+//! //!
+//! A tooth has the load of its mesh over one pitch, from half a pitch before its middle to half a pitch behind it. If
+//! two teeth share the load, elastic wind-up rocks the gears without a change of teeth. The previous tooth therefore
+//! returns only when the gears have turned back by [`SLACK`].
 
 use serde::{Deserialize, Serialize};
 
 use crate::numeric::finite;
 
-/// Way back from a change of teeth that brings the tooth before into mesh again, as a part of the pitch.
+/// Distance back from a change of teeth that brings the previous tooth into mesh again, as a fraction of the pitch.
 const SLACK: f64 = 0.25;
 
-/// Place within the pitch of the tooth in mesh, in pitches.
+/// Position within the pitch of the tooth in mesh, in pitches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshPlace {
-    /// Number of the tooth in mesh, 0 at the start; those that come into mesh as angles grow are positive.
+    /// Number of the tooth in mesh, 0 at the start. Teeth that enter the mesh as angles grow are positive.
     pub tooth: i64,
-    /// Place from its middle.
+    /// Position from the middle of this tooth.
     place: f64,
-    /// Place where it came into mesh; 0 of the first.
+    /// Position at which this tooth entered the mesh; 0 for the first tooth.
     entry: f64,
 }
 
 /// Change of the tooth in mesh in an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
-    /// Part of the interval after which the first tooth leaves the mesh, from 0 to 1.
+    /// Fraction of the interval after which the first tooth leaves the mesh, from 0 to 1.
     pub leaves: f64,
-    /// Part of the interval after which the last tooth comes into mesh: later than `leaves` if others pass between.
+    /// Fraction of the interval after which the last tooth enters the mesh. It is larger than `leaves` if other teeth
+    /// pass between.
     pub enters: f64,
-    /// True if the gears roll on in one direction, so that the passage of the last tooth counts as a cycle. After a reversal they
-    /// roll a pitch until passages count.
+    /// True if the gears roll on in one direction, so that the passage of the last tooth counts as a cycle. After a
+    /// reversal, the gears roll one pitch before passages count.
     pub rolls_on: bool,
 }
 
 finite!(MeshPlace { place, entry; tooth });
 
 impl MeshPlace {
-    /// Moves on by `step` pitches, of either sign.
+    /// Advances by `step` pitches of either sign.
     pub fn advance(&mut self, step: f64) -> Option<Change> {
         let wanted = self.place + step;
         if !wanted.is_finite() {
@@ -56,13 +57,14 @@ impl MeshPlace {
         let change = Change { leaves: part(edge), enters: part(last), rolls_on: entry <= 0.0 || further > 0.0 };
         self.tooth = self.tooth.wrapping_add((sense * (1.0 + further)) as i64);
         self.entry = sense * (last - 1.0 - further);
-        // places so large that rounding takes whole pitches from them have none within one
+        // rounding can make very large positions deviate by whole pitches; these are reset to the middle of the tooth
         let place = way - 1.0 - further;
         self.place = if place.abs() <= 1.0 { sense * place } else { 0.0 };
         Some(change)
     }
 
-    /// Returns the number of the tooth in mesh, shifted by `offset` teeth, for a gear with `teeth` teeth; and `teeth`, at least 1.
+    /// Returns the number of the tooth in mesh, shifted by `offset` teeth, for a gear with `teeth` teeth. It also
+    /// returns `teeth`, at least 1.
     pub fn tooth_of(&self, teeth: usize, offset: usize) -> (usize, usize) {
         let teeth = teeth.max(1);
         ((self.tooth.rem_euclid(teeth as i64) as usize + offset) % teeth, teeth)
@@ -78,7 +80,7 @@ mod tests {
         for sign in [1.0, -1.0] {
             let mut place = MeshPlace::default();
             for i in 1..1000 {
-                // binary fractions, so that the places are exact
+                // binary fractions, so that the positions are exact
                 let change = place.advance(sign / 128.0);
                 let tooth = (f64::from(i) / 128.0 - 0.5).ceil() as i64;
                 assert_eq!(place.tooth, sign as i64 * tooth, "{i}");
@@ -97,7 +99,7 @@ mod tests {
                 assert_eq!(place.advance(sign * 0.2), None);
             }
             assert_eq!(place.tooth, sign as i64);
-            // from a quarter of a pitch back, and again where it first came
+            // back from a quarter of a pitch, and forward again at the position at which it first entered
             let back = place.advance(sign * -0.3).unwrap();
             assert!(!back.rolls_on && place.tooth == 0);
             assert_eq!(place.advance(sign * 0.28), None);
@@ -106,10 +108,10 @@ mod tests {
     }
 
     #[test]
-    fn many_teeth_pass_at_once() {
+    fn many_teeth_pass_in_one_step() {
         let mut place = MeshPlace::default();
         let change = place.advance(4.0).unwrap();
-        // the first leaves at ½, the fourth comes at 3½
+        // the first leaves at ½, the fourth enters at 3½
         assert_eq!((change.leaves, change.enters, place.tooth, place.place), (0.125, 0.875, 4, 0.0));
         assert_eq!([(10, 0), (10, 5), (3, 0)].map(|(teeth, offset)| place.tooth_of(teeth, offset).0), [4, 9, 1]);
         for step in [1e18, -1e300, f64::NAN, f64::INFINITY, f64::MAX] {

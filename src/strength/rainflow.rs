@@ -1,15 +1,15 @@
-//! Rainflow counting of a load history as it comes, ASTM E1049-85 (2017), section 5.4.4.
-//!
-//! For teeth that stay in mesh while the gears do not roll. Peaks and valleys wait on a stack of fixed size; ranges on it
-//! decrease from the bottom to the top, so that only a decaying oscillation fills it. Then the smallest range is
-//! counted at once, as a full cycle, which it becomes if the load grows beyond it again and which is conservative if
-//! not; nothing is lost and larger ranges stay as they are.
+//! Rainflow counting of a load history while it is recorded, ASTM E1049-85 (2017), section 5.4.4.
+//! //!
+//! It serves teeth that stay in mesh while the gears do not roll. Peaks and valleys are stored on a stack of fixed
+//! size. Ranges on the stack decrease from the bottom to the top, so only a decaying oscillation fills it. If it is
+//! full, the smallest range is immediately counted as a full cycle. This is exact if the load exceeds the range again,
+//! and conservative otherwise. Nothing is lost, and larger ranges stay unchanged.
 
 use serde::{Deserialize, Serialize};
 
 use crate::numeric::finite;
 
-/// Capacity for turning points, one of it for the newest; 32 is the longest array for which serde has an implementation.
+/// Capacity for turning points, including one for the newest. 32 is the longest array that serde supports.
 pub const CAPACITY: usize = 32;
 
 /// A counted cycle, in the unit of the history.
@@ -32,45 +32,46 @@ impl LoadCycle {
 /// History so far: `Copy`, no allocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rainflow {
-    /// Peaks and valleys not yet discarded, the starting point first.
+    /// Peaks and valleys not yet discarded, starting with the first value.
     points: [f64; CAPACITY],
-    /// How many.
+    /// Number of these points.
     length: usize,
-    /// Last value in the present direction: the next turning point, if the direction changes. While none is known, the highest
-    /// value so far, the starting point being the lowest.
+    /// Last value in the present direction, which becomes the next turning point if the direction changes. While the
+    /// direction is unknown, it is the highest value so far, and the first point is the lowest.
     candidate: f64,
-    /// Direction: 1 rising, −1 falling, 0 not known yet.
+    /// Direction: 1 rising, −1 falling, 0 unknown.
     direction: i8,
-    /// Reversals up to this are no turning points.
+    /// Largest reversal that is not a turning point.
     gate: f64,
-    /// True if the history ends where it begins, so that every cycle closes.
+    /// True if the history ends at its first value, so that every cycle closes.
     returns: bool,
 }
 
 finite!(Rainflow { points, candidate, gate; length, direction, returns });
 
 impl Rainflow {
-    /// Empty history in which reversals up to `gate` (unit of the history) are ignored; 0 counts all.
+    /// Returns an empty history that ignores reversals up to `gate` (unit of the history); 0 counts all.
     pub fn new(gate: f64) -> Self {
         Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
     }
 
-    /// Empty history that is to end where it begins: nothing counts as a half cycle, and [`Self::rest_of_return`] closes all.
+    /// Returns an empty history that must end at its first value. It has no half cycles; [`Self::rest_of_return`]
+    /// closes all cycles.
     pub fn returning(gate: f64) -> Self {
         Self { returns: true, ..Self::new(gate) }
     }
 
-    /// True if the history ends where it begins.
+    /// True if the history ends at its first value.
     pub fn returns(&self) -> bool {
         self.returns
     }
 
-    /// Whether nothing was added yet.
+    /// True if no value has been added yet.
     pub fn is_empty(&self) -> bool {
         self.length == 0
     }
 
-    /// Adds a value and calls `visit` with each cycle that it closes. Values that are no numbers are ignored.
+    /// Adds a value and calls `visit` with each cycle that it closes. Values that are not finite are ignored.
     pub fn push(&mut self, value: f64, mut visit: impl FnMut(LoadCycle)) {
         if !value.is_finite() {
             return;
@@ -95,8 +96,8 @@ impl Rainflow {
         }
     }
 
-    /// Takes a value while no direction is known. The history starts at the lowest value before it rises and at the highest
-    /// before it falls, so that the gate takes nothing from the first range.
+    /// Adds a value while the direction is unknown. The history starts at the lowest value before it rises, or at the
+    /// highest before it falls, so that the gate does not reduce the first range.
     fn set_out(&mut self, value: f64) {
         let (low, high) = (self.points[0], self.candidate);
         if value - low > self.gate {
@@ -108,8 +109,8 @@ impl Rainflow {
         }
     }
 
-    /// Calls `visit` with the remaining half cycles, the present value taken as the last turning point; the history itself is
-    /// unchanged and may continue.
+    /// Calls `visit` with the remaining half cycles, with the present value as the last turning point. The history
+    /// itself is unchanged and may continue.
     pub fn rest(&self, mut visit: impl FnMut(LoadCycle)) {
         let mut last = *self;
         last.limit_fields();
@@ -121,8 +122,8 @@ impl Rainflow {
         }
     }
 
-    /// Calls `visit` with the remaining cycles of a history that goes from its present value to where it began, the largest one
-    /// last; the history itself is unchanged.
+    /// Calls `visit` with the remaining cycles of a history that returns from its present value to its first value, the
+    /// largest cycle last. The history itself is unchanged.
     pub fn rest_of_return(&self, mut visit: impl FnMut(LoadCycle)) {
         let mut last = *self;
         last.limit_fields();
@@ -133,26 +134,27 @@ impl Rainflow {
         if last.direction != 0 {
             last.turn(&mut visit);
         }
-        // the same once more: between two of its largest peaks everything closes, and the rest is what was there before
+        // the same points are repeated once: between two of the largest peaks everything closes, and the remainder
+        // equals the previous one
         let mut twice = Self { gate: 0.0, ..Self::returning(0.0) };
         for &point in last.points[..last.length].iter().chain(&last.points[..last.length]) {
             twice.push(point, &mut visit);
         }
     }
 
-    /// Limits the fields: a state read from foreign bytes may hold any length and direction.
+    /// Limits the fields, because a state read from foreign bytes may contain any length and direction.
     fn limit_fields(&mut self) {
         self.length = self.length.min(CAPACITY - 1);
         self.direction = self.direction.signum();
     }
 
-    /// Makes the candidate a turning point and counts the ranges that it closes.
+    /// Turns the candidate into a turning point and counts the ranges that it closes.
     fn turn(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         let value = self.candidate;
         let top = self.length.saturating_sub(1);
         let like_top = top > 0 && (self.points[top] > self.points[top - 1]) == (self.direction > 0);
         if like_top {
-            // the point between was counted when the stack was full; of two peaks in a row the higher one stays
+            // the point between was counted when the stack was full; the higher of two consecutive peaks stays
             if (value - self.points[top]) * f64::from(self.direction) > 0.0 {
                 self.points[top] = value;
             }
@@ -178,8 +180,8 @@ impl Rainflow {
         }
     }
 
-    /// Steps 2 to 5 of the standard: X is the last range, Y the one before. In a history that returns, ranges may grow from the
-    /// start, and Y must also be no larger than the one before it.
+    /// Steps 2 to 5 of the standard: X is the last range, Y the previous one. In a history that returns, ranges may
+    /// grow from the start, and Y must also be no larger than the range before it.
     fn close(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         while self.length >= 3 {
             let [a, b, c] = [self.points[self.length - 3], self.points[self.length - 2], self.points[self.length - 1]];
@@ -193,7 +195,7 @@ impl Rainflow {
                 }
             }
             if self.length == 3 {
-                // Y holds the starting point: half a cycle, the start moves on
+                // Y contains the starting point: count half a cycle and move the start
                 visit(LoadCycle::between(a, b, 0.5));
                 self.points[0] = b;
                 self.points[1] = c;

@@ -1,4 +1,4 @@
-//! Constants of the strength of a pair, used at every accepted step.
+//! Constants of the strength rating of a pair, used at every accepted step.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,15 +12,15 @@ pub struct Rating {
     pub contact: LineContact,
     /// Roots.
     pub root: [RootStress; 2],
-    /// S–N curves of the roots: the planet's an idler's.
+    /// S–N curves of the roots; that of the planet is for idlers.
     pub bending: [SnCurve; 2],
     /// S–N curve of the flanks.
     pub pitting: SnCurve,
     /// Sensitivity of the roots to mean stress M.
     pub sensitivity: f64,
-    /// Exponent N_F from the face load factor to that of the root.
+    /// Exponent N_F from the face load factor to the root factor.
     pub face_exponent: f64,
-    /// Angles between teeth [rad].
+    /// Angular pitches [rad].
     pub pitch: [f64; 2],
     /// Numbers of teeth.
     pub teeth: [usize; 2],

@@ -4,15 +4,15 @@
 //! σ_F = F_mt/(b m_m) · Y_Fa Y_Sa Y_ε Y_K Y_LS · K_A K_v K_Fβ K_Fα,      F_mt = F_n cosα at R_m
 //! ```
 //!
-//! F_n is the normal force of the whole mesh, handed over with the load factors in it: a simulated force contains the dynamic
-//! part (K_v = 1) and the sharing among pairs (K_Fα = 1); whoever hands it over multiplies it by K_A and K_Fβ
+//! F_n is the normal force of the whole mesh, including load factors. A simulated force already contains the dynamic
+//! load (K_v = 1) and the sharing among pairs (K_Fα = 1). The caller multiplies it by K_A and K_Fβ
 //! ([`super::face_load`]).
 //!
-//! The tooth form is that of load at the tip; Y_ε brings it to the outer point of single contact, where one pair carries
-//! all: Y_ε = 0.25 + 0.75/ε_vα, not below 0.625.
-//! Y_K = ¼ (1 + l/b)² b/l accounts for a middle line of contact shorter than the face, l = 2 b √(ε_vα − 1)/ε_vα for
-//! straight teeth. Y_LS = 1 for contact ratios up to 2. The 2014 edition has Y_BS in the place of Y_K.
-//! The tooth is as thin as its backlash makes it; the standard would take the nominal one (0.8 % less stress here).
+//! The tooth form is that for a load at the tip. Y_ε converts the stress to a load at the outer point of single
+//! contact, where one pair transmits the whole load: Y_ε = 0.25 + 0.75/ε_vα, not below 0.625. Y_K = ¼ (1 + l/b)² b/l
+//! accounts for a middle line of contact shorter than the face, with l = 2 b √(ε_vα − 1)/ε_vα for straight teeth. Y_LS
+//! = 1 for contact ratios up to 2. The 2014 edition has Y_BS instead of Y_K. The tooth thickness includes the thinning
+//! for backlash. The standard would use the nominal thickness (0.8 % less stress here).
 //!
 //! Everything is linear in F_n: [`RootStress::per_force`] times the force is the stress.
 
@@ -22,10 +22,10 @@ use super::{Profile, ToothForm};
 use crate::geometry::{Pair, Tredgold};
 use crate::numeric::{cos, sqrt};
 
-/// Least contact ratio for Y_K: its line of contact would shrink to a point at 1.
-const LEAST_RATIO: f64 = 1.05;
+/// Smallest contact ratio for Y_K, whose line of contact would shrink to a point at 1.
+const MIN_RATIO: f64 = 1.05;
 
-/// Root stress of one gear of a pair, with the factors that make it.
+/// Root stress of one gear of a pair, with its factors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RootStress {
     /// Form under load at the tip: Y_Fa and Y_Sa.
@@ -40,14 +40,14 @@ pub struct RootStress {
     pub load_sharing: f64,
     /// Stress per normal force of the mesh by method B1 [Pa/N].
     pub per_force: f64,
-    /// Stress per normal force of one tooth pair at its outer point of single contact, without Y_ε [Pa/N]: for comparison
-    /// with method B1.
+    /// Stress per normal force of one tooth pair at its outer point of single contact, without Y_ε [Pa/N], for
+    /// comparison with method B1.
     pub per_single_force: f64,
 }
 
 impl RootStress {
-    /// Gear `i` of `pair` (0 planet, 1 side gear) whose root a tool of tip radius `tool_radius` modules has cut; `None`
-    /// if the tooth has no valid root section.
+    /// Returns the root stress of gear `i` of `pair` (0 planet, 1 side gear), whose root is cut by a tool of tip radius
+    /// `tool_radius` modules. `None` if the tooth has no valid root section.
     pub fn new(pair: &Pair, i: usize, tool_radius: f64) -> Option<Self> {
         let profile = Profile::of(pair, i, tool_radius);
         let mate = Profile::of(pair, 1 - i.min(1), tool_radius);
@@ -65,20 +65,20 @@ impl RootStress {
         sound.then_some(Self { tip, single, contact_ratio, bevel, load_sharing, per_force, per_single_force })
     }
 
-    /// Stress [Pa] under the normal force of the mesh [N], load factors included; 0 without force.
+    /// Stress [Pa] under the normal force of the mesh [N], including load factors; 0 without force.
     pub fn stress(&self, force: f64) -> f64 {
         if force > 0.0 && force.is_finite() { self.per_force * force } else { 0.0 }
     }
 }
 
-/// Y_ε of teeth without overlap at the contact ratio `ratio`.
+/// Y_ε for teeth without overlap at the contact ratio `ratio`.
 pub fn contact_ratio_factor(ratio: f64) -> f64 {
     (0.25 + 0.75 / ratio.max(1.0)).max(0.625)
 }
 
-/// Y_K of straight teeth at the contact ratio `ratio`.
+/// Y_K for straight teeth at the contact ratio `ratio`.
 pub fn bevel_factor(ratio: f64) -> f64 {
-    let ratio = ratio.clamp(LEAST_RATIO, 2.0);
+    let ratio = ratio.clamp(MIN_RATIO, 2.0);
     let line = 2.0 * sqrt(ratio - 1.0) / ratio;
     0.25 * (1.0 + line) * (1.0 + line) / line
 }

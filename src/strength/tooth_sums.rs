@@ -1,23 +1,23 @@
-//! Damage sums of each tooth of a gear, in an array of fixed size; saved without the zeros behind the last tooth.
-//!
-//! Stacks are small where units run, and few gears of differentials have more than [`MOST_SUMS`] teeth: neighbours of such a gear
-//! share a sum, their mean.
+//! Damage sums of each tooth of a gear, in an array of fixed size. Zeros after the last used tooth are not saved.
+//! //!
+//! Stacks are small on the target systems, and few gears of differentials have more than [`MAX_SUMS`] teeth. In a
+//! larger gear, neighbouring teeth share a sum, their mean.
 
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::numeric::Finite;
 
-/// Most sums of a gear.
-pub const MOST_SUMS: usize = 64;
+/// Maximum number of sums of a gear.
+pub const MAX_SUMS: usize = 64;
 
 /// Damage of both roots of each tooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToothSums([[f64; 2]; MOST_SUMS]);
+pub struct ToothSums([[f64; 2]; MAX_SUMS]);
 
 impl Default for ToothSums {
     fn default() -> Self {
-        Self([[0.0; 2]; MOST_SUMS])
+        Self([[0.0; 2]; MAX_SUMS])
     }
 }
 
@@ -29,7 +29,7 @@ impl Finite for ToothSums {
 }
 
 impl ToothSums {
-    /// Adds to both roots of a tooth of a gear with `teeth` teeth; nothing if there is no such tooth.
+    /// Adds damage to both roots of a tooth of a gear with `teeth` teeth. A tooth out of range has no effect.
     pub fn add(&mut self, (tooth, teeth): (usize, usize), roots: [f64; 2]) {
         let share = sharing(teeth);
         for (sum, root) in self.0.get_mut(tooth / share).into_iter().flatten().zip(roots) {
@@ -37,12 +37,12 @@ impl ToothSums {
         }
     }
 
-    /// Both roots of a tooth of a gear with `teeth` teeth.
+    /// Damage of both roots of a tooth of a gear with `teeth` teeth.
     pub fn of(&self, (tooth, teeth): (usize, usize)) -> [f64; 2] {
         self.0.get(tooth / sharing(teeth)).copied().unwrap_or_default()
     }
 
-    /// Largest sum at each of both roots.
+    /// Largest sum at each of the two roots.
     pub fn worst(&self) -> [f64; 2] {
         self.0.iter().fold([0.0; 2], |worst, roots| [worst[0].max(roots[0]), worst[1].max(roots[1])])
     }
@@ -50,7 +50,7 @@ impl ToothSums {
 
 /// Number of teeth that share a sum.
 fn sharing(teeth: usize) -> usize {
-    teeth.div_ceil(MOST_SUMS).max(1)
+    teeth.div_ceil(MAX_SUMS).max(1)
 }
 
 impl Serialize for ToothSums {
@@ -66,14 +66,14 @@ impl<'de> Deserialize<'de> for ToothSums {
     }
 }
 
-/// Reads the teeth one by one.
+/// Deserialises the teeth one by one.
 struct Teeth;
 
 impl<'de> Visitor<'de> for Teeth {
     type Value = ToothSums;
 
     fn expecting(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(formatter, "up to {MOST_SUMS} damage sums")
+        write!(formatter, "up to {MAX_SUMS} damage sums")
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut teeth: A) -> Result<ToothSums, A::Error> {

@@ -1,37 +1,37 @@
-//! The way from a row of the table to the value of its variable.
+//! Access to the value of a variable from its row of the table.
 
 use crate::declaration::{EnumType, Field, GetChoice, Parameter, Row, SetChoice};
 use crate::model::{Forces, InputField, LedgerReadings, Motion, PairLine, Parameters, Simulation};
 
-/// Where the value of an output is read.
+/// Source of the value of an output.
 #[derive(Clone, Copy)]
 pub enum OutputSource {
-    /// From the constants of a simulation, which do not change from the end of initialisation on.
+    /// Constants of a simulation, which do not change after initialisation.
     Constant(fn(&Simulation) -> f64),
-    /// From angles and speeds.
+    /// Angles and speeds.
     Motion(fn(&Motion) -> f64),
-    /// From forces, which take one evaluation of the teeth.
+    /// Forces, which need one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
-    /// The same, of the parts of normal forces along axes and across pins.
+    /// Components of normal forces along axes and across pins, which also need an evaluation of the teeth.
     Parts(fn(&Forces) -> f64),
-    /// From a loaded tooth pair of planet 1 with the left side gear, by its number.
+    /// Loaded tooth pair of planet 1 with the left side gear, by its number.
     Pair(usize, fn(&PairLine) -> f64),
-    /// From the ledger and the solver's statistics.
+    /// Ledger and statistics of the solver.
     Ledger(fn(&LedgerReadings) -> f64),
-    /// A reading of an effect that changes at any instant, by its place among these.
+    /// Reading of an effect that changes at any instant, by its index among these.
     Reading(usize),
-    /// A reading of an effect that changes with accepted steps, by its place among these.
+    /// Reading of an effect that changes only with accepted steps, by its index among these.
     LedgerReading(usize),
-    /// Heat, by its place in the ledger.
+    /// Heat, by its index in the ledger.
     Heat(usize),
-    /// A continuous state, by its number.
+    /// Continuous state, by its number.
     State(usize),
-    /// The rate of one.
+    /// Time derivative of a continuous state, by the number of the state.
     Rate(usize),
 }
 
 impl OutputSource {
-    /// Value of the output.
+    /// Returns the value of the output.
     pub fn read(self, simulation: &mut Simulation) -> f64 {
         match self {
             Self::Constant(of) => of(simulation),
@@ -48,7 +48,7 @@ impl OutputSource {
     }
 }
 
-/// Type of a variable and the way to its value.
+/// Type of a variable, and access to its value.
 #[derive(Clone, Copy)]
 pub enum Access {
     /// A real parameter.
@@ -57,7 +57,7 @@ pub enum Access {
     Integer(Field<Parameters, i32>),
     /// A Boolean parameter.
     Boolean(Field<Parameters, bool>),
-    /// An enumeration parameter: type, reading, and assignment of a value that is one of its choices.
+    /// An enumeration parameter: type, getter, and setter for a value that is one of its choices.
     Enumeration(&'static EnumType, GetChoice<Parameters>, SetChoice<Parameters>),
     /// A real input.
     Input(InputField),

@@ -1,5 +1,5 @@
-//! Variables added after the first version. Their value references come after those of all other variables. So no value reference
-//! ever changes, because hosts store value references.
+//! Variables added after the first version. Their value references follow those of all other variables, so that no
+//! value reference ever changes. Hosts store value references.
 
 use super::Variable;
 
@@ -155,7 +155,7 @@ const ADDED: &[&str] = &[
     "solver.input_ramp",
 ];
 
-/// Moves the rows of `ADDED` behind all other rows, in the order of `ADDED`. Returns the new index of each row.
+/// Moves the rows of `ADDED` after all other rows, in the order of `ADDED`. Returns the new index of each row.
 pub fn put_last(rows: &mut Vec<Variable>) -> Vec<usize> {
     let place = |i: usize| ADDED.iter().position(|&name| name == rows[i].name);
     let mut order: Vec<usize> = (0..rows.len()).filter(|&i| place(i).is_none()).collect();

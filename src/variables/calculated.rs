@@ -1,4 +1,4 @@
-//! Rows of the parameters that follow from others: dimensions of the gears and their masses.
+//! Rows of the parameters calculated from others: dimensions and masses of the gears.
 
 use super::access::OutputSource::{self, Constant};
 use crate::declaration::units::{self, DEG, MM};
@@ -7,9 +7,9 @@ use crate::declaration::{Row, row};
 /// Rows of all calculated parameters.
 pub fn rows() -> Vec<Row<OutputSource>> {
     vec![
-        row("geometry.planet_mass", "Mass of one planet as a solid, also where inertias are given")
+        row("geometry.planet_mass", "Mass of one planet as a solid, even if inertias are given")
             .calculated(units::KILOGRAM, Constant(|s| s.masses()[0])),
-        row("geometry.side_mass", "Mass of one side gear as a solid, also where inertias are given")
+        row("geometry.side_mass", "Mass of one side gear as a solid, even if inertias are given")
             .calculated(units::KILOGRAM, Constant(|s| s.masses()[1])),
         row("geometry.contact_ratio", "Contact ratio on the sphere: path of contact over base pitch")
             .calculated(units::ONE, Constant(|s| s.pair().path.contact_ratio)),

@@ -1,12 +1,13 @@
-//! Whether a scene can feel a value: the conditions that rows declare, read once, and warnings about values that change nothing.
+//! Conditions under which the value of a variable has an effect in a scene, as declared in its row. Warnings about
+//! values without effect follow from them.
 //!
 //! ```text
 //! condition = term {" or " term}      term = factor {" and " factor}      factor = "(" condition ")" | test
 //! test = NAME " = " VALUES | NAME " != " VALUES | NAME " > " NUMBER | "co-simulation" | "initialisation"
 //! ```
 //!
-//! NAME is a parameter that is fixed; VALUES are literals, true, false or numbers, separated by `|`. The last two tests hold where
-//! the FMU takes the steps itself, and for values that are set before them.
+//! NAME is a fixed parameter. VALUES are literals, true, false or numbers, separated by `|`. The test `co-simulation`
+//! is true if the FMU integrates. The test `initialisation` is true for values that are set before the first step.
 
 use std::sync::OnceLock;
 
@@ -16,23 +17,23 @@ use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 
-/// When and for whom a value is set.
+/// Situation in which a value is set.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation {
-    /// Whether the FMU takes the steps itself.
+    /// True if the FMU integrates, as in co-simulation.
     pub own_steps: bool,
-    /// Whether the value is there from the start.
+    /// True if the value is set before the simulation starts.
     pub from_start: bool,
 }
 
 impl Situation {
-    /// Values that co-simulation starts with.
+    /// Values set before a co-simulation starts.
     pub const START: Self = Self { own_steps: true, from_start: true };
-    /// Values that are set while it runs.
+    /// Values set while a co-simulation runs.
     pub const RUNNING: Self = Self { own_steps: true, from_start: false };
 }
 
-/// A condition that has been read; rows by their indices.
+/// A parsed condition, with rows by their indices.
 #[derive(Debug)]
 enum Condition {
     Any(Vec<Self>),
@@ -45,7 +46,7 @@ enum Condition {
 }
 
 impl Condition {
-    /// The condition in `text`; none if it has another form or names what does not exist.
+    /// Parses `text`. Returns `None` if it has another form or contains an unknown name.
     fn read(text: &str) -> Option<Self> {
         let several = |parts: Vec<&str>| parts.into_iter().map(Self::read).collect::<Option<Vec<_>>>();
         for (word, of) in [(" or ", Self::Any as fn(Vec<Self>) -> Self), (" and ", Self::All)] {
@@ -88,7 +89,7 @@ impl Condition {
     }
 }
 
-/// Parts of `text` between `word`s that stand in no brackets.
+/// Parts of `text` between `word`s outside brackets.
 fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     let (mut parts, mut depth, mut begin) = (Vec::new(), 0, 0);
     for (i, letter) in text.char_indices() {
@@ -106,7 +107,7 @@ fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     parts
 }
 
-/// The number that a word stands for as a value of `row`.
+/// Number of a word as a value of `row`.
 fn number_in(row: &Variable, word: &str) -> Option<f64> {
     match row.access {
         Access::Enumeration(..) | Access::Boolean(_) => number_of(row, word).ok(),
@@ -118,7 +119,7 @@ fn parameter(index: usize, parameters: &mut Parameters) -> Option<f64> {
     number(&table().rows[index], parameters, &mut Inputs::ZERO.clone())
 }
 
-/// What must hold for the value of a row to be felt: its switch, and its condition.
+/// Conditions under which the value of a row has an effect: its switch and its condition.
 struct Needs {
     start: Option<f64>,
     switch: Option<Condition>,
@@ -132,7 +133,7 @@ impl Needs {
     }
 }
 
-/// Those of all rows.
+/// Conditions of all rows.
 fn needs() -> &'static [Needs] {
     static NEEDS: OnceLock<Vec<Needs>> = OnceLock::new();
     NEEDS.get_or_init(|| {
@@ -147,18 +148,19 @@ fn needs() -> &'static [Needs] {
     })
 }
 
-/// Whether the value of row `index` can be felt in a scene of `parameters`.
+/// True if the value of row `index` has an effect in a scene of `parameters`.
 pub fn is_felt(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
     needs()[index].all().all(|condition| condition.holds(parameters, situation))
 }
 
-/// True if anything but outputs that repeat it depends on the value of row `index` in a scene of `parameters`.
+/// True if anything other than outputs that repeat it depends on the value of row `index` in a scene of `parameters`.
 pub fn acts(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
     let needed = &needs()[index].acts_when;
     is_felt(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
 }
 
-/// A warning, if `value` is not the start value of row `index` and nothing in a scene of `parameters` can feel it.
+/// Returns a warning if `value` differs from the start value of row `index` and has no effect in a scene of
+/// `parameters`.
 pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situation: Situation) -> Option<Problem> {
     let (row, needs) = (&table().rows[index], &needs()[index]);
     if needs.start.is_none_or(|start| start == value) || acts(index, parameters, situation) {
@@ -174,10 +176,10 @@ pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situa
     Some(problem!(row.name, "{}{UNFELT}{}", written(row, value), acts.join(", and with ")))
 }
 
-/// What these warnings have in common.
+/// Common text of these warnings.
 const UNFELT: &str = " changes nothing in this scene: it acts with ";
 
-/// A value as users write it, with its unit.
+/// Returns a value as users write it, with its unit.
 fn written(row: &Variable, value: f64) -> String {
     match row.access {
         Access::Enumeration(kind, ..) => {
@@ -192,7 +194,7 @@ fn written(row: &Variable, value: f64) -> String {
     }
 }
 
-/// Text of a value like that of [`written`], but in the display unit of `row`.
+/// Returns a value like [`written`], but in the display unit of `row`.
 pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
     match (row.access, row.display) {
         (Access::Real(_) | Access::Input(_), Some(shown)) => {
@@ -203,7 +205,7 @@ pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
     }
 }
 
-/// Warnings about all values that a scene starts with and cannot feel.
+/// Returns warnings about all initial values that have no effect in the scene.
 pub fn unfelt(parameters: &Parameters, inputs: &Inputs, situation: Situation) -> Vec<Problem> {
     let (mut parameters, mut inputs) = (*parameters, *inputs);
     let mut of = |(i, row)| unfelt_value(i, number(row, &mut parameters, &mut inputs)?, &mut parameters, situation);
@@ -216,7 +218,7 @@ mod tests {
     use crate::declaration::Variability;
 
     #[test]
-    fn every_condition_can_be_read_and_depends_on_fixed_parameters_alone() {
+    fn every_condition_can_be_parsed_and_depends_only_on_fixed_parameters() {
         fn check(condition: &Condition) {
             match condition {
                 Condition::Any(parts) | Condition::All(parts) => parts.iter().for_each(check),
@@ -265,7 +267,7 @@ mod tests {
         assert!(said(&p, Situation::START).is_empty() && said(&p, Situation::RUNNING).is_empty());
         p.effects.warm_up = true;
         assert!(said(&p, Situation::START).is_empty());
-        assert_eq!(said(&p, Situation::RUNNING).len(), 1, "the oil has a temperature of its own by then");
+        assert_eq!(said(&p, Situation::RUNNING).len(), 1, "the oil warms up, so its given temperature has no effect");
         p.specs.warm_up.sump_given = true;
         assert!(said(&p, Situation::RUNNING).is_empty());
     }

@@ -4,7 +4,7 @@ use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Row, row};
 use crate::model::{InputField, effects};
 
-/// Far beyond any differential, near enough that no intermediate result overflows.
+/// Far beyond any differential, but small enough that no intermediate result overflows.
 const MAX_SPEED: f64 = 1e5;
 const MAX_TORQUE: f64 = 1e8;
 

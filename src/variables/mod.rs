@@ -1,5 +1,5 @@
-//! The one table of FMI variables, collected from where they are declared: names, units, starts, ranges and access.
-//! The model description, value references and the C ABI all come from it.
+//! Table of all FMI variables: names, units, start values, ranges and access, collected from their declarations. The
+//! model description, the value references and the C ABI are derived from this table.
 
 mod access;
 mod added;

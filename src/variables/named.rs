@@ -1,4 +1,4 @@
-//! Variables by their names, and values put where they belong.
+//! Look-up of variables by name, and assignment of their values.
 
 use super::table::{accepted, check_value, table};
 use super::{Access, Variable};
@@ -10,22 +10,23 @@ pub fn index_of(name: &str) -> Option<usize> {
     table().rows.iter().position(|row| row.name == name)
 }
 
-/// The variable `name`, if there is one.
+/// Returns the variable `name`, if it exists.
 pub fn named(name: &str) -> Option<&'static Variable> {
     table().rows.iter().find(|row| row.name == name)
 }
 
-/// Sets a parameter or an input: to a number in the unit of the interface, true and false as 1 and 0, and a choice by its number.
+/// Sets a parameter or an input. Numbers are in the unit of the interface, true and false are 1 and 0, and choices have
+/// their numbers.
 pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &mut Inputs) -> Result<(), Problem> {
     let mut value = value;
     let wrong = |what: &str| Err(problem!(row.name, "{value} {what}"));
     let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
     match row.access {
         Access::Output(_) => return Err(Problem::new(row.name, "is an output and cannot be set")),
-        Access::Integer(_) if !whole => return wrong("is no whole number"),
-        Access::Boolean(_) if value != 0.0 && value != 1.0 => return wrong("is neither 0, false, nor 1, true"),
+        Access::Integer(_) if !whole => return wrong("is not a whole number"),
+        Access::Boolean(_) if value != 0.0 && value != 1.0 => return wrong("is neither 0 (false) nor 1 (true)"),
         Access::Enumeration(kind, ..) if !whole || kind.choices.iter().all(|one| one.value != value as i32) => {
-            return wrong(&format!("is none of the choices {}", choices(row)));
+            return wrong(&format!("is not one of the choices {}", choices(row)));
         }
         Access::Enumeration(..) | Access::Boolean(_) => {}
         Access::Integer(_) => check_value(row, value)?,
@@ -43,19 +44,19 @@ pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &
     Ok(())
 }
 
-/// The number of what `text` says of a variable: a choice by its name, or true or false.
+/// Returns the number for the name of a choice, or for true or false.
 pub fn number_of(row: &Variable, text: &str) -> Result<f64, Problem> {
     let found = match row.access {
         Access::Enumeration(kind, ..) => {
             kind.choices.iter().find(|one| one.name == text).map(|one| f64::from(one.value))
         }
         Access::Boolean(_) => text.parse::<bool>().ok().map(|truth| f64::from(u8::from(truth))),
-        _ => return Err(problem!(row.name, "\"{text}\" is no number; it has no choices")),
+        _ => return Err(problem!(row.name, "\"{text}\" is not a number, and this variable has no choices")),
     };
-    found.ok_or_else(|| problem!(row.name, "\"{text}\" is none of {}", choices(row)))
+    found.ok_or_else(|| problem!(row.name, "\"{text}\" is not one of {}", choices(row)))
 }
 
-/// What a variable can be set to by name.
+/// Returns the names to which a variable can be set.
 fn choices(row: &Variable) -> String {
     match row.access {
         Access::Enumeration(kind, ..) => {
@@ -65,12 +66,13 @@ fn choices(row: &Variable) -> String {
     }
 }
 
-/// The value of a parameter or an input; none of an output, which a simulation has.
+/// Returns the value of a parameter or an input, or `None` for an output.
 pub fn value_of(row: &Variable, parameters: &Parameters, inputs: &Inputs) -> Option<f64> {
     number(row, &mut { *parameters }, &mut { *inputs })
 }
 
-/// The same for many variables in turn: the table gives access to what it may change.
+/// Returns the value of a parameter or an input, like [`value_of`]. It is faster for many variables, because the
+/// mutable access of the table then needs no copies.
 pub fn number(row: &Variable, parameters: &mut Parameters, inputs: &mut Inputs) -> Option<f64> {
     Some(match row.access {
         Access::Real(slot) => *slot(parameters),

@@ -14,37 +14,42 @@ macro_rules! side {
             row(
                 concat!($name, ".angle"),
                 concat!(
-                    "Side gear angle, not that of a wheel behind a half-shaft (",
+                    "Side gear angle, including lash and deflection; 0 as assembled with teeth in mid-gap; for a wheel \
+                     behind a half-shaft read ",
                     $name,
-                    ".wheel_angle); 0 as assembled with teeth in mid-gap, lash and deflection included"
+                    ".wheel_angle"
                 ),
             )
             .output((units::RADIAN, DEG), Motion(|m| m.side_angle[$s])),
             row(
                 concat!($name, ".speed"),
-                concat!("Side gear speed, not that of a wheel behind a half-shaft (", $name, ".wheel_speed)"),
+                concat!("Side gear speed; for a wheel behind a half-shaft read ", $name, ".wheel_speed"),
             )
             .output((units::RAD_PER_S, DEG_PER_S), Motion(|m| m.side_speed[$s])),
             row(
                 concat!($name, ".wheel_angle"),
                 concat!(
-                    "Wheel angle, for brakes and tyres: of the end of the half-shaft, ",
+                    "Wheel angle, for brakes and tyres: ",
                     $name,
                     ".angle - ",
                     $name,
-                    ".twist, where the end moves by itself; of the side gear otherwise"
+                    ".twist if the end of the half-shaft moves by itself, otherwise ",
+                    $name,
+                    ".angle"
                 ),
             )
             .output((units::RADIAN, DEG), Motion(|m| m.wheel_angle[$s])),
             row(
                 concat!($name, ".wheel_speed"),
                 concat!(
-                    "Wheel speed, for brakes and tyres: of the end of the half-shaft where that moves by itself \
+                    "Wheel speed, for brakes and tyres: speed of the end of the half-shaft if the end moves by itself \
                      (scene.",
                     $name,
                     "_drive = speed, or effects.half_shaft with inertia.",
                     $name,
-                    "_end above 0), of the side gear otherwise"
+                    "_end above 0), otherwise ",
+                    $name,
+                    ".speed"
                 ),
             )
             .output((units::RAD_PER_S, DEG_PER_S), Motion(|m| m.wheel_speed[$s])),
@@ -65,7 +70,7 @@ macro_rules! side {
     };
 }
 
-/// Rows of one planet, numbered from 0 inside and from 1 in names.
+/// Rows of one planet, numbered from 0 in the code and from 1 in names.
 macro_rules! planet {
     ($name:literal, $i:literal) => {
         [
@@ -105,21 +110,22 @@ macro_rules! planet {
     };
 }
 
-/// Rows of a loaded pair in the mesh of planet 1 with the left side gear, numbered from 0 inside and from 1 in names.
+/// Rows of a loaded pair in the mesh of planet 1 with the left side gear, numbered from 0 in the code and from 1 in
+/// names.
 macro_rules! pair {
     ($name:literal, $k:literal) => {
         [
             row(
                 concat!($name, ".tooth"),
-                "Loaded pair in the mesh of planet 1 with the left side gear, from the planet's root to its tip: \
-                 number of the planet's tooth, from 0; -1 where there is no such pair",
+                "Tooth number of a loaded pair of planet 1 with the left side gear, from 0 on the planet; -1 = no such \
+                 pair; pairs are ordered from the planet's root to its tip",
             )
             .output(units::ONE, Pair($k, |pair| pair.tooth)),
             row(concat!($name, ".force"), "Normal force of this pair, negative on the coast flank")
                 .output(units::NEWTON, Pair($k, |pair| pair.force)),
             row(
                 concat!($name, ".height"),
-                "Where this pair touches along the planet's profile, from the pitch circle toward the tip at the \
+                "Contact position of this pair on the planet's profile, from the pitch circle toward the tip, at the \
                  mean cone distance",
             )
             .output((units::METRE, MM), Pair($k, |pair| pair.height)),
@@ -153,46 +159,46 @@ pub fn rows() -> Vec<Output> {
     rows.extend(pair!("mesh.pair[2]", 1));
     rows.extend(pair!("mesh.pair[3]", 2));
     rows.extend([
-        row("spin.torque", "Torque that imposes the spin, all planets together; 0 when the spin is free")
+        row("spin.torque", "Total torque on all planets that imposes the spin; 0 if the spin is free")
             .output(units::NEWTON_METRE, Forces(|f| f.spin_torque)),
         row("mesh.frequency", "Tooth engagements per second of one mesh")
             .output(units::HERTZ, Motion(|m| m.mesh_frequency)),
         row("power.in", "Power delivered by carrier drive and spin drive").output(units::WATT, Forces(|f| f.power_in)),
         row("power.out", "Power delivered to the wheels").output(units::WATT, Forces(|f| f.power_out)),
-        row("power.loss", "Power turned into heat within the differential; that of wheel brakes is part of power.out")
+        row("power.loss", "Power turned into heat within the differential; power of wheel brakes is part of power.out")
             .output(units::WATT, Forces(|f| f.power_loss)),
         row(
             "efficiency",
-            "1 - power.loss over the power fed in, which is the sum over those of carrier, left wheel, right wheel and spin \
-             drive that feed; 0 at least, and 1 if nothing is fed",
+            "1 - power.loss / power fed in, which is the sum over those of carrier, left wheel, right wheel and spin \
+             drive that feed power; at least 0, and 1 if none feeds power",
         )
         .output(units::ONE, Forces(efficiency)),
         row(
             "torque_bias_ratio",
-            "Torque of the slow over the fast half-shaft, in the sense of the torques, over the last whole \
-             mesh cycle where shafts twist; 1 below 1e-3 N.m in sum, 1e6 where the fast one carries none, as with \
-             one wheel that stands and one that spins freely; with imposed spin and imposed loads it is the \
-             ratio of the loads, whatever rubs",
+            "Torque of the slow over the fast half-shaft, in the direction of the torques, averaged over the last \
+             whole mesh cycle if shafts twist; 1 if the sum is below 1e-3 N.m; 1e6 if the fast shaft transmits no \
+             torque, for example if one wheel stands still and the other spins freely; with imposed spin and \
+             imposed loads it is the ratio of the loads, regardless of friction",
         )
         .output(units::ONE, Forces(|f| f.torque_bias_ratio)),
         row(
             "locking_value",
-            "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist; 0 below \
-             1e-3 N.m in sum, 1e6 at most",
+            "Difference over sum of the half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 \
+             if the sum is below 1e-3 N.m; at most 1e6",
         )
         .output(units::ONE, Forces(|f| f.locking_value)),
         row("heat.contact", "Heat of contact damping since the start")
             .output(units::JOULE, Ledger(|l| l.heat[CONTACT_HEAT])),
-        row("held.sides", "Side gears that dry friction holds to the carrier")
+        row("held.sides", "Number of side gears that dry friction holds to the carrier")
             .output(units::ONE, Ledger(|l| l.held[0])),
-        row("held.planets", "Groups of planets that dry friction holds on their pins")
+        row("held.planets", "Number of planet groups that dry friction holds on their pins")
             .output(units::ONE, Ledger(|l| l.held[1])),
-        row("held.wheels", "Wheels that their brakes hold").output(units::ONE, Ledger(|l| l.held[2])),
+        row("held.wheels", "Number of wheels that their brakes hold").output(units::ONE, Ledger(|l| l.held[2])),
         row("solver.steps", "Accepted steps").output(units::ONE, Ledger(|l| l.steps)),
         row("solver.rejected", "Rejected steps").output(units::ONE, Ledger(|l| l.rejected)),
         row("solver.rhs_calls", "Evaluations of the tooth forces").output(units::ONE, Ledger(|l| l.rhs_calls)),
         row("solver.step_size", "Size of the last accepted step").output(units::SECOND, Ledger(|l| l.step_size)),
-        row("solver.energy_residual", "Stored energy less work of the inputs plus heat; 0 for an exact solution")
+        row("solver.energy_residual", "Stored energy minus work of the inputs plus heat; 0 for an exact solution")
             .output(units::JOULE, Ledger(|l| l.energy_residual)),
     ]);
     for (place, heat) in heats().enumerate() {

@@ -1,6 +1,7 @@
 //! Rows of the continuous states and their derivatives, for the host's solvers.
 //!
-//! Some states are outputs; the others, and all derivatives, are local. States of bodies that a scene lacks are 0.
+//! Some states are outputs; the other states and all derivatives are local variables. States of bodies that a scene
+//! does not have are 0.
 
 use super::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, MM};
@@ -12,14 +13,14 @@ struct State {
     name: String,
     derivative: String,
     description: String,
-    /// Magnitude to which the host's solver relates errors.
+    /// Nominal value for the error control of the host's solver.
     nominal: f64,
     unit: Unit,
     display: Option<DisplayUnit>,
     rate_unit: Unit,
 }
 
-/// How a body moves: units of position, velocity and acceleration.
+/// Kind of motion of a body: units of position, velocity and acceleration.
 struct Kind {
     units: [Unit; 3],
     display: [Option<DisplayUnit>; 2],
@@ -29,7 +30,7 @@ const TURNS: Kind =
     Kind { units: [units::RADIAN, units::RAD_PER_S, units::RAD_PER_S2], display: [Some(DEG), Some(DEG_PER_S)] };
 const SHIFTS: Kind = Kind { units: [units::METRE, units::M_PER_S, units::M_PER_S2], display: [Some(MM), None] };
 
-/// Deflection of teeth as the angle of a gear [rad].
+/// Tooth deflection as the angle of a gear [rad].
 const DEFLECTION: f64 = 1e-3;
 /// Angle of the carrier [rad].
 const ANGLE: f64 = 1.0;
@@ -41,12 +42,12 @@ const AXIAL: f64 = 1e-5;
 const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
 const AXIAL_SPEED: f64 = 1e-2;
-/// Names of position and velocity of a side gear that turns.
+/// Names of the angle and speed of a side gear.
 const SIDE: [&str; 2] = ["relative_angle", "speed"];
-/// The same along its axis.
+/// Names of the axial position and speed of a side gear.
 const SEAT: [&str; 2] = ["seat_position", "seat_speed"];
 
-/// Position and velocity of a body.
+/// Returns the position and velocity states of a body.
 fn states(body: Body) -> [State; 2] {
     let of = match body {
         Body::Side(s) | Body::Seat(s) => ["left", "right"][s].into(),
@@ -55,15 +56,13 @@ fn states(body: Body) -> [State; 2] {
         Body::Attached(k) => ATTACHED[k].of.into(),
     };
     let (kind, what, names, nominal) = match body {
-        Body::Side(0) => (&TURNS, "Left side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
-        Body::Side(_) => (&TURNS, "Right side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
+        Body::Side(0) => (&TURNS, "Left side gear, angle relative to the carrier", SIDE, [DEFLECTION, SPEED]),
+        Body::Side(_) => (&TURNS, "Right side gear, angle relative to the carrier", SIDE, [DEFLECTION, SPEED]),
         Body::Carrier => (&TURNS, "Carrier", ["angle", "speed"], [ANGLE, SPEED]),
         Body::Seat(0) => (&SHIFTS, "Left side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
         Body::Seat(_) => (&SHIFTS, "Right side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
         Body::Planet(_) => (&TURNS, "Planet on its pin", ["spin_angle", "spin_speed"], [DEFLECTION, SPEED]),
-        Body::Pin(_) => {
-            (&TURNS, "Pin, its angle counted from the carrier", ["pin_angle", "pin_speed"], [DEFLECTION, SPEED])
-        }
+        Body::Pin(_) => (&TURNS, "Pin, angle relative to the carrier", ["pin_angle", "pin_speed"], [DEFLECTION, SPEED]),
         Body::Attached(k) => (&TURNS, ATTACHED[k].what, ATTACHED[k].states, [TWIST, SPEED]),
     };
     [(0, "position"), (1, "velocity")].map(|(i, part)| State {
@@ -82,8 +81,8 @@ fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'st
     Variable { causality: Causality::Local, ..row }
 }
 
-/// Adds the missing rows to `rows`, sets the magnitudes of all states, and returns the indices of states and derivatives:
-/// positions in the order of `BODIES`, then velocities.
+/// Adds the missing rows to `rows` and sets the nominal values of all states. Returns the indices of states and
+/// derivatives: positions in the order of `BODIES`, then velocities.
 pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) {
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);
     let mut numbered = Vec::new();
@@ -94,7 +93,7 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
     for &(k, ref state) in &numbered {
         let found = rows.iter().position(|row| row.name == state.name);
         indices[k] = found.unwrap_or_else(|| {
-            // the table lives as long as the process
+            // the table exists as long as the process
             let [name, description] = [&state.name, &state.description].map(|text| text.clone().leak());
             let row = local(name, state.unit, OutputSource::State(k), description);
             rows.push(Variable { display: state.display, ..row });

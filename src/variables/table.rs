@@ -1,4 +1,4 @@
-//! The assembled table, and what follows from it: range checks and the GUID.
+//! The assembled table, range checks and the GUID.
 
 use std::fmt::Write as _;
 use std::sync::OnceLock;
@@ -8,7 +8,7 @@ use crate::declaration::{Causality, Range, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
 
-/// All variables; the value reference of a variable is its index.
+/// Table of all variables. The value reference of a variable is its index.
 pub struct Table {
     /// The rows.
     pub rows: Vec<Variable>,
@@ -18,23 +18,23 @@ pub struct Table {
     pub inputs: Vec<usize>,
     /// Indices of the continuous states, in their order.
     pub states: [usize; STATES],
-    /// Indices of their derivatives.
+    /// Indices of the derivatives of the states.
     pub derivatives: [usize; STATES],
 }
 
 impl Table {
-    /// Number of a continuous state among the states; none for another variable.
+    /// Returns the number of a continuous state among the states, or `None` for another variable.
     pub fn state(&self, reference: u32) -> Option<usize> {
         self.states.iter().position(|&index| index as u32 == reference)
     }
 
-    /// True for a velocity among the states. Imposed speeds may set these states at events.
+    /// True if the variable is a velocity state. Imposed speeds may set these states at events.
     pub fn is_velocity(&self, reference: u32) -> bool {
         self.state(reference).is_some_and(|k| k >= STATES / 2)
     }
 }
 
-/// The table.
+/// Returns the table.
 pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
@@ -52,7 +52,7 @@ pub fn table() -> &'static Table {
     })
 }
 
-/// Start value of a variable that has a real one.
+/// Returns the start value of a real parameter or input.
 pub fn real_start(variable: &Variable) -> Option<f64> {
     match variable.access {
         Access::Real(access) => Some(*access(&mut Parameters::default())),
@@ -61,7 +61,7 @@ pub fn real_start(variable: &Variable) -> Option<f64> {
     }
 }
 
-/// Checks one number against its row: finite and within range.
+/// Checks that a number is finite and within the range of its row.
 pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     if !value.is_finite() {
         return Err(problem!(row.name, "{value} is not a finite number"));
@@ -72,7 +72,7 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     }
     let unit = row.unit.map_or("", |u| if u.name == "1" { "" } else { u.name });
     let mut text = format!("{value} {unit} is outside [{min}, {max}] {unit}");
-    // the commonest mistake: a value given in the unit people think in
+    // the most common mistake: a value in the display unit
     if let Some(shown) = row.display {
         let meant = shown.read(value);
         if (min..=max).contains(&meant) {
@@ -82,14 +82,15 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     Err(Problem::new(row.name, text.replace("  ", " ").replace(" ;", ";").trim_end()))
 }
 
-/// Part of the larger of 1 SI unit and the last value by which a controller's rounding may exceed a range.
+/// Rounding error by which a value may exceed a range, relative to the larger of 1 SI unit and the last value.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns the value that a variable takes if it is set to `value` after it was `last`: the limit of its range if an input or a
-/// tunable parameter exceeds the range only by rounding. Fails for all other values that are out of range or not finite.
+/// Returns the value that a variable takes if it is set to `value` after it was `last`. An input or a tunable parameter
+/// that exceeds its range only by rounding is set to the limit. Fails for all other values that are out of range or not
+/// finite.
 pub fn accepted(row: &Variable, value: f64, last: f64) -> Result<f64, Problem> {
     let rounding = ROUNDING * last.abs().max(1.0);
-    // a host may trap invalid operations, such as arithmetic with NaN: values are compared first
+    // a host may trap invalid operations, such as arithmetic with NaN, so values are compared first
     let value = match row.range.filter(|_| row.variability != Variability::Fixed) {
         Some(range) if value < range.min && range.min - value <= rounding => range.min,
         Some(range) if value > range.max && value - range.max <= rounding => range.max,
@@ -98,7 +99,7 @@ pub fn accepted(row: &Variable, value: f64, last: f64) -> Result<f64, Problem> {
     check_value(row, value).map(|()| value)
 }
 
-/// Every parameter that is not finite or out of range.
+/// Returns a problem for every parameter that is not finite or out of range.
 pub fn check_ranges(parameters: &Parameters) -> Vec<Problem> {
     let mut p = *parameters;
     let checked = table().rows.iter().filter_map(|row| match row.access {
@@ -109,7 +110,7 @@ pub fn check_ranges(parameters: &Parameters) -> Vec<Problem> {
     checked.collect()
 }
 
-/// `fixed` with the tunable parameters of `parameters`.
+/// Returns `fixed` with the tunable parameters of `parameters`.
 pub fn tuned(parameters: &Parameters, fixed: &Parameters) -> Parameters {
     let (mut from, mut to) = (*parameters, *fixed);
     for row in table().rows.iter().filter(|row| row.variability == Variability::Tunable) {
@@ -120,7 +121,7 @@ pub fn tuned(parameters: &Parameters, fixed: &Parameters) -> Parameters {
     to
 }
 
-/// GUID of this interface: changes whenever a row changes in what a host relies on.
+/// GUID of this interface. It changes whenever a property of a row changes on which a host relies.
 pub fn guid() -> &'static str {
     static GUID: OnceLock<String> = OnceLock::new();
     GUID.get_or_init(|| {

@@ -1,4 +1,4 @@
-//! Values that act in a scene although nobody set them: start values, which are those of the study.
+//! Start values that have an effect in a scene although they were not set. These are the values of the study.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,12 +9,13 @@ use super::{Access, Causality, Variable};
 use crate::model::{Inputs, Parameters, turned_backward};
 use crate::problem::Problem;
 
-/// Bits of a word of [`SetValues`].
+/// Number of bits in a word of [`SetValues`].
 const BITS: usize = u64::BITS as usize;
-/// Words of [`SetValues`]; parameters and inputs are far fewer than its bits.
+/// Number of words in [`SetValues`]; it has far more bits than there are parameters and inputs.
 const WORDS: usize = 16;
 
-/// The variables that somebody has set, a bit for each row of the table. A value that is set to its start value counts.
+/// Set of the variables that were set, one bit for each row of the table. It includes a variable that is set to its
+/// start value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetValues([u64; WORDS]);
 
@@ -38,7 +39,7 @@ impl SetValues {
         index_of(name).is_some_and(|index| self.contains(index))
     }
 
-    /// True if any value of the differential itself was set: it is then another one than the study's.
+    /// True if a value that describes the differential was set, so that it is not the differential of the study.
     pub fn has_own_differential(&self) -> bool {
         let rows = table().rows.iter().enumerate();
         rows.filter(|(_, row)| OWN.contains(&group(row))).any(|(index, _)| self.contains(index))
@@ -47,43 +48,43 @@ impl SetValues {
 
 /// Group of the inputs.
 const DRIVES: &str = "drives and loads";
-/// Group of the lock, which acts by its command.
+/// Group of the lock, which its command activates.
 const LOCK: &str = "lock";
 /// Groups that describe the differential itself.
 const OWN: [&str; 3] = ["geometry", "material", "inertia"];
-/// Groups that say how a scene is computed. Their values are choices of a method, not properties of a differential.
+/// Groups that determine how a scene is computed. Their values select methods and do not describe a differential.
 const METHODS: [&str; 4] = ["scene", "effects", "solver", "solid"];
-/// Values that cannot be others.
-const CERTAIN: [&str; 1] = ["geometry.shaft_angle"];
-/// Endings of the names of factors; a factor of 1 changes nothing.
+/// Variables with only one valid value.
+const SINGLE_VALUED: [&str; 1] = ["geometry.shaft_angle"];
+/// Endings of the names of factors. A factor of 1 has no effect.
 const FACTORS: [&str; 3] = ["_factor", "_ratio", ".beyond_limit"];
 
-/// Group of a variable: the first part of its name, for an input that of all inputs.
+/// Returns the group of a variable: the first part of its name, or the common group of all inputs.
 fn group(row: &Variable) -> &'static str {
     if row.causality == Causality::Input { DRIVES } else { row.name.split('.').next().unwrap_or(row.name) }
 }
 
-/// True if `value` of `row` stands for nothing: a number of 0, or a factor of 1.
-fn is_none(row: &Variable, value: f64) -> bool {
+/// True if `value` of `row` has no effect: a number of 0, or a factor of 1.
+fn has_no_effect(row: &Variable, value: f64) -> bool {
     let is_number = matches!(row.access, Access::Real(_) | Access::Integer(_) | Access::Input(_));
     is_number && (value == 0.0 || value == 1.0 && FACTORS.iter().any(|ending| row.name.ends_with(ending)))
 }
 
-/// Values of a group that act and that nobody set.
+/// Values of a group that have an effect but were not set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unset {
-    /// Name of the group: of an effect, or "geometry", "material", …
+    /// Name of the group: an effect, or "geometry", "material", …
     pub group: &'static str,
-    /// Names and values, as people write them.
+    /// Names and values, as users write them.
     pub values: Vec<String>,
 }
 
-/// Start values that act in a scene of `parameters` and `inputs` and that are not `set`, by group.
+/// Returns start values, by group, that have an effect in a scene of `parameters` and `inputs` and are not in `set`.
 pub fn unset(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Vec<Unset> {
     unset_as_shown(parameters, inputs, set, |row| *row)
 }
 
-/// These values, each with the display unit that `shown` gives to its variable.
+/// Returns the values like [`unset`], each in the display unit that `shown` gives to its variable.
 pub fn unset_as_shown(
     parameters: &Parameters,
     inputs: &Inputs,
@@ -98,13 +99,13 @@ pub fn unset_as_shown(
         if set.contains(index)
             || matches!(row.access, Access::Output(_) | Access::Boolean(_))
             || METHODS.contains(&group)
-            || CERTAIN.contains(&row.name)
+            || SINGLE_VALUED.contains(&row.name)
             || group == LOCK && !is_commanded
         {
             continue;
         }
         let Some(value) = number(row, &mut parameters, &mut inputs) else { continue };
-        if is_none(row, value) || !acts(index, &mut parameters, Situation::START) {
+        if has_no_effect(row, value) || !acts(index, &mut parameters, Situation::START) {
             continue;
         }
         let name = if group == DRIVES { row.name } else { row.name.split_once('.').map_or(row.name, |(_, rest)| rest) };
@@ -117,7 +118,7 @@ pub fn unset_as_shown(
     found
 }
 
-/// The groups in one line; empty if there are none.
+/// Returns the groups in one line; empty if there are none.
 pub fn in_one_line(found: &[Unset]) -> String {
     if found.is_empty() {
         return String::new();
@@ -129,7 +130,7 @@ pub fn in_one_line(found: &[Unset]) -> String {
 /// Start of the line that lists these values.
 pub const NOBODY_SET: &str = "values of the study that nobody set act in this scene: ";
 
-/// A warning if load torques that nobody set would turn the wheels backward from rest.
+/// Returns a warning if load torques that were not set would turn the wheels backward from rest.
 pub fn runaway(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Option<Problem> {
     let is_set = ["left.load_torque", "right.load_torque"].map(|name| set.contains_named(name));
     turned_backward(parameters, inputs, is_set)
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_list_names_what_acts_and_nothing_that_was_set() {
+    fn the_list_names_values_with_an_effect_and_none_that_was_set() {
         let mut p = Parameters::default();
         p.scene.gear_contact = GearContact::Ideal;
         let found = unset(&p, &Inputs::default(), &set_of(&["geometry.module", "left.load_torque"]));
@@ -184,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn effects_that_are_on_list_their_constants_and_a_lock_does_when_it_is_commanded() {
+    fn active_effects_list_their_constants_and_a_lock_does_so_when_commanded() {
         let mut p = Parameters::default();
         p.effects.half_shaft = true;
         p.effects.limited_slip = true;
@@ -206,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn own_gears_material_or_inertia_are_another_differential() {
+    fn values_of_gears_material_or_inertia_describe_another_differential() {
         for (name, own) in [
             ("geometry.module", true),
             ("material.density", true),
@@ -218,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn loads_that_nobody_set_are_warned_of_where_they_turn_the_wheels_backward() {
+    fn loads_that_were_not_set_cause_a_warning_if_they_turn_the_wheels_backward() {
         let mut p = Parameters::default();
         p.scene.carrier_drive = CarrierDrive::Torque;
         let warned = |torque: f64, set: &[&str]| {

@@ -110,7 +110,7 @@ static double run(void)
     return speed;
 }
 
-/* The same run in another floating-point mode: the mode stays; prints the relative change of the result. */
+/* Repeats the run in another floating-point mode, which must not change. Prints the relative change of the result. */
 static void in_mode(const char *name, unsigned sse, int rounding, double plain)
 {
     unsigned before = _mm_getcsr();
@@ -125,7 +125,7 @@ static void in_mode(const char *name, unsigned sse, int rounding, double plain)
     printf("%s %.3g\n", name, fabs(speed / plain - 1.0));
 }
 
-/* Whether a run survives a host that lets floating-point exceptions trap. */
+/* True if a run survives a host that lets floating-point exceptions trap. */
 static void trapping(const char *name, int exceptions)
 {
     fflush(stdout);
@@ -151,13 +151,13 @@ int main(int count, char **arguments)
     input = (unsigned)atoi(arguments[3]);
     output = (unsigned)atoi(arguments[4]);
     inertia = (unsigned)atoi(arguments[5]);
-    /* settings that no library would make */
+    /* settings that no library would choose */
     setlocale(LC_ALL, "C.UTF-8");
     setenv("BEVEL_TEST", "%s 1,5", 1);
     umask(027);
     signal(SIGPIPE, SIG_DFL);
 
-    /* includes opening the library and a first run, for which the C library may open files */
+    /* after opening the library and a first run, because the C library may open files for these */
     Surroundings before = inspect();
     open_library(arguments[1]);
     FILE *output_file = tmpfile();

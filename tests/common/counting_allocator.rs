@@ -1,5 +1,5 @@
-//! An allocator that counts what a thread allocates. A test program installs it with `#[global_allocator]`.
-#![allow(dead_code)] // each test file uses a part
+//! An allocator that counts the allocations of each thread. A test program installs it with `#[global_allocator]`.
+#![allow(dead_code)] // each test program uses only some items
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -15,12 +15,12 @@ pub fn allocations() -> usize {
     ALLOCATIONS.get()
 }
 
-/// Bytes that this thread allocated, freed or not.
+/// Number of bytes that this thread has allocated, whether freed or not.
 pub fn allocated_bytes() -> usize {
     ALLOCATED_BYTES.get()
 }
 
-/// Bytes that this thread allocated and did not free.
+/// Number of bytes that this thread has allocated and not freed.
 pub fn live_bytes() -> isize {
     LIVE_BYTES.get()
 }
@@ -34,7 +34,7 @@ fn count(allocations: usize, bytes: isize) {
 /// The system's allocator, with counters.
 pub struct CountingAllocator;
 
-// SAFETY: passes everything to the system's allocator; counting allocates nothing
+// SAFETY: passes every call to the system's allocator; counting does not allocate
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(1, layout.size() as isize);

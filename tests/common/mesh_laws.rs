@@ -1,6 +1,6 @@
 //! Contact laws as a scene builds them.
 
-#![allow(dead_code)] // each test binary uses its own part
+#![allow(dead_code)] // each test program uses only some items
 
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{Face, Slice};
@@ -11,9 +11,11 @@ use bevel_differential::geometry::Pair;
 
 /// 1/d_max [1/m].
 pub const PER_FULL_DEPTH: f64 = 1e4;
-/// No damping, that of IMPACT, and Hunt and Crossley's of a coefficient of restitution of 0.8 at 0.1 m/s.
+/// No damping.
 pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: PER_FULL_DEPTH };
+/// Damping of IMPACT.
 pub const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: PER_FULL_DEPTH };
+/// Damping of Hunt and Crossley for a coefficient of restitution of 0.8 at 0.1 m/s.
 pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,26 +30,26 @@ pub fn impact(exponent: f64) -> Impact {
     Impact { stiffness: 1.8e10, exponent, damping: 0.0, per_full_depth: PER_FULL_DEPTH }
 }
 
-/// An elastic law, and the face that it acts on.
+/// An elastic law with the face on which it acts.
 pub struct Built {
     pub spring: AnySpring,
-    /// Where the resultant of a pair acts.
+    /// Point at which the resultant of a pair acts.
     pub whole: Resultant,
-    /// The face in one point.
+    /// Face concentrated in one point.
     pub face: Face,
-    /// The face in many points, if the law is valid at every cone distance.
+    /// Face at many points, if the law is valid at every cone distance.
     pub cut: Option<Face>,
 }
 
 impl Built {
-    /// The law `kind` on teeth of steel.
+    /// Creates the law `kind` for steel teeth.
     pub fn new(pair: &Pair, kind: Kind) -> Self {
         let line_load = ContactSpec::default().line_load;
         let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, line_load).unwrap();
         Self::of(pair, &stiffness, kind, 1.5)
     }
 
-    /// The law `kind` on teeth of known stiffness, with the exponent of IMPACT.
+    /// Creates the law `kind` for teeth of known stiffness. The exponent applies to IMPACT.
     pub fn of(pair: &Pair, stiffness: &PairStiffness, kind: Kind, exponent: f64) -> Self {
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;

@@ -1,5 +1,5 @@
-//! An FMI host for tests: calls the C functions as a C program does, and records what they log.
-#![allow(dead_code)] // each test file uses a part
+//! An FMI host for tests. It calls the C functions as a C program does, and records their log messages.
+#![allow(dead_code)] // each test program uses only some items
 
 pub mod counting_allocator;
 pub mod random;
@@ -18,7 +18,7 @@ pub fn reference(name: &str) -> u32 {
     table().rows.iter().position(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}")) as u32
 }
 
-/// An instance and its log.
+/// An instance with its log.
 pub struct Host {
     pub c: ComponentPointer,
     recorder: Box<Recorder>,
@@ -32,19 +32,19 @@ impl Drop for Host {
 }
 
 impl Host {
-    /// A new instance for co-simulation with logging on.
+    /// Creates an instance for co-simulation with logging on.
     pub fn new() -> Self {
         Self::with_logging(1)
     }
 
-    /// A new instance for co-simulation with logging on (1) or off (0).
+    /// Creates an instance for co-simulation with logging on (1) or off (0).
     pub fn with_logging(on: Boolean) -> Self {
         let host = Self::instantiate_with((Some("test"), CO_SIMULATION, Some(variables::guid()), None), on);
         assert!(!host.c.is_null(), "{:?}", host.log());
         host
     }
 
-    /// fmi2Instantiate with logging on and any arguments; `c` is NULL if refused.
+    /// Calls fmi2Instantiate with logging on and any arguments; `c` is NULL if the call is refused.
     pub fn instantiate(name: Option<&str>, kind: i32, guid: Option<&str>, resources: Option<&str>) -> Self {
         Self::instantiate_with((name, kind, guid, resources), 1)
     }
@@ -63,14 +63,14 @@ impl Host {
         Self { c, recorder }
     }
 
-    /// A new instance for model exchange.
+    /// Creates an instance for model exchange.
     pub fn for_exchange() -> Self {
         let host = Self::instantiate(Some("test"), MODEL_EXCHANGE, Some(variables::guid()), None);
         assert!(!host.c.is_null(), "{:?}", host.log());
         host
     }
 
-    /// From instantiated to continuous-time mode.
+    /// Initialises the instance and enters continuous-time mode.
     pub fn start_exchange(&self) {
         self.start();
         self.update();
@@ -78,7 +78,7 @@ impl Host {
         assert_eq!(unsafe { fmi2EnterContinuousTimeMode(self.c) }, Status::Ok);
     }
 
-    /// fmi2NewDiscreteStates.
+    /// Calls fmi2NewDiscreteStates.
     pub fn update(&self) -> EventInfo {
         let mut info = EventInfo::default();
         // SAFETY: a live component and memory for the result
@@ -86,7 +86,8 @@ impl Host {
         info
     }
 
-    /// An instance on a level: 1 ideal, 3 tooth; wheels with some inertia, so that loads may differ.
+    /// Creates an instance with gear contact `level`: 1 ideal, 3 tooth. The wheels have inertia, so that loads may
+    /// differ.
     pub fn on_level(level: i32) -> Self {
         let host = Self::new();
         assert_eq!(host.set_integer("scene.gear_contact", level), Status::Ok);
@@ -120,7 +121,7 @@ impl Host {
         unsafe { fmi2Terminate(self.c) }
     }
 
-    /// From instantiated to step mode.
+    /// Initialises the instance and enters step mode.
     pub fn start(&self) {
         let statuses = [self.setup(), self.enter(), self.exit()];
         assert_eq!(statuses, [Status::Ok; 3], "{:?}", self.log());
@@ -131,7 +132,7 @@ impl Host {
         unsafe { fmi2DoStep(self.c, t, h, 1) }
     }
 
-    /// Steps `n` times by `h` from `t`; all must succeed.
+    /// Takes `n` steps of size `h` from time `t`; all must succeed.
     pub fn steps(&self, t: f64, h: f64, n: usize) {
         for i in 0..n {
             assert_eq!(self.step(t + i as f64 * h, h), Status::Ok, "{:?}", self.log());
@@ -178,7 +179,7 @@ impl Host {
         value
     }
 
-    /// All outputs, as bits.
+    /// Returns all outputs as bits.
     pub fn outputs(&self) -> Vec<u64> {
         let references: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
         let mut values = vec![f64::NAN; references.len()];
@@ -188,7 +189,7 @@ impl Host {
         values.into_iter().map(f64::to_bits).collect()
     }
 
-    /// Takes `n` steps of 1 ms from step `first` on, with a varying load; returns the outputs after each step, as bits.
+    /// Takes `n` steps of 1 ms from step `first` on, with a varying load. Returns the outputs after each step as bits.
     pub fn record_steps(&self, first: usize, n: usize) -> Vec<Vec<u64>> {
         (first..first + n)
             .map(|i| {
@@ -246,7 +247,7 @@ impl Host {
         self.recorder.lines().len()
     }
 
-    /// The last message; empty if there is none.
+    /// Returns the last message; empty without any message.
     pub fn last_message(&self) -> String {
         self.recorder.lines().last().map_or_else(String::new, |line| line.message.clone())
     }
@@ -263,7 +264,7 @@ pub fn assert_contains(text: &str, words: &[&str]) {
     }
 }
 
-/// Whether a variable is a real parameter.
+/// True if a variable is a real parameter.
 pub fn is_real_parameter(access: &Access) -> bool {
     matches!(access, Access::Real(_))
 }

@@ -1,24 +1,24 @@
-//! Draws of tests and of the laboratory that fastrand does not have. Its generator gives the same numbers for the same seed on every
-//! machine.
-#![allow(dead_code)] // each user needs a part
+//! Random draws for tests and the laboratory that fastrand does not provide. Its generator gives the same numbers for
+//! the same seed on every machine.
+#![allow(dead_code)] // each program uses only some items
 
 use fastrand::Rng;
 
-/// Draws on top of a generator.
+/// Random draws from a generator.
 pub trait Draws {
     /// Number from 0 to `n` - 1; 0 if `n` is 0.
     fn below(&mut self, n: usize) -> usize;
     /// Integer from `low` to `high`, both included.
     fn whole(&mut self, low: i32, high: i32) -> i32;
-    /// Number from `low` to `high`, evenly.
+    /// Number from `low` to `high`, uniformly distributed.
     fn between(&mut self, low: f64, high: f64) -> f64;
-    /// Number up to `factor` times more or less than `middle`, evenly by its logarithm.
+    /// Number from `middle / factor` to `middle * factor`, uniformly distributed in its logarithm.
     fn about(&mut self, middle: f64, factor: f64) -> f64;
-    /// True once in `n`.
+    /// True with probability 1 / `n`.
     fn chance(&mut self, n: usize) -> bool;
-    /// True for a share of all draws.
+    /// True with probability `share`.
     fn share(&mut self, share: f64) -> bool;
-    /// One of `from`, which is not empty.
+    /// One element of `from`, which is not empty.
     fn pick<T: Clone>(&mut self, from: &[T]) -> T;
 }
 

@@ -1,5 +1,6 @@
-//! A logger that records its lines. It also serves the unit tests of `src/fmi2` and the random calls of `fmu-build`.
-#![allow(dead_code)] // each user needs a part
+//! A logger that records its lines. It is also used by the unit tests of `src/fmi2` and by the random calls of
+//! `fmu-build`.
+#![allow(dead_code)] // each program uses only some items
 
 use std::ffi::{CStr, c_void};
 use std::ptr;
@@ -18,12 +19,12 @@ pub struct Line {
     pub message: String,
 }
 
-/// The lines logged so far.
+/// Lines logged so far.
 #[derive(Default)]
 pub struct Recorder(Mutex<Vec<Line>>);
 
 impl Recorder {
-    /// Callbacks that record into this, which must outlive the instance.
+    /// Returns callbacks that record into this recorder, which must outlive the instance.
     pub fn callbacks(&self) -> CallbackFunctions {
         callbacks(record, ptr::from_ref(self).cast_mut().cast())
     }
@@ -34,9 +35,9 @@ impl Recorder {
     }
 }
 
-/// Callbacks with `logger`.
+/// Returns callbacks with `logger`.
 pub fn callbacks(logger: PlainLogger, environment: *mut c_void) -> CallbackFunctions {
-    // SAFETY: on the platforms of the tests, a plain function receives fixed arguments as a variadic one does
+    // SAFETY: on the platforms of the tests, a plain function receives fixed arguments like a variadic function
     let logger = unsafe { std::mem::transmute::<PlainLogger, Logger>(logger) };
     CallbackFunctions {
         logger: Some(logger),
@@ -47,7 +48,7 @@ pub fn callbacks(logger: PlainLogger, environment: *mut c_void) -> CallbackFunct
     }
 }
 
-/// Variadic in C, but no argument follows the message.
+/// Records a message. The logger is variadic in C, but no argument follows the message.
 unsafe extern "C" fn record(environment: *mut c_void, _instance: Text, status: Status, category: Text, message: Text) {
     // SAFETY: `environment` is the recorder, which outlives the instance; the strings come from the FMU
     let (recorder, category, message) =

@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::errors::ToothErrorSpec;
 
-/// Everything at once.
+/// Returns tooth errors of every kind at the same time.
 pub fn every_kind() -> ToothErrorSpec {
     ToothErrorSpec {
         accuracy_grade: 7,

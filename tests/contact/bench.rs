@@ -39,7 +39,7 @@ fn impact_equals_adams_table() {
 }
 
 #[test]
-fn stiffness_from_hertz_is_the_golden_one_of_the_study_s_pair() {
+fn stiffness_from_hertz_matches_the_golden_value_of_the_study_s_pair() {
     let k = hertz::stiffness(22.5e-3, 36e-3, 2.07e11, 0.25);
     let expected = f(&golden()["hertz_impact_m1kg_v1_K1.732e10"], "K");
     println!("relative deviation {:e}", k / expected - 1.0);
@@ -47,7 +47,7 @@ fn stiffness_from_hertz_is_the_golden_one_of_the_study_s_pair() {
 }
 
 #[test]
-fn a_free_body_is_stopped_at_hertz_depth_by_hertz_force() {
+fn a_free_body_stops_at_the_hertzian_depth_and_force() {
     let golden = golden();
     let mut worst = 0.0f64;
     for key in ["hertz_impact_m1kg_v1_K1.732e10", "hertz_impact_m0.5_v0.1_K1e9"] {
@@ -76,7 +76,7 @@ fn a_body_in_a_dead_zone_swings_as_far_as_its_energy_allows() {
     }
 }
 
-/// Rebound speed over impact speed, and greatest penetration, of a mass hitting a law: Runge–Kutta of fourth order.
+/// Ratio of rebound to impact speed, and largest penetration, of a mass hitting a law: fourth-order Runge–Kutta method.
 fn rebound(force: impl Fn(f64, f64) -> f64, mass: f64, speed: f64, step: f64) -> (f64, f64) {
     let slope = |[d, v]: [f64; 2]| [v, if d > 0.0 { -force(d, v) / mass } else { 0.0 }];
     let along = |[d, v]: [f64; 2], k: [f64; 2], h: f64| [d + h * k[0], v + h * k[1]];
@@ -119,7 +119,7 @@ fn a_mass_rebounds_from_impact_with_the_golden_restitution() {
         worst_d = worst_d.max((depth * 1e3 / row[1].as_f64().expect("mm") - 1.0).abs());
     }
     println!("restitution off by {worst_e:e}, depth by {worst_d:e} (relative)");
-    // the depth is the greatest at a step of either integration, not between them
+    // the depth is the largest value at a step of each integration, not between steps
     assert!(worst_e < 1e-8 && worst_d < 2e-5);
 }
 

@@ -8,14 +8,14 @@ fn golden() -> serde_json::Value {
 }
 
 #[test]
-fn impact_and_step_damping_are_the_formula_of_adams() {
+fn impact_and_step_damping_match_the_formula_of_adams() {
     for exponent in [1.0, 1.3, 1.5, 2.0, 2.5] {
         let law = Impact { stiffness: 3e9, exponent, damping: 4e4, per_full_depth: 1e4 };
         let damping = Damping::Step { coefficient: law.damping, per_full_depth: law.per_full_depth };
         for d in [1e-9, 1e-6, 3.3e-5, 9e-5, 1e-4, 2e-4] {
             for rate in [-3.0, -1e-3, 0.0, 0.05, 2.0] {
                 let f = law.force(d, rate);
-                // at rest the derivative by depth is the elastic one
+                // at rest, the derivative with respect to depth is the elastic one
                 let stiffness = law.force(d, 0.0).by_depth;
                 assert_eq!(damping.apply(f.elastic, stiffness, d, rate), f);
                 let u = (d * 1e4).min(1.0);

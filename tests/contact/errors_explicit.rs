@@ -1,9 +1,10 @@
-//! Gaps by misalignment and runout against explicit flanks that are displaced in space and turned until they touch.
-//!
-//! The planet's flank, and the side gear's, are moved by about a micrometre. Then the side gear's rotation at first touch
-//! on the sphere of radius R is searched for over the whole flank, and compared with that of the undisplaced gears: their
-//! difference, times R sinδ_b, is the gap that the displacement opens. Axes, flanks and displacements are vectors in the world;
-//! nothing here uses the normal, the place of contact, or mirror symmetry.
+//! Gaps caused by misalignment and runout, checked against explicit flanks that are displaced in space and turned until
+//! they touch.
+//! //!
+//! The flanks of planet and side gear are moved by about a micrometre. The side gear's rotation at first touch on the
+//! sphere of radius R is then searched over the whole flank and compared with that of the undisplaced gears. Their
+//! difference times R sinδ_b is the gap that the displacement opens. Axes, flanks and displacements are vectors in the
+//! world frame. The tests do not use the normal, the point of contact, or mirror symmetry.
 
 use crate::mesh_explicit::{Toothed, V3, about, gears};
 use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothErrors};
@@ -11,10 +12,11 @@ use bevel_differential::contact::pairs::Flank;
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 use std::f64::consts::{PI, TAU};
 
-/// Size of the displacements [m], small enough that second-order terms are a thousandth of the gap.
+/// Size of the displacements [m], so small that second-order terms are a thousandth of the gap.
 const SMALL: f64 = 1e-6;
 
-/// One mesh at side `side` in the world: x along the carrier axis, z the way a planet is carried forward.
+/// One mesh at side `side` in the world frame: x along the carrier axis, z in the direction in which a planet is
+/// carried forward.
 struct Scene {
     planet: Toothed,
     side: Toothed,
@@ -22,11 +24,11 @@ struct Scene {
     /// +1 left, −1 right.
     hand: f64,
     planet_axis: V3,
-    /// Direction from the planet's axis toward the side gear's.
+    /// Direction from the planet's axis toward the side gear's axis.
     toward_side: V3,
 }
 
-/// Where teeth touch: the centres of both teeth as azimuths from the plane of the axes, along z.
+/// A touch of two teeth: the azimuths of both tooth centres from the plane of the axes, along z.
 struct Touch {
     planet: f64,
     side: f64,
@@ -50,8 +52,8 @@ impl Scene {
         V3::y() * azimuth.cos() + V3::z() * azimuth.sin()
     }
 
-    /// First touch on the sphere of radius `r` of the planet tooth centred on azimuth `chi`, moved by `place`, with the
-    /// side gear's tooth ahead (`push` = 1) or behind (−1).
+    /// First touch on the sphere of radius `r` of the planet tooth centred on azimuth `chi`, displaced by `place`. It
+    /// touches the side gear's tooth ahead (`push` = 1) or behind (−1).
     fn touch(&self, chi: f64, push: f64, r: f64, place: impl Fn(V3) -> V3) -> Touch {
         let (u, t) = (self.planet_radial(chi), self.planet_radial(chi + PI / 2.0));
         let needed = |roll: f64| {
@@ -79,8 +81,8 @@ impl Scene {
         Touch { planet: chi, side: push * value(0.5 * (a + b)) }
     }
 
-    /// Gap that `place` opens at position `s`: displacement of the planet's points relative to the side gear, given the
-    /// touch of undisplaced gears.
+    /// Gap that `place` opens at position `s`. `place` displaces the planet's points relative to the side gear, given
+    /// the touch of undisplaced gears.
     fn gap(&self, flank: Flank, r: f64, s: f64, place: impl Fn(&Touch, V3) -> V3) -> f64 {
         let push = if flank == Flank::Drive { 1.0 } else { -1.0 };
         let chi = push * (s - self.pair.centred_position()) / self.pair.sin_base()[0];
@@ -89,7 +91,7 @@ impl Scene {
         push * (free.side - displaced.side) * r * self.pair.sin_base()[1]
     }
 
-    /// Compares with the program all along the path, for both flanks and over the face.
+    /// Compares the gap with the program along the whole path, for both flanks and over the face.
     fn compare(&self, spec: ToothErrorSpec, planets: usize, planet: usize, place: impl Fn(&Touch, PairId, V3) -> V3) {
         let errors = ToothErrors::new(&spec, &self.pair, planets).unwrap();
         let mesh = MeshId { planet, side: if self.hand > 0.0 { 0 } else { 1 } };
@@ -145,7 +147,7 @@ fn an_offset_of_the_pins_opens_the_gap_of_displaced_flanks_at_every_planet() {
     for side in 0..2 {
         let scene = Scene::new(&specs()[0], side);
         for planet in 0..3 {
-            // the world turned so that the planet points along y
+            // world frame rotated so that the planet is along y
             let offset = about(V3::x(), -TAU * planet as f64 / 3.0) * V3::z() * SMALL;
             scene.compare(spec, 3, planet, |_, _, p| p + offset);
         }
@@ -156,7 +158,7 @@ fn an_offset_of_the_pins_opens_the_gap_of_displaced_flanks_at_every_planet() {
 fn a_leaning_planet_axis_opens_the_gap_of_turned_flanks() {
     let angle = SMALL / 0.03;
     for scene in scenes() {
-        // about +z, from the left side gear's axis +x toward that of the planet, and on
+        // about +z, from the left side gear's axis +x toward the planet's axis and beyond
         let lean = about(V3::z(), angle);
         let spec = ToothErrorSpec { shaft_angle_error: angle, ..ToothErrorSpec::default() };
         scene.compare(spec, 2, 0, |_, _, p| lean * p);
@@ -171,7 +173,7 @@ fn eccentric_teeth_open_the_gap_of_displaced_flanks_at_every_tooth() {
             let [size, azimuth] = ToothErrors::new(&spec, &scene.pair, 2).unwrap().eccentricity(0, 1);
             let pitch = TAU / f64::from(scene.planet.teeth);
             scene.compare(spec, 2, 1, |free, pair, p| {
-                // spin is positive about the axis to the apex
+                // spin is positive about the axis toward the apex
                 let from_tooth = about(-scene.planet_axis, azimuth - pitch * pair.planet_tooth as f64);
                 p + from_tooth * scene.planet_radial(free.planet) * size
             });

@@ -1,21 +1,21 @@
-//! Tooth pairs by 3-D finite elements: golden_fe3d_pairs.csv, by gear set and support.
+//! Tooth pairs computed with 3-D finite elements: golden_fe3d_pairs.csv, by gear set and support.
 
 use bevel_differential::contact::bodies::Support;
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 
-/// Fillet of the reference [modules].
+/// Fillet radius of the reference [modules].
 pub const FILLET: f64 = 0.40;
 
-/// Rows of one gear set on one support.
+/// Rows of one gear set with one kind of support.
 pub struct Set {
     pub name: String,
     pub spec: GearSpec,
-    /// What is modelled: "tooth" to below the root, "full" to the bore.
+    /// Modelled part: "tooth" down to below the root, "full" down to the bore.
     pub body: &'static str,
     pub supports: [Support; 2],
-    /// s [rad], q of planet and side gear, q_H [mm·µm/N], c [N/(mm·µm)].
+    /// Rows of s [rad], q of planet and side gear, q_H [mm·µm/N], c [N/(mm·µm)].
     pub single: Vec<[f64; 5]>,
-    /// s [rad], c of both with and without coupling [N/(mm·µm)].
+    /// Rows of s [rad] and c of two pairs with and without coupling [N/(mm·µm)].
     pub double: Vec<[f64; 3]>,
 }
 
@@ -43,7 +43,7 @@ pub fn sets() -> Vec<Set> {
             let spec = GearSpec { face_width: number(4) * Pair::new(&spec).outer_cone, ..spec };
             let supports = match columns[6] {
                 "tooth" => [Support::NearRoot; 2],
-                // the reference names radii
+                // the reference specifies radii
                 "full" => [number(7), number(8)].map(|radius| Support::Bore(2e-3 * radius)),
                 other => panic!("{other}"),
             };

@@ -3,7 +3,7 @@
 use bevel_differential::contact::impact::*;
 
 #[test]
-fn force_and_energy_belong_together_and_derivatives_are_exact() {
+fn force_is_the_derivative_of_the_energy_and_derivatives_are_exact() {
     for exponent in [1.0, 1.3, 1.5, 2.0, 2.2] {
         let law = Impact { stiffness: 3e9, exponent, damping: 4e4, per_full_depth: 1e4 };
         for d in [1e-6, 3e-5, 9e-5, 2e-4] {

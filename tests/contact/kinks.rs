@@ -1,11 +1,11 @@
-//! Where a straight motion makes flanks touch or separate.
+//! Positions at which a straight motion makes flanks touch or separate.
 
 use bevel_differential::contact::pairs::Engagement;
 use bevel_differential::geometry::{GearSpec, Pair};
 
-/// What flanks approach by at the begin or end of a motion, over half the backlash.
+/// Approach of the flanks at the start or end of a motion, as a fraction of half the backlash.
 const INTO: f64 = 0.25;
-/// A fraction is found to so much.
+/// Accuracy of a found fraction.
 const FOUND: f64 = 1e-4;
 
 fn teeth() -> (Engagement, f64) {
@@ -13,7 +13,8 @@ fn teeth() -> (Engagement, f64) {
     (Engagement::new(&pair, true, 0.1), pair.normal_backlash / 2.0)
 }
 
-/// The first kink of a motion from `from` to `to`, both over half the backlash, at a place where one pair is deep in its path.
+/// First kink of a motion from `from` to `to`, both as fractions of half the backlash, at a position at which one pair
+/// is deep in its path.
 fn found(from: f64, to: f64) -> [Option<f64>; 2] {
     let (engagement, half) = teeth();
     let (q, change) = (half * from, half * (to - from));
@@ -21,23 +22,23 @@ fn found(from: f64, to: f64) -> [Option<f64>; 2] {
 }
 
 #[test]
-fn flanks_touch_and_separate_where_the_lash_ends_on_both_sides() {
+fn flanks_touch_and_separate_at_the_ends_of_the_backlash_on_both_sides() {
     for side in [-1.0, 1.0] {
         let outside = side * (1.0 + INTO);
-        // from the middle of the lash to the flank and back
+        // from the middle of the backlash to the flank, and back
         for (from, to, wanted) in [(0.0, outside, 1.0 / (1.0 + INTO)), (outside, 0.0, INTO / (1.0 + INTO))] {
             for part in found(from, to) {
                 assert!((part.unwrap() - wanted).abs() < FOUND, "{from} to {to}: {part:?}");
             }
         }
-        // both within the lash, and both on one flank
+        // both positions within the backlash, and both on one flank
         assert_eq!(found(0.9 * side, -0.9 * side), [None; 2]);
         assert_eq!(found(outside, 1.1 * outside)[1], None);
     }
 }
 
 #[test]
-fn across_the_whole_lash_the_flanks_that_touched_first_separate_first() {
+fn across_the_whole_backlash_the_flanks_that_touched_first_separate_first() {
     for side in [-1.0, 1.0] {
         let (from, to) = (side * (1.0 + INTO), -side * (1.0 + INTO));
         for part in found(from, to) {

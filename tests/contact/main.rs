@@ -1,4 +1,5 @@
-//! Teeth in contact: laws, stiffness, meshes of every kind against explicit flanks, finite elements and closed forms.
+//! Teeth in contact: laws, stiffness, and meshes of every kind, checked against explicit flanks, finite elements and
+//! closed forms.
 
 mod bench;
 mod damping;

@@ -1,8 +1,8 @@
 //! The program's gap functions and phases against explicit flanks, rotated in space until they touch.
 //!
-//! Axes, signs and the assembled position are those of docs/inside/theory.md; the flanks and the touching are found by
-//! vectors and rotations only (`mesh_explicit`). For every tooth pair near the mesh the side gear's rotation at first touch must
-//! be the one at which `Engagement::pairs` begins to visit that pair.
+//! Axes, signs and the assembled position are those of docs/inside/theory.md. The flanks and the touching are found only with
+//! vectors and rotations (`mesh_explicit`). For every tooth pair near the mesh, the side gear's rotation at first touch
+//! must be the rotation at which `Engagement::pairs` begins to visit that pair.
 
 use crate::mesh_explicit::{Differential, Toothed, Touch, gears, pitch_angles, random_spec, roll_at, rolled};
 use crate::random::Draws;
@@ -12,7 +12,8 @@ use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, assembly};
 use fastrand::Rng;
 use std::f64::consts::TAU;
 
-/// Approach up to which tooth pairs are compared [rad on the unit sphere]: 0.65 mm at R_m, twenty times a heavy load's.
+/// Approach up to which tooth pairs are compared [rad on the unit sphere]: 0.65 mm at R_m, twenty times the approach
+/// under a heavy load.
 const REACH: f64 = 0.02;
 
 const LAW: Impact = Impact { stiffness: 1e10, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
@@ -24,8 +25,8 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, independently from docs/inside/theory.md. The addendum of the larger gear is given, and
-/// the working depth is 2 m.
+/// Addenda of planet and side gear, computed independently from docs/inside/theory.md: the addendum of the larger gear is
+/// given, and the working depth is 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let ratio = f64::from(spec.side_teeth) * d_p.cos() / (f64::from(spec.planet_teeth) * d_s.cos());
@@ -42,8 +43,8 @@ fn addenda(spec: &GearSpec) -> [f64; 2] {
     if side_is_larger { [smaller, larger] } else { [larger, smaller] }
 }
 
-/// Where a tip would pass the mate's base circle (9/14: the side gear's tip undercuts the planet) the program ends the
-/// tooth 0.3 % of a base pitch before the circle; the explicit tooth is cut there too.
+/// Cuts tips that would pass the mate's base circle (9/14: the side gear's tip undercuts the planet). The program ends
+/// such a tooth 0.3 % of a base pitch before the circle, and the explicit tooth is cut at the same position.
 fn cut_at_base_circle([planet, side]: [Toothed; 2], spec: &GearSpec) -> [Toothed; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let base_pitch = TAU * planet.base.sin() / f64::from(spec.planet_teeth);
@@ -54,12 +55,13 @@ fn cut_at_base_circle([planet, side]: [Toothed; 2], spec: &GearSpec) -> [Toothed
     })
 }
 
-/// A mesh of planet `i` with side `sigma` at spin `psi`, pushed forward (+1: drive) or back (−1: coast), seen both ways.
+/// A mesh of planet `i` with side `sigma` at spin `psi`, pushed forward (+1: drive) or backward (−1: coast), in both
+/// descriptions.
 struct Seen {
     mesh: Mesh,
     pair: Pair,
     push: f64,
-    /// Side gear rotation with the tooth in the middle of the gap.
+    /// Side gear rotation with the tooth in the middle of its gap.
     free: f64,
     travel: f64,
     x: f64,
@@ -71,7 +73,7 @@ impl Seen {
         [self.pair.sin_base()[1] * alpha - self.travel, self.x]
     }
 
-    /// Place along the path at which the program has the loaded pair `p` at rotation `alpha`.
+    /// Position along the path of the program's loaded pair `p` at rotation `alpha`.
     fn place(&self, p: &ToothPair, alpha: f64) -> f64 {
         let approach = -self.push * self.position(alpha)[0] - self.pair.normal_backlash / 2.0;
         match p.spot {
@@ -81,12 +83,13 @@ impl Seen {
         }
     }
 
-    /// Rotation at which the program's tooth pair at `s` first carries load, with its kind of contact; None within REACH.
+    /// Rotation at which the program's tooth pair at `s` is first loaded, with its kind of contact, or `None` within
+    /// REACH.
     fn bears(&self, s: f64) -> Option<(f64, Spot)> {
         self.first(|seen, p, alpha| (seen.place(p, alpha) - s).abs() < 0.25 * seen.pair.base_pitch)
     }
 
-    /// Rotation at which any pair carries load, by bisection to the last bit.
+    /// Rotation at which any wanted pair is loaded, by bisection to the last bit.
     fn first(&self, wanted: impl Fn(&Self, &ToothPair, f64) -> bool) -> Option<(f64, Spot)> {
         let loaded = |alpha: f64| {
             let mut spot = None;
@@ -146,13 +149,14 @@ fn for_each_flank(spec: &GearSpec, spins: usize, random: &mut Rng, check: &mut i
     }
 }
 
-/// Position of a touch along the path: at the pitch point the tooth's centre is half a tooth behind the plane of axes.
+/// Position of a touch along the path. At the pitch point, the tooth's centre is half a tooth behind the plane of the
+/// axes.
 fn path_position(seen: &Seen, planet: &Touch) -> f64 {
     let gear = &seen.pair.gears[0];
     gear.base.sin() * (gear.half_pitch + seen.push * planet.tooth_angle)
 }
 
-/// Approach that the touch takes [rad on the unit sphere].
+/// Approach at the touch [rad on the unit sphere].
 fn approach(seen: &Seen, alpha: f64) -> f64 {
     -seen.push * seen.position(alpha)[0] - seen.pair.normal_backlash / 2.0
 }
@@ -195,7 +199,7 @@ impl Tally {
         for touch in touches {
             let g = approach(seen, touch.alpha);
             assert!(g > -1e-12, "{name}: explicit teeth interfere by {g:e} in mid-gap, {touch:?}");
-            // the program's table of gaps ends a base pitch past the path: with many teeth less than REACH
+            // the program's table of gaps ends one base pitch past the path, which is less than REACH for many teeth
             if g > REACH.min(0.06 * seen.pair.base_pitch) {
                 continue;
             }
@@ -210,7 +214,7 @@ impl Tally {
 }
 
 #[test]
-fn every_tooth_pair_carries_from_the_rotation_at_which_rotated_flanks_touch() {
+fn every_tooth_pair_is_loaded_from_the_rotation_at_which_rotated_flanks_touch() {
     let mut tally = Tally::default();
     for backlash in [0.0, 1e-4] {
         for_each_mesh(backlash, 4, |seen, touches, name| tally.compare(seen, touches, name));
@@ -233,10 +237,10 @@ fn rotated_flanks_of_random_pairs_touch_as_the_program_computes() {
 }
 
 #[test]
-fn first_touch_of_all_teeth_is_where_the_largest_depth_crosses_zero() {
+fn first_touch_of_all_teeth_is_at_the_rotation_at_which_the_largest_depth_crosses_zero() {
     let mut worst = 0.0f64;
     for_each_mesh(1e-4, 3, |seen, touches, name| {
-        // the first touch is the one that needs least rotation from mid-gap
+        // the first touch needs the least rotation from mid-gap
         let explicit = touches.iter().map(|t| seen.push * t.alpha).fold(f64::NEG_INFINITY, f64::max) * seen.push;
         let (program, _) = seen.first(|_, _, _| true).expect("touches within reach");
         worst = worst.max((program - explicit).abs());
@@ -246,7 +250,7 @@ fn first_touch_of_all_teeth_is_where_the_largest_depth_crosses_zero() {
 }
 
 #[test]
-fn the_program_sees_no_pair_that_the_teeth_do_not_have() {
+fn the_program_finds_no_pair_that_the_teeth_do_not_have() {
     for_each_mesh(1e-4, 2, |seen, touches, name| {
         let alpha = seen.free - seen.push * (REACH + seen.pair.normal_backlash / 2.0) / seen.pair.sin_base()[1];
         let mut visited = Vec::new();
@@ -260,7 +264,7 @@ fn the_program_sees_no_pair_that_the_teeth_do_not_have() {
             let touch = touch.unwrap_or_else(|| panic!("{name}: no tooth at {s}: {p:?}"));
             let g = approach(seen, touch.alpha);
             assert!(g <= REACH + 1e-11, "{name}: pair {p:?} has gap {g:e}");
-            // the depth is what lies between the touch and here, except that a side tip's gap opens as it turns
+            // the depth is the rotation from the touch to here, except that the gap of a side tip opens as it turns
             if p.spot != Spot::SideTip {
                 assert!((p.depth - (REACH - g)).abs() < 1e-11, "{name}: {p:?} gap {g:e}");
             }

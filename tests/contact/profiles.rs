@@ -3,7 +3,7 @@
 use bevel_differential::contact::stiffness::*;
 
 #[test]
-fn rises_are_derivatives() {
+fn rises_are_the_derivatives_of_the_heights() {
     let spans = [
         Span { piece: Piece::Arc { x: 6e-3, y: 22e-3, radius: 1e-3 }, from: -1.2, to: 0.1 },
         Span {

@@ -6,8 +6,8 @@ use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::numeric::{TAU, asin, cos, sin};
 
 #[test]
-fn the_root_bears_the_moment_of_the_flank_about_the_apex() {
-    // e_R × t over the root, from the first harmonics; with the tooth's middle at ζ = 0 in the plane x, z
+fn the_root_load_has_the_moment_of_the_flank_load_about_the_apex() {
+    // e_R × t over the root, from the first harmonics, with the tooth's middle at ζ = 0 in the plane x, z
     let pair = Pair::new(&GearSpec::default());
     for i in 0..2 {
         let section = SectionSpec::of_gear(&pair, i).with_fillet(0.4 * pair.module, "").expect("a gap");
@@ -26,7 +26,7 @@ fn the_root_bears_the_moment_of_the_flank_about_the_apex() {
             let crossing = asin(sin(pair.gears[i].base) / cos(angle));
             assert!((about_z - sin(pair.gears[i].base)).abs() < 1e-9, "{i} {angle}: {about_z}");
             assert!((about_x + cos(angle) * cos(crossing)).abs() < 1e-9, "{i} {angle}: {about_x}");
-            // about y, of the force along: V cos ζ − W cos φ sin ζ, w = −W₁ of its own sign
+            // about y, from the force along: V cos ζ − W cos φ sin ζ, with w = −W₁
             let along = &first[1];
             let about_y = TAU * s * load[1] * (along[1] + c * along[2]);
             assert!((about_y - sin(angle)).abs() < 1e-9, "{i} {angle}: {about_y}");

@@ -11,7 +11,7 @@ use bevel_differential::geometry::{GearSpec, Pair};
 
 const IMPACT: Impact = Impact { stiffness: 1.82463e10, exponent: 1.5, damping: 5e4, per_full_depth: 1e4 };
 const DAMPING: Damping = Damping::Step { coefficient: 5e4, per_full_depth: 1e4 };
-/// Approach of the study's load, one pair carrying [m].
+/// Approach under the study's load if one pair transmits it [m].
 const DEPTH: f64 = 0.1e-3;
 
 fn slice(pair: &Pair, cone: f64) -> SolidSlice {
@@ -47,21 +47,22 @@ fn loads(mesh: &SolidMesh, position: [f64; 2]) -> Vec<SolidLoad> {
     found
 }
 
-/// Places over one pitch, and the relative position at which drive (−1) or coast (+1) flanks overlap by `depth` [m].
+/// Positions over one pitch, with the relative position at which drive (−1) or coast (+1) flanks overlap by `depth`
+/// [m].
 fn sweep(pair: &Pair, flank: Flank, depth: f64, n: i32) -> Vec<[f64; 2]> {
     let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
     let q = sign * (depth / pair.mean_cone + pair.normal_backlash / 2.0);
     (0..n).map(|i| [q, pair.base_pitch * (f64::from(i) + 0.37) / f64::from(n)]).collect()
 }
 
-/// Greatest difference of depth between solid teeth and the path of contact over one pitch [m].
+/// Largest difference of depth between solid teeth and the path of contact over one pitch [m].
 fn worst_depth(pair: &Pair, mesh: &SolidMesh, flank: Flank) -> f64 {
     let engagement = Engagement::new(pair, true, 0.1);
     let mut worst = 0.0f64;
     for position in sweep(pair, flank, DEPTH, 60) {
         let solid = loads(mesh, position);
         for p in engagement.pairs(position) {
-            // below the base circle a flank is a meridian, which the gap of tip corners does not contain
+            // below the base circle, a flank is a meridian, which the gap of tip corners does not include
             if p.spot == Spot::Path {
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
                 assert!(solid.iter().all(|l| l.flank == flank));
@@ -89,7 +90,7 @@ fn depth_converges_with_the_square_of_the_facets_to_the_approach_on_the_path_of_
 }
 
 #[test]
-fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
+fn both_tip_corners_penetrate_as_deeply_as_in_spherical_trigonometry() {
     let pair = Pair::new(&GearSpec::default());
     let engagement = Engagement::new(&pair, true, 0.1);
     let mesh = aligned(&pair, 512, 0.1);
@@ -101,13 +102,14 @@ fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
                 let which = match p.spot {
                     Spot::Path => continue,
                     Spot::PlanetTip => 0,
-                    // where the planet's flank has become a meridian, the closed form continues along the involute
+                    // beyond this point the planet's flank is a meridian, but the closed form continues along the
+                    // involute
                     Spot::SideTip if p.s < -pair.pitch_arc[0] + 0.005 => continue,
                     Spot::SideTip => 1,
                 };
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
                 let off = (depth - p.depth) * pair.mean_cone;
-                // the patch at a corner lies on one side of it alone
+                // the patch at a corner is on only one side of the corner
                 assert!(off.abs() < 0.2e-6, "{:?} {} off by {off} m of {}", p.spot, p.place, p.depth * pair.mean_cone);
                 corners[which] += 1;
             }
@@ -117,7 +119,7 @@ fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
 }
 
 #[test]
-fn forces_are_the_gradient_of_the_energy_and_jacobians_those_of_the_forces() {
+fn forces_are_the_gradient_of_the_energy_and_jacobians_match_the_forces() {
     let pair = Pair::new(&GearSpec::default());
     let d = Displacement { along: [40e-6, -20e-6], across: 30e-6, lean: 0.6e-3 };
     let faces: Vec<SolidSlice> = [0.1, 0.5, 0.9]
@@ -196,13 +198,13 @@ fn the_force_has_no_jumps_beyond_a_thousandth_from_eight_facets_on() {
         });
         let jump = steps.iter().take(40).map(|&n| steepest(n)).fold(0.0, f64::max);
         let scale = force(points[0][1])[0].abs();
-        // overlaps are taken as linear between corners, which holds but nearly with the slopes of normals
+        // overlaps are assumed linear between corners, which is only approximate because the slopes of the normals vary
         assert!(jump < 1e-3 * scale, "{facets} {smoothing}: {jump} of {scale}");
     }
 }
 
 #[test]
-fn resultants_lie_on_the_line_of_action_with_the_moment_arms_of_virtual_work() {
+fn resultants_are_on_the_line_of_action_with_the_moment_arms_of_virtual_work() {
     let pair = Pair::new(&GearSpec::default());
     let mesh = aligned(&pair, 256, 1.0);
     let engagement = Engagement::new(&pair, true, 0.1);
@@ -258,7 +260,7 @@ fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides(
                 for flank in [Flank::Drive, Flank::Coast] {
                     for position in sweep(&pair, flank, DEPTH, 12) {
                         for load in loads(&plain, position) {
-                            // well within the path: at its ends contact moves on to the corners
+                            // well within the path, because at its ends contact moves to the corners
                             if load.s < pair.path.low + 0.03 || load.s > pair.path.high - 0.03 {
                                 continue;
                             }
@@ -266,7 +268,8 @@ fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides(
                             let opened = (load.depth - moved.map_or(0.0, |l| l.depth)) * cone;
                             let id = PairId { planet_tooth: 0, side_tooth: 0, flank };
                             let gap = errors.gap(MeshId { planet: 0, side }, id, cone, load.s);
-                            // of second order in the displacement, over the radius of curvature: size² / some mm
+                            // the difference is of second order in the displacement, over the radius of curvature:
+                            // size² / some mm
                             assert!(
                                 (opened - gap).abs() < 0.01 * size,
                                 "{spec:?} {side} {flank:?} {cone}: {opened} {gap}"
@@ -280,7 +283,7 @@ fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides(
 }
 
 #[test]
-fn gears_turned_by_whole_pitches_touch_alike_with_the_next_pair_numbers() {
+fn gears_turned_by_whole_pitches_touch_identically_with_the_next_pair_numbers() {
     let pair = Pair::new(&GearSpec::default());
     let mesh = aligned(&pair, 16, 1.0);
     for [q, x] in sweep(&pair, Flank::Coast, DEPTH, 7) {

@@ -1,4 +1,4 @@
-//! Tooth pairs on elastic bodies against 3-D finite elements: single pairs, and two pairs that share a rotation.
+//! Tooth pairs on elastic bodies, compared with 3-D finite elements: single pairs, and two pairs that share a rotation.
 
 use crate::golden_pairs::{FILLET, sets};
 use crate::stiffness_pairs::{LINE_LOAD, PER_MM_UM, STEEL, buildable, random_pairs, stiffness};
@@ -7,7 +7,7 @@ use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
 #[test]
-fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
+fn pairs_on_their_supports_match_the_stiffness_of_3d_finite_elements() {
     let sets = sets();
     assert_eq!(sets.len(), 8);
     for set in sets {
@@ -48,7 +48,7 @@ fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
 }
 
 #[test]
-fn loads_and_displacements_of_any_gears_belong_to_each_other() {
+fn compliances_of_any_gears_are_symmetric_and_positive() {
     let (mut seen, mut pairs) = (0, [0; 3]);
     for spec in random_pairs(16).filter(buildable).take(60) {
         let pair = Pair::new(&spec);
@@ -56,7 +56,7 @@ fn loads_and_displacements_of_any_gears_belong_to_each_other() {
         else {
             continue;
         };
-        // bores of half the root circle at the toe
+        // bores of half the diameter of the root circle at the toe
         let bores = [0, 1].map(|i| Support::Bore(pair.inner_cone * pair.gears[i].root.sin()));
         for supports in [
             [Support::NearRoot; 2],
@@ -114,7 +114,7 @@ fn a_bore_that_leaves_no_body_is_refused_by_name() {
 }
 
 #[test]
-fn a_deeper_hold_and_a_narrower_face_are_softer() {
+fn a_deeper_support_and_a_narrower_face_are_softer() {
     let spec = GearSpec::default();
     let reference = LINE_LOAD / Pair::new(&spec).mean_cone;
     let soft = |spec: &GearSpec, supports: [Support; 2]| {
@@ -127,7 +127,7 @@ fn a_deeper_hold_and_a_narrower_face_are_softer() {
     assert!(faces.is_sorted_by(|a, b| a < b), "{faces:?}");
 }
 
-/// Compliance of gear `i` of the default pair alone under a load at the pitch point, held by `support` [1/Pa].
+/// Compliance of gear `i` of the default pair under a load at the pitch point, held by `support` [1/Pa].
 fn held(i: usize, support: Support) -> f64 {
     let (spec, mut supports) = (GearSpec::default(), [Support::NearRoot; 2]);
     supports[i] = support;
@@ -136,7 +136,7 @@ fn held(i: usize, support: Support) -> f64 {
 }
 
 #[test]
-fn bores_of_all_widths_go_over_into_each_other_and_wider_ones_are_stiffer() {
+fn compliance_is_continuous_in_the_bore_and_wider_bores_are_stiffer() {
     let pair = Pair::new(&GearSpec::default());
     for i in 0..2 {
         let widest = Support::widest(&pair, i);
@@ -146,7 +146,7 @@ fn bores_of_all_widths_go_over_into_each_other_and_wider_ones_are_stiffer() {
                 let d = widest * (f64::from(k) / 60.0 - 1e-6);
                 let [before, here] = [1.0 - 1e-6, 1.0].map(|part| held(i, support(part * d)));
                 assert!((before / here - 1.0).abs() < 1e-5, "gear {i} at {d}: {before:e} {here:e}");
-                // one that takes no torque hardly matters
+                // a bore without torque has hardly any influence
                 let is_free = support(0.0) == Support::FreeBore(0.0);
                 assert!(is_free || here < last, "gear {i} at {d}: {here:e} after {last:e}");
                 last = here;
@@ -156,7 +156,7 @@ fn bores_of_all_widths_go_over_into_each_other_and_wider_ones_are_stiffer() {
 }
 
 #[test]
-fn torque_through_a_bore_turns_the_gear_as_an_annulus_turns() {
+fn torque_through_a_bore_turns_the_gear_like_an_annulus() {
     // θ = T/(4πGb) (4/d² − …), T = ω sin δ_b ∫R²dR, and the arc of the flank is θ sin δ_b
     let pair = Pair::new(&GearSpec::default());
     let (width, shear) = (pair.outer_cone - pair.inner_cone, 0.5 * STEEL.young / (1.0 + STEEL.poisson));
@@ -164,7 +164,7 @@ fn torque_through_a_bore_turns_the_gear_as_an_annulus_turns() {
     for i in 0..2 {
         let arm = pair.gears[i].base.sin();
         let turned = |d: f64| arm * arm * moment / (std::f64::consts::PI * shear * width * d * d);
-        // what a bore that takes torque adds to one that takes none; elements are coarse about the narrowest
+        // difference between a bore with and without torque; elements are coarse around the narrowest bore
         let by_torque = |d: f64| held(i, Support::Bore(d)) - held(i, Support::FreeBore(d));
         for (part, within) in [(0.2, 0.05), (0.1, 0.1), (0.05, 0.2), (0.02, 0.2)] {
             let [narrow, wide] = [0.75, 1.25].map(|share| share * part * pair.outer_cone);

@@ -1,4 +1,4 @@
-//! Stiffness of a tooth pair at a tip corner: the whole chain from the spec to 1/(q₁ + q₂ + q_H), computed anew with
+//! Stiffness of a tooth pair at a tip corner: the whole chain from the spec to 1/(q₁ + q₂ + q_H), recomputed with
 //! vectors and Simpson's rule.
 
 use crate::stiffness_pairs::{LINE_LOAD, STEEL, stiffness};
@@ -34,15 +34,16 @@ impl Section {
         }
     }
 
-    /// Pieces of half the profile as points (half a chord, height) of a parameter from 0 to 1: fillet, radius, involute up
-    /// to the roll length `roll`.
+    /// Pieces of half the profile: fillet, radius, and involute up to the roll length `roll`. Each returns a point
+    /// (half chord, height) for a parameter from 0 to 1.
     fn profile(&self, piece: usize, t: f64, roll: f64) -> [f64; 2] {
         let centre = self.root + self.fillet;
         let polar = self.half_angle + (self.fillet / centre).asin();
         let on_circle = |radius: f64, angle: f64| [radius * angle.sin(), radius * angle.cos()];
         match piece {
             0 => {
-                // from the root circle, seen from the centre toward the axis, to the radius that it touches
+                // angle at the centre from the direction of the root circle to that of the radius that the fillet
+                // touches
                 let [x, y] = on_circle(centre, polar);
                 let turned = polar + (self.half_angle + std::f64::consts::FRAC_PI_2 - polar) * t;
                 [x - self.fillet * turned.sin(), y - self.fillet * turned.cos()]
@@ -67,7 +68,8 @@ impl Section {
         let tau = self.half_angle - roll / self.base;
         let top = self.base / tau.cos();
         let [foot, bottom] = self.profile(0, 0.0, roll);
-        // ∫(y_c−y)²/s³ dy and ∫dy/s up to y_c by Simpson's rule; the involute reaches it before its parameter's end
+        // ∫(y_c−y)²/s³ dy and ∫dy/s up to y_c by Simpson's rule; the involute reaches y_c before the end of its
+        // parameter
         let mut sums = [0.0; 2];
         let far = self.base;
         for piece in 0..3 {
@@ -108,19 +110,19 @@ impl Section {
     }
 }
 
-/// Roll lengths at the corner of gear `own` when it has turned by the arc `delta` past the end of the path.
+/// Roll lengths at the corner of gear `own` after it has turned by the arc `delta` past the end of the path.
 fn rolls(pair: &Pair, sections: &[Section; 2], own: usize, delta: f64) -> [f64; 2] {
     let axes = [Vector3::z(), Vector3::new(pair.shaft_angle.sin(), 0.0, pair.shaft_angle.cos())];
     let (d, alpha) = (pair.gears[0].pitch, pair.pressure_angle);
     let pitch_line = Vector3::new(d.sin(), 0.0, d.cos());
     let action = Vector3::new(d.cos(), 0.0, -d.sin()) * alpha.sin() + Vector3::y() * alpha.cos();
-    // arc of a flank point from where its normal touches the base circle
+    // arc of a flank point from the point at which its normal touches the base circle
     let arc = |i: usize, cos_polar: f64| (cos_polar / pair.gears[i].base.cos()).acos();
     let pitch_arc = |i: usize| arc(i, pair.gears[i].pitch.cos());
     let past_pitch = arc(own, pair.gears[own].tip.cos()) - pitch_arc(own);
     let s = if own == 0 { past_pitch } else { -past_pitch };
     let end = pitch_line * s.cos() + action * s.sin();
-    // both turn forward about their own axes while their flanks move toward their own tips
+    // both gears turn forward about their own axes, with their flanks moving toward their own tips
     let angle = delta / pair.gears[own].base.sin();
     let turn = Rotation3::from_axis_angle(&Unit::new_normalize(axes[own]), angle);
     let sense = if own == 0 { 1.0 } else { -1.0 };
@@ -155,13 +157,13 @@ fn specs() -> [GearSpec; 3] {
     [default, iso, GearSpec { planet_teeth: 12, side_teeth: 15, shaft_angle: 80f64.to_radians(), ..default }]
 }
 
-/// Place at the arc `delta` past the end of the path at the corner of gear `own`.
+/// Position at the arc `delta` past the end of the path at the corner of gear `own`.
 fn past(pair: &Pair, own: usize, delta: f64) -> f64 {
     if own == 0 { pair.path.high + delta } else { pair.path.low - delta }
 }
 
 #[test]
-fn a_corner_s_stiffness_is_that_of_its_own_tip_in_series_with_the_mate_where_it_touches() {
+fn a_corner_s_stiffness_is_its_own_tip_in_series_with_the_mate_at_the_touched_point() {
     let mut worst = 0f64;
     for spec in specs() {
         let pair = Pair::new(&spec);
@@ -182,7 +184,7 @@ fn a_corner_s_stiffness_is_that_of_its_own_tip_in_series_with_the_mate_where_it_
 }
 
 #[test]
-fn on_the_path_the_same_chain_holds() {
+fn on_the_path_the_same_chain_is_valid() {
     for spec in specs() {
         let pair = Pair::new(&spec);
         let sections = [Section::new(&pair, 0), Section::new(&pair, 1)];
@@ -197,18 +199,18 @@ fn on_the_path_the_same_chain_holds() {
     }
 }
 
-/// Places beyond the corner's way: from its end in base pitches.
+/// Stiffness past the corner's travel, at `share` base pitches from its end.
 fn beyond(found: &PairStiffness, pair: &Pair, own: usize, share: f64) -> f64 {
     found.at(past(pair, own, found.corner_range[1 - own] + share * pair.base_pitch))
 }
 
 #[test]
-fn past_the_mate_s_tip_the_stiffness_levels_out_within_a_tenth_of_a_base_pitch() {
+fn past_the_mate_s_tip_the_stiffness_levels_off_within_a_tenth_of_a_base_pitch() {
     for spec in specs() {
         let pair = Pair::new(&spec);
         let found = stiffness(&spec, FILLET);
         for own in 0..2 {
-            // the corner leaves the flank where the mate's tip circle is
+            // the corner leaves the flank at the mate's tip circle
             let mate = 1 - own;
             let reach = found.corner_range[mate];
             let sections = [Section::new(&pair, 0), Section::new(&pair, 1)];
@@ -219,7 +221,7 @@ fn past_the_mate_s_tip_the_stiffness_levels_out_within_a_tenth_of_a_base_pitch()
             // the sum of angles is rounded
             assert_eq!(beyond(&found, &pair, own, 0.1 + 1e-12), far);
             assert!(far > 0.5 * beyond(&found, &pair, own, 0.0));
-            // nowhere a jump
+            // no jump anywhere
             let (at, next) = (beyond(&found, &pair, own, -1e-9), beyond(&found, &pair, own, 1e-9));
             assert!((at / next - 1.0).abs() < 1e-6 && at != far);
         }

@@ -10,8 +10,8 @@ fn sets(body: &str) -> Vec<Set> {
     golden_pairs::sets().into_iter().filter(|set| set.body == body).collect()
 }
 
-/// How much plane stress is from plane strain: a thin plate and a wide face of the same section. A material in plane strain
-/// with E(1 − ν*²), ν* = ν/(1 + ν) moves as steel does in plane stress.
+/// Stiffness of a thin plate in plane stress with the same section; a wide face is in plane strain. A material in plane
+/// strain with E(1 − ν*²), ν* = ν/(1 + ν) deforms like steel in plane stress.
 fn thin_plate(set: &Set) -> PairStiffness {
     let poisson = STEEL.poisson / (1.0 + STEEL.poisson);
     let young = STEEL.young * (1.0 - poisson * poisson);
@@ -19,19 +19,19 @@ fn thin_plate(set: &Set) -> PairStiffness {
     PairStiffness::new(&Pair::new(&set.spec), &root, young, poisson, LINE_LOAD).expect("a pair")
 }
 
-/// Compliances q of both teeth [mm·µm/N] at place `s` [rad].
+/// Compliances q of both teeth [mm·µm/N] at position `s` [rad].
 fn teeth(stiffness: &PairStiffness, s: f64) -> [f64; 2] {
     stiffness.exact(s, stiffness.reference).gear.map(|q| q * PER_MM_UM)
 }
 
-/// Means over the path of the formulas' c over the reference's, for a wide face and for a thin plate.
+/// Mean ratio over the path of the formulas' c to the reference's c, for a wide face and for a thin plate.
 fn mean_ratios(set: &Set) -> [f64; 2] {
     let (wide, thin) = (stiffness(&set.spec, FILLET), thin_plate(set));
     let mut sums = [0.0; 2];
     println!("{}", set.name);
     for &[s, planet, side, hertz, c] in &set.single {
         let local = wide.exact(s, wide.reference).local * PER_MM_UM;
-        // Hertz's contact is one of plane strain in either
+        // Hertzian contact is in plane strain in both cases
         let ratios = [&wide, &thin].map(|k| 1.0 / (teeth(k, s).iter().sum::<f64>() + local) / c);
         let off = |q: f64, reference: f64| 100.0 * (q / reference - 1.0);
         let [q1, q2] = teeth(&wide, s);
@@ -50,8 +50,8 @@ fn mean_ratios(set: &Set) -> [f64; 2] {
     sums
 }
 
-/// What the reference's mesh (0.2 %) and coefficients of two digits in the formula (4.8 and 2.4: a half of the last one is 1 to
-/// 2 % of a part of the sum) leave open.
+/// Uncertainty from the reference's mesh (0.2 %) and from two-digit coefficients in the formula (4.8 and 2.4). Half a
+/// unit of the last digit is 1 to 2 % of a term of the sum.
 const OPEN: f64 = 0.01;
 
 #[test]
@@ -65,7 +65,7 @@ fn a_face_of_finite_width_is_softer_than_in_plane_strain_and_stiffer_than_in_pla
 }
 
 #[test]
-fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_place() {
+fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_position() {
     for set in sets("tooth") {
         let (wide, thin) = (stiffness(&set.spec, FILLET), thin_plate(&set));
         for &[s, planet, side, hertz, _] in &set.single {
@@ -74,7 +74,7 @@ fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_place() {
                 let [stiffest, softest] = [&wide, &thin].map(|k| teeth(k, s)[i]);
                 assert!(reference > 0.88 * stiffest && reference < 1.12 * softest, "{} at {s}: gear {i}", set.name);
             }
-            // the reference takes R tanψ for the radii, up to a tenth more than the section's: 0.1 in a logarithm of 4
+            // the reference uses R tanψ for the radii, up to a tenth more than in the section: 0.1 in a logarithm of 4
             let local = wide.exact(s, wide.reference).local * PER_MM_UM;
             assert!((local / hertz - 1.0).abs() < 0.025, "{} at {s}: {local} {hertz}", set.name);
         }
@@ -82,12 +82,12 @@ fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_place() {
 }
 
 #[test]
-fn bodies_held_at_their_bores_are_softer_by_what_the_formulas_leave_out() {
+fn bodies_held_at_their_bores_are_softer_by_the_effects_that_the_formulas_omit() {
     let sets = sets("full");
     assert_eq!(sets.len(), 4);
     for set in sets {
         let [wide, thin] = mean_ratios(&set);
-        // of these bodies the reference says 5 to 28 %
+        // for these bodies, the reference gives 5 to 28 %
         assert!(wide > 1.05 * (1.0 - OPEN) && thin < 1.28 * (1.0 + OPEN), "{}: {wide} {thin}", set.name);
     }
 }

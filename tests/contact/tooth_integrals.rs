@@ -1,5 +1,5 @@
-//! Stiffness and transmission error of random gear pairs against Weber's integrals by direct quadrature, over the path of contact and
-//! past its ends as far as corners touch.
+//! Stiffness and transmission error of random gear pairs, compared with Weber's integrals by direct quadrature, over
+//! the path of contact and past its ends as far as corners touch.
 
 use crate::stiffness_pairs::{LINE_LOAD, STEEL, buildable, random_pairs};
 use bevel_differential::contact::spring::Spring;
@@ -7,7 +7,8 @@ use bevel_differential::contact::stiffness::{PairStiffness, RootSpec, Span, Toot
 use bevel_differential::geometry::Pair;
 use std::f64::consts::PI;
 
-/// Gauss–Legendre quadrature with sixteen points (Abramowitz & Stegun, table 25.4): positive abscissae with their weights.
+/// Gauss–Legendre quadrature with sixteen points (Abramowitz & Stegun, table 25.4): positive abscissae with their
+/// weights.
 const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
@@ -18,11 +19,13 @@ const GAUSS: [(f64, f64); 8] = [
     (0.944_575_023_073_232_6, 0.062_253_523_938_647_89),
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
 ];
-/// Panels of a span. Each is half as long as the one below, because the chord of a pointed tooth is zero a little above the load.
+/// Number of panels of a span. Each is half as long as the one below, because the chord of a pointed tooth is zero a
+/// little above the load.
 const PANELS: i32 = 7;
 
-/// Base pitches past the end of the path on which the curvature of the path leads over to a corner. That curvature comes from
-/// compliances that lie a millionth of the path apart, so rounding changes it by as much as `ROUNDING` of the stiffness there.
+/// Distance past the end of the path over which its curvature blends into a corner [base pitches]. The curvature is
+/// computed from compliances a millionth of the path apart, so rounding changes it by up to `ROUNDING` of the
+/// stiffness.
 const TURN: f64 = 4e-3;
 const ROUNDING: f64 = 1e-6;
 
@@ -52,7 +55,7 @@ fn compliance(tooth: &ToothSection, roll: f64) -> f64 {
     let tau = tooth.base_half_angle - roll / tooth.base_radius;
     let top = tooth.base_radius / tau.cos();
     let lever = (top - tooth.root_height) / tooth.root_chord;
-    // below its root section the tooth has a constant chord
+    // below its root section, the tooth has a constant chord
     let [bending, shear] = match lever < 0.0 {
         true => [lever.powi(3) / 3.0, lever],
         false => tooth.spans().iter().fold([0.0; 2], |sums, span| add(sums, span, top)),
@@ -64,7 +67,7 @@ fn compliance(tooth: &ToothSection, roll: f64) -> f64 {
     tau.cos().powi(2) * by_load * (1.0 - STEEL.poisson.powi(2)) / STEEL.young
 }
 
-/// Arc [rad] by which tooth pairs at the places `places` [rad] yield together to the reference load.
+/// Arc [rad] by which tooth pairs at the positions `places` [rad] yield together under the reference load.
 fn transmission_error(law: &impl Spring, places: &[f64], reference: f64) -> f64 {
     let load = |arc: f64| places.iter().map(|&s| law.at(arc, s).torque).sum::<f64>();
     let (mut below, mut above) = (0.0, 0.1);
@@ -77,7 +80,7 @@ fn transmission_error(law: &impl Spring, places: &[f64], reference: f64) -> f64 
 }
 
 #[test]
-fn stiffness_and_transmission_error_are_those_of_the_integrals() {
+fn stiffness_and_transmission_error_match_the_integrals() {
     let mut worst = [0f64; 4];
     let pairs = random_pairs(55).filter(buildable).filter_map(|spec| {
         let pair = Pair::new(&spec);
@@ -96,7 +99,7 @@ fn stiffness_and_transmission_error_are_those_of_the_integrals() {
         compare(0, &PairStiffness::mesh_mean);
         let PairStiffness { range: [low, high], corner_range, reference, .. } = both[0];
         let pitch = pair.base_pitch;
-        // farther out the pair does not carry
+        // farther out, the pair is not loaded
         let ends = [low - corner_range[0], high + corner_range[1]];
         for j in 0..=1000 {
             let s = ends[0] + (ends[1] - ends[0]) * f64::from(j) / 1000.0;

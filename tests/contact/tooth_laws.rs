@@ -1,4 +1,5 @@
-//! The laws made of tooth stiffness: exact derivatives, no jumps, exact inversion; soundness for all gears.
+//! The laws derived from tooth stiffness: exact derivatives, no jumps, exact inversion, and valid results for all
+//! gears.
 
 use crate::stiffness_pairs::{
     LINE_LOAD, PER_MM_UM, STEEL, buildable, default, golden, golden_spec, random_pairs, stiffness,
@@ -7,13 +8,13 @@ use bevel_differential::contact::spring::{AnySpring, Elastic, Spring};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 
-/// Places along and beyond the path.
+/// Positions along and beyond the path.
 fn places(stiffness: &PairStiffness) -> impl Iterator<Item = f64> {
     let [low, high] = stiffness.range;
     (-8..=48).map(move |j| low + (high - low) * (f64::from(j) + 0.37) / 40.0)
 }
 
-/// Compliance Q [1/Pa] at place `s` under the limit load ω₀, from that at the reference load.
+/// Compliance Q [1/Pa] at position `s` under the limit load ω₀, from the compliance at the reference load.
 fn limit_compliance(stiffness: &PairStiffness, s: f64) -> f64 {
     assert!(stiffness.limit >= stiffness.reference);
     stiffness.line().compliance(s) - STEEL.local() * (stiffness.limit / stiffness.reference).ln()
@@ -38,7 +39,7 @@ fn assert_derivatives(law: &impl Spring, p: f64, s: f64, span: f64) {
 }
 
 #[test]
-fn both_laws_give_the_exact_derivatives_of_their_energy() {
+fn both_laws_have_the_exact_derivatives_of_their_energy() {
     let stiffness = golden();
     let (line, weber) = (stiffness.line(), stiffness.line_weber());
     let span = stiffness.range[1] - stiffness.range[0];
@@ -99,7 +100,7 @@ fn the_load_solves_the_compliance_equation_exactly() {
 }
 
 #[test]
-fn both_laws_are_as_stiff_at_the_reference_load() {
+fn both_laws_have_the_same_stiffness_at_the_reference_load() {
     for stiffness in [golden(), default()] {
         let (line, weber) = (stiffness.line(), stiffness.line_weber());
         for s in places(&stiffness) {
@@ -107,7 +108,7 @@ fn both_laws_are_as_stiff_at_the_reference_load() {
             let (linear, logarithmic) = (line.at(p, s), weber.at(p, s));
             assert!((linear.torque / stiffness.reference - 1.0).abs() < 1e-13);
             assert!((logarithmic.torque / stiffness.reference - 1.0).abs() < 1e-13);
-            // the tangent is stiffer, since Hertz's compliance falls with load: 1/(q − B) against 1/q
+            // the tangent is stiffer, because Hertz's compliance decreases with load: 1/(q − B) compared with 1/q
             let tangent = 1.0 / (line.compliance(s) - STEEL.local());
             assert!((logarithmic.stiffness / tangent - 1.0).abs() < 1e-12);
         }
@@ -124,11 +125,11 @@ fn the_linear_law_above_the_load_limit_follows_the_tangent() {
 }
 
 #[test]
-fn the_work_of_the_torque_is_the_energy() {
+fn the_work_of_the_torque_equals_the_energy() {
     let stiffness = default();
     let (line, weber) = (stiffness.line(), stiffness.line_weber());
     for law in [AnySpring::Line(line), AnySpring::LineWeber(weber)] {
-        // Simpson's rule in u = √p takes the logarithm's edge off at p = 0
+        // Simpson's rule in u = √p removes the singularity of the logarithm at p = 0
         let (end, n) = (0.2f64, 20_000);
         let h = end.sqrt() / f64::from(n);
         let work: f64 = (1..=n)
@@ -149,7 +150,7 @@ fn the_table_equals_the_formulas_within_a_millionth_on_the_path_and_past_its_end
     let mut compare = |name: String, spec: &GearSpec, stiffness: &PairStiffness| {
         let base_pitch = Pair::new(spec).base_pitch;
         let ([low, high], corner) = (stiffness.range, stiffness.corner_range);
-        // past the ends from where the slope has turned
+        // past the ends, from the point at which the slope has changed
         let turned = 4e-3 * base_pitch;
         let parts = [[low, high], [low - corner[0], low - turned], [high + turned, high + corner[1]]];
         for j in 0..=6000 {
@@ -157,7 +158,7 @@ fn the_table_equals_the_formulas_within_a_millionth_on_the_path_and_past_its_end
             if part[0] >= part[1] {
                 continue;
             }
-            // closest where the logarithms are
+            // points are densest near the logarithms
             let share = 0.5 - 0.5 * (j as f64 * std::f64::consts::PI / 6000.0).cos();
             let s = part[0] + (part[1] - part[0]) * share;
             let exact = stiffness.exact(s, stiffness.reference).stiffness();
@@ -168,7 +169,7 @@ fn the_table_equals_the_formulas_within_a_millionth_on_the_path_and_past_its_end
         }
     };
     compare("golden".into(), &golden_spec(), &golden());
-    // the planet undercut: the path is clipped where Hertz's logarithm diverges
+    // undercut planet: the path is clipped where Hertz's logarithm diverges
     let clipped = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
     assert_eq!(Pair::new(&clipped).path.clipped, [true, false]);
     compare("clipped".into(), &clipped, &stiffness(&clipped, 0.25));

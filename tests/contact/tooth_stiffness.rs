@@ -1,10 +1,10 @@
-//! Tooth stiffness from geometry against 3-D finite elements, ISO 6336-1 and an independent prototype.
+//! Tooth stiffness from geometry, compared with 3-D finite elements, ISO 6336-1 and an independent prototype.
 
 use crate::stiffness_pairs::{PER_MM_UM, default, golden, golden_spec};
 use bevel_differential::contact::stiffness::{Elasticity, SectionPair, SectionSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
-/// Relative difference of `found` from `expected`, printed.
+/// Relative difference of `found` from `expected`, which is also printed.
 fn off(what: &str, found: f64, expected: f64) -> f64 {
     let off = found / expected - 1.0;
     println!("{what}: {found:.4}, expected {expected}: {:+.2} %", 100.0 * off);
@@ -33,7 +33,7 @@ fn stiffness_along_the_path_agrees_with_finite_elements() {
 }
 
 #[test]
-fn the_default_root_meets_its_anchors() {
+fn the_default_root_matches_its_reference_values() {
     let stiffness = default();
     let path = Pair::new(&GearSpec::default()).path;
     let largest = (0..=1000).map(|j| stiffness.at(path.low + (path.high - path.low) * f64::from(j) / 1000.0));

@@ -1,11 +1,11 @@
-//! Hosts that pass one buffer, or overlapping buffers, for several arguments of a call.
+//! Tests of hosts that pass one buffer, or overlapping buffers, for several arguments of a call.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 
 use crate::common::{Host, assert_contains, reference};
 
-/// Derivatives of two outputs along a direction of two inputs, into `values`.
+/// Writes derivatives of two outputs along a direction of two inputs to `values`.
 ///
 /// # Safety
 /// Both pointers are valid for two numbers.
@@ -34,7 +34,7 @@ fn one_buffer_may_hold_the_direction_and_receive_the_derivatives() {
         // SAFETY: one array of two
         assert_eq!(unsafe { derive(&host, buffer, buffer) }, Status::Ok);
         assert_eq!(both, expected, "running: {running}");
-        // the results begin at the second number of the direction
+        // the results start at the second number of the direction
         let mut shifted = [change[0], change[1], f64::NAN];
         let buffer = shifted.as_mut_ptr();
         // SAFETY: within an array of three

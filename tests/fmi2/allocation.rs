@@ -1,4 +1,4 @@
-//! Once initialised, setting inputs, stepping and reading outputs allocate nothing.
+//! Tests that setting inputs, stepping and reading outputs allocate nothing after initialisation.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::{EFFECTS, STATES};
@@ -7,7 +7,8 @@ use bevel_differential::variables::{Access, table};
 use crate::common::counting_allocator::allocations;
 use crate::common::{Host, reference};
 
-/// Scenes by the values they set beside those of [`Host::on_level`]: every level, law, method and effect, and effects together.
+/// Scenes by the values they set in addition to those of [`Host::on_level`]: every level, law, method and effect, and
+/// effects combined.
 fn scenes() -> Vec<(String, Vec<(&'static str, f64)>)> {
     let level = |level: f64| vec![("scene.gear_contact", level)];
     let mut scenes: Vec<(String, Vec<(&'static str, f64)>)> =
@@ -29,8 +30,8 @@ fn scenes() -> Vec<(String, Vec<(&'static str, f64)>)> {
         scenes.push((effect.name.into(), switched(number).collect()));
     }
     let together = |method: f64| {
-        let apart = ["lock", "tooth_fault"];
-        let all = (0..EFFECTS.len()).filter(|&number| !apart.contains(&EFFECTS[number].name)).flat_map(switched);
+        let excluded = ["lock", "tooth_fault"];
+        let all = (0..EFFECTS.len()).filter(|&number| !excluded.contains(&EFFECTS[number].name)).flat_map(switched);
         all.chain([("contact.law", 2.0), ("solver.method", method)]).collect()
     };
     for method in [1.0, 2.0, 3.0] {
@@ -58,7 +59,7 @@ fn setting_stepping_and_reading_allocate_nothing_with_any_level_law_method_and_e
         let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
         let (mut read, mut slope) = (vec![f64::NAN; outputs.len()], f64::NAN);
         let inputs = [reference("left.load_torque"), reference("right.load_torque"), reference("contact.damping")];
-        // the log says once what ideal gears do not feel
+        // the log reports once that ideal gears do not depend on this value
         assert_eq!(host.set("contact.damping", 5e4 + 1.0), Status::Ok);
         let (mut counts, mut silent) = ([0; 5], 0);
         let mut ok = true;
@@ -76,7 +77,7 @@ fn setting_stepping_and_reading_allocate_nothing_with_any_level_law_method_and_e
             for (call, count) in calls.iter_mut().zip(&mut counts) {
                 let (before, said) = (allocations(), host.log_length());
                 ok &= call() == Status::Ok;
-                // a message, which comes once, is a text
+                // a message, which is logged once, needs memory
                 let allocated = allocations() - before;
                 if host.log_length() == said {
                     *count += allocated;
@@ -91,7 +92,7 @@ fn setting_stepping_and_reading_allocate_nothing_with_any_level_law_method_and_e
 }
 
 #[test]
-fn going_on_under_inputs_that_hold_allocates_nothing() {
+fn stepping_with_held_inputs_allocates_nothing() {
     let host = Host::on_level(3);
     host.start();
     let before = allocations();

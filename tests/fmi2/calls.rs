@@ -1,4 +1,4 @@
-//! Which call is legal in which state: the tables of FMI 2.0.4, typed independently of the source.
+//! Tests of the states in which each call is legal: the tables of FMI 2.0.4, typed independently of the source.
 
 use std::ptr;
 
@@ -14,7 +14,7 @@ const PHASES: [[&str; 6]; 2] = [
     ["instantiated", "initialization mode", "event mode", "continuous-time mode", "terminated", "error"],
 ];
 
-/// An instance of `KINDS[kind]` in `PHASES[kind][phase]`.
+/// Creates an instance of `KINDS[kind]` in `PHASES[kind][phase]`.
 fn host_in(kind: usize, phase: usize) -> Host {
     let host = if kind == 0 { Host::new() } else { Host::for_exchange() };
     match (kind, phase) {
@@ -43,8 +43,9 @@ fn host_in(kind: usize, phase: usize) -> Host {
 
 type Call = (&'static str, &'static str, &'static str, fn(ComponentPointer) -> Status);
 
-/// Name, legal phases marked by x for co-simulation and for model exchange, and the call with valid arguments. Other marks: o, legal in
-/// the state but not for this kind of instance; e, no values after a failed initialisation; ?, not stated.
+/// Table of calls: name, legal phases for co-simulation and for model exchange, and the call with valid arguments.
+/// Marks: x, legal; o, legal in the state but not for this kind of instance; e, no values after a failed
+/// initialisation; ?, not specified.
 #[rustfmt::skip] // a table
 fn calls() -> Vec<Call> {
     const N: usize = EVENT_INDICATORS;
@@ -96,7 +97,7 @@ fn calls() -> Vec<Call> {
 }
 
 #[test]
-fn every_call_is_legal_exactly_where_the_standard_says_and_errors_name_call_and_state() {
+fn every_call_is_legal_exactly_in_the_states_of_the_standard_and_errors_name_call_and_state() {
     for (name, steps, exchange, call) in calls() {
         for (kind, legal) in [steps, exchange].into_iter().enumerate() {
             for (phase, legal) in legal.chars().enumerate().filter(|&(_, legal)| legal != '?') {
@@ -132,7 +133,7 @@ fn a_refused_call_leaves_the_simulation_as_it_was() {
     let host = Host::on_level(3);
     host.start();
     let mut seen = host.record_steps(0, 2);
-    let stop_free: [fn(ComponentPointer) -> Status; 4] = [
+    let refused: [fn(ComponentPointer) -> Status; 4] = [
         // SAFETY: a live component
         |c| unsafe { fmi2EnterInitializationMode(c) },
         // SAFETY: as above
@@ -142,7 +143,7 @@ fn a_refused_call_leaves_the_simulation_as_it_was() {
         // SAFETY: as above
         |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 5.0, 0, 0.0) },
     ];
-    assert!(stop_free.iter().all(|call| call(host.c) == Status::Error));
+    assert!(refused.iter().all(|call| call(host.c) == Status::Error));
     seen.extend(host.record_steps(2, 3));
     assert!(seen == expected);
 }

@@ -1,4 +1,4 @@
-//! Derivatives of inputs and outputs against steps and differences.
+//! Tests that compare derivatives of inputs and outputs with steps and finite differences.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::units::{NEWTON, NEWTON_METRE, ONE, PASCAL, RAD_PER_S2, WATT};
@@ -20,7 +20,7 @@ fn rate(host: &Host, name: &str) -> f64 {
     value
 }
 
-/// A torque-driven differential whose wheels have inertia, on a level.
+/// Creates a torque-driven differential with gear contact `level`, whose wheels have inertia.
 pub fn driven_by_torque(level: i32) -> Host {
     let host = Host::on_level(level);
     assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
@@ -33,7 +33,7 @@ fn torques_with_two_derivatives_give_the_momentum_of_their_integral() {
         let host = driven_by_torque(level);
         host.start();
         let inertia = {
-            // everything rotates with the carrier: inertia from an impulse of 1 N·m·s without load
+            // everything rotates with the carrier, so an impulse of 1 N·m·s without load gives the inertia
             let trial = driven_by_torque(1);
             assert_eq!(trial.set_many(&["left.load_torque", "right.load_torque"], &[0.0; 2]), Status::Ok);
             assert_eq!(trial.set("carrier.torque_command", 100.0), Status::Ok);
@@ -69,14 +69,14 @@ fn imposed_speeds_follow_their_derivatives_and_need_the_torque_of_their_accelera
         assert!((host.get("carrier.speed") - speed - 200.0 * h).abs() < 1e-9);
         let turned = host.get("carrier.angle") - angle;
         assert!((turned - speed * h - 100.0 * h * h).abs() < 1e-9, "{turned}");
-        // without further calls the course continues
+        // without further calls, the speed continues to rise
         host.steps(h, h, 1);
         assert!((host.get("carrier.speed") - speed - 400.0 * h).abs() < 1e-9);
-        // 1 kg·m² of wheels and 0.02 kg·m² of carrier and gears, at least
+        // at least 1 kg·m² of wheels and 0.02 kg·m² of carrier and gears
         let more = host.get("carrier.torque") - torque;
         // lumped meshes still vibrate
         assert!(level == 2 || (200.0..230.0).contains(&more), "level {level}: {more} N·m");
-        // relative to the energy turned over
+        // relative to the transmitted energy
         let through = host.get("power.in") * 2.0 * h;
         assert!(host.get("solver.energy_residual").abs() < 1e-6 * through, "{}", host.get("solver.energy_residual"));
     }
@@ -96,7 +96,7 @@ fn accelerated_shaft_ends_need_the_work_of_their_inertia() {
         }
         let h = 0.02;
         host.steps(0.0, h, 1);
-        // 0.5 kg·m² at each end, from 50 to 54 rad/s: some 200 J
+        // 0.5 kg·m² at each end, from 50 to 54 rad/s: about 200 J
         let residual = host.get("solver.energy_residual");
         assert!(residual.abs() < 0.01, "level {level}: {residual} J");
     }
@@ -113,7 +113,7 @@ fn one_long_step_with_derivatives_equals_many_short_steps() {
             let steps = (0.01 / h).round() as usize;
             for i in 0..steps {
                 let t = i as f64 * h;
-                // short steps hold the value of their middle
+                // short steps hold the value at their middle
                 let at = if with_rates { t } else { t + 0.5 * h };
                 assert_eq!(host.set("left.load_torque", 835.0 + 3e4 * at), Status::Ok);
                 assert_eq!(host.set("spin.command", 200.0 * at), Status::Ok);
@@ -152,7 +152,7 @@ fn an_input_set_without_a_derivative_is_held_constant() {
 }
 
 #[test]
-fn a_course_is_part_of_the_state() {
+fn input_derivatives_are_part_of_the_state() {
     let host = Host::on_level(3);
     host.start();
     set_derivative(&host, "left.load_torque", 1, 1e4);
@@ -174,7 +174,7 @@ fn a_course_is_part_of_the_state() {
     host.free_state(state);
 }
 
-/// Outputs with continuous derivatives: neither sums of the ledger nor counts.
+/// Outputs with continuous derivatives, without sums of the ledger and without counts.
 pub fn smooth_outputs() -> Vec<&'static str> {
     let rows = table().outputs.iter().map(|&i| &table().rows[i]);
     let smooth = rows.filter(|row| !matches!(row.access, Access::Output(OutputSource::Ledger(_))));
@@ -184,7 +184,7 @@ pub fn smooth_outputs() -> Vec<&'static str> {
 #[test]
 fn output_derivatives_equal_differences_of_outputs() {
     for level in [1, 2, 3] {
-        // rolling under a rising torque, so that everything moves
+        // the gears roll under a rising torque, so that everything moves
         let begin = || {
             let host = driven_by_torque(level);
             assert_eq!(host.set_integer("scene.start", 2), Status::Ok);
@@ -210,7 +210,7 @@ fn output_derivatives_equal_differences_of_outputs() {
             let difference = (-3.0 * a + 4.0 * b - c) / (2.0 * h);
             // rounding errors of the values, divided by h
             let unit = table().rows[reference(name) as usize].unit.unwrap();
-            // accelerations result from torques of 1 kN·m, efficiencies are ratios of such torques
+            // accelerations result from torques of 1 kN·m; efficiencies are ratios of such torques
             let least = if unit == RAD_PER_S2 {
                 1e3
             } else if unit == ONE {
@@ -226,7 +226,7 @@ fn output_derivatives_equal_differences_of_outputs() {
                 "level {level}: d({name})/dt = {computed}, differences {difference}"
             );
         }
-        // the ledger: heat and its power
+        // the derivative of heat in the ledger is a power
         assert_eq!(host.set_state(state), Status::Ok);
         let computed = rate(&host, "heat.contact");
         let [a, b] = [0, 5].map(|n| at(n, "heat.contact"));
@@ -240,7 +240,7 @@ fn output_derivatives_equal_differences_of_outputs() {
 }
 
 #[test]
-fn derivatives_set_before_initialisation_act_from_the_start() {
+fn derivatives_set_before_initialisation_apply_from_the_start() {
     let host = Host::on_level(1);
     set_derivative(&host, "carrier.speed_command", 1, 100.0);
     host.start();

@@ -1,4 +1,4 @@
-//! Directional derivatives against differences.
+//! Tests that compare directional derivatives with finite differences.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
@@ -22,7 +22,7 @@ fn along(host: &Host, unknown: &str, known: &[(&str, f64)]) -> f64 {
 }
 
 #[test]
-fn derivatives_by_inputs_equal_differences_of_outputs() {
+fn derivatives_with_respect_to_inputs_equal_differences_of_outputs() {
     for level in [1, 2, 3] {
         let host = driven_by_torque(level);
         host.start();
@@ -45,7 +45,7 @@ fn derivatives_by_inputs_equal_differences_of_outputs() {
                 );
             }
         }
-        // exact by a formula: the shaft carries the load and accelerates the inertia of the wheel
+        // an exact formula: the shaft transmits the load and accelerates the inertia of the wheel
         let by_load = along(&host, "left.shaft_torque", &[("left.load_torque", 1.0)]);
         let acceleration = along(&host, "left.acceleration", &[("left.load_torque", 1.0)]);
         assert!((by_load - 1.0 - 0.5 * acceleration).abs() < 1e-9, "{by_load} {acceleration}");
@@ -53,7 +53,7 @@ fn derivatives_by_inputs_equal_differences_of_outputs() {
 }
 
 #[test]
-fn the_torque_of_a_half_shaft_follows_the_speed_of_its_wheel_at_once() {
+fn the_torque_of_a_half_shaft_follows_the_speed_of_its_wheel_immediately() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
@@ -78,16 +78,16 @@ fn the_torque_of_a_half_shaft_follows_the_speed_of_its_wheel_at_once() {
 }
 
 #[test]
-fn initial_outputs_have_derivatives_by_inputs_and_parameters() {
+fn initial_outputs_have_derivatives_with_respect_to_inputs_and_parameters() {
     let host = driven_by_torque(3);
     assert_eq!(host.setup(), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
-    // preloaded by equal loads, a stiffness twice as large bends by less: a ~ K^(-2/3)
+    // the deflection under equal loads decreases with stiffness as K^(-2/3)
     let stiffness = host.get("contact.stiffness");
     let bent = host.get("planet[1].left_transmission_error");
     let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", stiffness)]);
     assert!((by_stiffness / (-2.0 / 3.0 * bent) - 1.0).abs() < 1e-6, "{by_stiffness} {bent}");
-    // at a limit of a range, one-sided
+    // the derivative is one-sided at a limit of a range
     let other = Host::new();
     assert_eq!((other.setup(), other.enter()), (Status::Ok, Status::Ok));
     assert!(along(&other, "left.acceleration", &[("inertia.left_end", 1.0)]).is_finite());
@@ -134,7 +134,7 @@ fn derivatives_of_rates_equal_differences_of_rates() {
             };
             let (high, low) = (at(1.0), at(-1.0));
             for i in 0..STATES {
-                // rates of positions and of velocities, each by the largest of their kind
+                // rates of positions and of velocities, each compared with the largest of their kind
                 let kind = if i < STATES / 2 { &computed[..STATES / 2] } else { &computed[STATES / 2..] };
                 let steepest = kind.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
                 let difference = (high[i] - low[i]) / (2.0 * d);

@@ -1,4 +1,5 @@
-//! Imposed speeds and speed jumps in model exchange as in co-simulation; trial states of the solver change no result.
+//! Tests that imposed speeds and speed jumps agree between model exchange and co-simulation, and that trial states of
+//! the solver change no result.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::table;
@@ -6,7 +7,7 @@ use bevel_differential::variables::table;
 use crate::common::Host;
 use crate::solver::{Solver, level};
 
-/// The same scene in co-simulation, at a tight tolerance.
+/// Simulates a scene in co-simulation, with a tight tolerance.
 pub fn in_co_simulation(set: impl Fn(&Host), h: f64, n: usize) -> Host {
     let host = Host::new();
     set(&host);
@@ -17,7 +18,7 @@ pub fn in_co_simulation(set: impl Fn(&Host), h: f64, n: usize) -> Host {
 }
 
 #[test]
-fn imposed_speeds_follow_their_commands_at_once() {
+fn imposed_speeds_follow_their_commands_immediately() {
     let solver = Solver::new(|host| level(host, 1));
     assert_eq!(solver.host.set("carrier.speed_command", 30.0), Status::Ok);
     assert_eq!(solver.host.get("carrier.speed"), 30.0);
@@ -28,7 +29,7 @@ fn imposed_speeds_follow_their_commands_at_once() {
     assert_eq!(x[speed], 30.0);
     x[speed] = 77.0;
     solver.set(0.0, &x);
-    assert_eq!(solver.states()[speed], 30.0, "the state of an imposed speed takes no part");
+    assert_eq!(solver.states()[speed], 30.0, "the state of an imposed speed has no effect");
 }
 
 #[test]
@@ -50,7 +51,7 @@ fn speed_jumps_of_gears_without_teeth_give_the_same_speeds_in_both_kinds() {
             let value = if imposed { 0.0 } else { 50.0 } + 0.05 * f64::from(k);
             assert_eq!(solver.host.set(command, value), Status::Ok);
             assert_eq!(steps.set(command, value), Status::Ok);
-            // the value shown at once is the value at the beginning of the step
+            // the value shown immediately is the value at the start of the step
             let shown = steps.get("left.speed");
             solver.step(1e-5);
             assert_eq!(steps.step(f64::from(k) * 1e-5, 1e-5), Status::Ok);
@@ -61,7 +62,7 @@ fn speed_jumps_of_gears_without_teeth_give_the_same_speeds_in_both_kinds() {
             }
         }
         assert!(solver.events >= 199, "{}", solver.events);
-        assert!((steps.get("left.speed") - steps.get("right.speed")).abs() > 0.5, "the free speed takes part");
+        assert!((steps.get("left.speed") - steps.get("right.speed")).abs() > 0.5, "the free speed changes");
     }
 }
 

@@ -1,4 +1,5 @@
-//! Model exchange at invalid states: refused, discarded, or the end of the run, but never a wrong number.
+//! Tests of model exchange at invalid states: a call may be refused or discarded, or end the run, but it never returns
+//! a wrong number.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
@@ -57,7 +58,7 @@ fn values_that_are_not_finite_at_extreme_states_are_discarded_by_name() {
             status == Status::Discard
         };
         let (speed, load) = (reference("left.speed"), reference("left.load_torque"));
-        // SAFETY: a live component and memory for what is asked for
+        // SAFETY: a live component and memory for the requested values
         unsafe {
             refused(fmi2GetDerivatives(c, many.as_mut_ptr(), STATES), &many);
             refused(fmi2GetContinuousStates(c, many.as_mut_ptr(), STATES), &many);
@@ -87,7 +88,7 @@ fn a_step_to_extreme_states_ends_the_run_and_reset_recovers() {
         // SAFETY: a live component and memory for the results
         let status = unsafe { fmi2CompletedIntegratorStep(solver.host.c, 1, &mut 0, &mut 0) };
         let mut states = [0.0; STATES];
-        // SAFETY: a live component and memory for what is asked for
+        // SAFETY: a live component and memory for the requested values
         let read = unsafe { fmi2GetContinuousStates(solver.host.c, states.as_mut_ptr(), STATES) };
         assert!(read != Status::Ok || states.iter().all(|x| x.is_finite()), "{wild}: {status:?}, {states:?}");
         assert_eq!(solver.host.reset(), Status::Ok);

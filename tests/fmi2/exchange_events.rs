@@ -1,4 +1,4 @@
-//! Events in model exchange.
+//! Tests of events in model exchange.
 
 use bevel_differential::fmi2::*;
 
@@ -68,8 +68,7 @@ fn a_speed_jump_at_an_event_changes_states_and_enters_the_energy_balance() {
         assert_eq!(info.states_changed, 1);
         let residual = solver.host.get("solver.energy_residual");
         assert!(residual.abs() < 1e-6, "level {gears}: {residual} J");
-        // at a time event, for which no step is completed before
-        // SAFETY: as above
+        // at a time event, before which no step is completed
         assert_eq!(unsafe { fmi2EnterContinuousTimeMode(solver.host.c) }, Status::Ok);
         let x = solver.states();
         let rates = solver.rates(solver.time, &x);

@@ -1,10 +1,11 @@
-//! Tolerance and time interval that hosts announce: they outlast restored states, and an interval may have no length.
+//! Tests of the tolerance and time interval announced by hosts. They survive restored states, and an interval may have
+//! zero length.
 
 use bevel_differential::fmi2::*;
 
 use crate::common::{Host, assert_contains};
 
-/// A started instance of the study with teeth.
+/// Creates and starts an instance of the study with teeth.
 fn started(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Host {
     let host = Host::on_level(3);
     announce(&host, tolerance, start, stop);
@@ -20,7 +21,7 @@ fn announce(host: &Host, tolerance: Option<f64>, start: f64, stop: Option<f64>) 
     assert_eq!(status, Status::Ok, "{:?}", host.log());
 }
 
-/// Brings `to` into the state of `from`, as bytes.
+/// Copies the state of `from` to `to`, as bytes.
 fn restore(from: &Host, to: &Host) {
     let state = from.get_state();
     let (status, copy) = to.deserialize(&from.serialize(state));
@@ -29,7 +30,7 @@ fn restore(from: &Host, to: &Host) {
     from.free_state(state);
 }
 
-/// Refuses to go from `time` beyond the stop time.
+/// Checks that a step from `time` beyond the stop time is refused.
 fn refuses_beyond(host: &Host, time: f64, words: &[&str]) {
     assert_eq!(host.step(time, 1e-3), Status::Error);
     assert_contains(&host.last_message(), &["fmi2DoStep", "stop time"]);
@@ -37,12 +38,12 @@ fn refuses_beyond(host: &Host, time: f64, words: &[&str]) {
 }
 
 #[test]
-fn the_own_stop_time_wins_over_that_of_a_restored_state() {
+fn an_announced_stop_time_takes_precedence_over_a_restored_one() {
     let uncut = started(None, 0.0, Some(0.02));
     let expected = uncut.record_steps(0, 20);
     let first = started(None, 0.0, Some(0.01));
     assert!(first.record_steps(0, 10) == expected[..10]);
-    // later than in the state, and earlier
+    // a stop time later than in the state, and an earlier one
     let second = started(None, 0.0, Some(0.02));
     restore(&first, &second);
     assert!(second.record_steps(10, 10) == expected[10..]);
@@ -51,7 +52,7 @@ fn the_own_stop_time_wins_over_that_of_a_restored_state() {
     let early = started(None, 0.0, Some(0.005));
     restore(&first, &early);
     refuses_beyond(&early, 0.01, &["0.005 s"]);
-    // within the process, too
+    // also by pointer within the process
     let state = first.get_state();
     assert_eq!(second.set_state(state), Status::Ok);
     assert!(second.record_steps(10, 10) == expected[10..]);
@@ -59,18 +60,18 @@ fn the_own_stop_time_wins_over_that_of_a_restored_state() {
 }
 
 #[test]
-fn without_an_own_stop_time_that_of_the_state_applies_and_messages_say_so() {
+fn without_an_announced_stop_time_the_restored_one_applies_and_messages_say_so() {
     let (first, second) = (started(None, 0.0, Some(0.002)), started(None, 0.0, Some(0.003)));
     let steps = first.record_steps(0, 2);
     assert!(second.record_steps(0, 2) == steps);
     let other = started(None, 0.0, None);
     restore(&first, &other);
     refuses_beyond(&other, 0.002, &["0.002 s", "restored state", "fmi2SetupExperiment"]);
-    // each state brings its own
+    // each state has its own stop time
     restore(&second, &other);
     other.record_steps(2, 1);
     refuses_beyond(&other, 0.003, &["0.003 s", "restored state"]);
-    // a fresh instance has nothing but the state
+    // a new instance has only the stop time of the state
     let fresh = Host::new();
     restore(&second, &fresh);
     fresh.record_steps(2, 1);
@@ -103,7 +104,7 @@ fn a_reset_or_another_experiment_forgets_what_was_announced() {
 }
 
 #[test]
-fn the_own_tolerance_wins_over_that_of_a_restored_state_unless_that_is_a_parameter() {
+fn an_announced_tolerance_takes_precedence_over_a_restored_one_unless_it_was_set_as_a_parameter() {
     let tolerance = |host: &Host| host.get("solver.relative_tolerance");
     let (loose, tight) = (started(Some(1e-3), 0.0, None), started(Some(1e-9), 0.0, None));
     for host in [&loose, &tight] {
@@ -124,7 +125,7 @@ fn the_own_tolerance_wins_over_that_of_a_restored_state_unless_that_is_a_paramet
         of_other > 2.0 * of_loose && (0.8..1.25).contains(&(of_other / of_tight)),
         "{of_loose} {of_other} {of_tight}"
     );
-    // none was announced, or the same: the state stays as it is
+    // without an announcement, or with the same tolerance, the state stays as it is
     for own in [None, Some(1e-9)] {
         let other = started(own, 0.0, None);
         restore(&tight, &other);
@@ -146,7 +147,7 @@ fn the_own_tolerance_wins_over_that_of_a_restored_state_unless_that_is_a_paramet
 }
 
 #[test]
-fn the_tolerance_of_a_start_that_is_being_chosen_follows_as_well() {
+fn an_announced_tolerance_also_applies_to_a_state_in_initialisation_mode() {
     let saved = Host::on_level(3);
     announce(&saved, Some(1e-4), 0.0, Some(0.1));
     assert_eq!(saved.enter(), Status::Ok);
@@ -159,7 +160,7 @@ fn the_tolerance_of_a_start_that_is_being_chosen_follows_as_well() {
 }
 
 #[test]
-fn a_run_may_have_no_length() {
+fn a_run_may_have_zero_length() {
     for time in [0.0, 5.0, -3.0, 1.7e9] {
         let (host, longer) = (started(None, time, Some(time)), started(None, time, Some(time + 1.0)));
         assert!(host.outputs() == longer.outputs(), "the start is the same at {time} s");

@@ -1,4 +1,4 @@
-//! Inputs that the host holds through each communication step and changes at the next: a staircase.
+//! Tests of inputs that the host holds during each communication step and changes at the next point, as a staircase.
 
 use bevel_differential::fmi2::Status;
 
@@ -6,15 +6,15 @@ use crate::common::Host;
 
 const H: f64 = 1e-3;
 
-/// What the host sets at communication point `k`.
+/// Value that the host sets at communication point `k`.
 type Staircase = fn(usize) -> f64;
 
-/// A slow sine of 100 N·m.
+/// Slow sine with an amplitude of 100 N·m.
 fn sine(k: usize) -> f64 {
     835.0 + 100.0 * (std::f64::consts::TAU * 2.0 * k as f64 * H).sin()
 }
 
-/// A turn under loads, with a contact law by its number and a method.
+/// Creates a turn under loads, with contact law `law` and solver `method`.
 fn turn(law: i32, method: i32, tolerance: f64) -> Host {
     let host = Host::new();
     assert_eq!(host.set_integer("contact.law", law), Status::Ok);
@@ -25,7 +25,8 @@ fn turn(law: i32, method: i32, tolerance: f64) -> Host {
     host
 }
 
-/// Steps from point `first` to `last`; `before` each step the host may look at outputs.
+/// Steps from point `first` to `last`. Calls `before` each step, so that the host may read outputs. Returns the
+/// outputs.
 fn drive(host: &Host, [first, last]: [usize; 2], torque: Staircase, before: impl Fn(&Host)) -> Vec<Vec<u64>> {
     (first..last)
         .map(|k| {
@@ -37,7 +38,7 @@ fn drive(host: &Host, [first, last]: [usize; 2], torque: Staircase, before: impl
         .collect()
 }
 
-/// Evaluations and rejected attempts per communication step, once the first hundred steps are over.
+/// Numbers of evaluations and rejected attempts per communication step, after the first hundred steps.
 fn cost(host: &Host, torque: Staircase) -> [f64; 2] {
     let counts = || ["solver.rhs_calls", "solver.rejected"].map(|name| host.get(name));
     drive(host, [0, 100], torque, |_| {});
@@ -48,16 +49,17 @@ fn cost(host: &Host, torque: Staircase) -> [f64; 2] {
 }
 
 #[test]
-fn steps_after_a_jump_begin_with_sizes_that_were_right_after_the_last_jumps() {
+fn steps_after_a_jump_start_with_sizes_that_were_right_after_earlier_jumps() {
     for (law, most) in [(1, 80.0), (2, 95.0)] {
         let [evaluations, rejected] = cost(&turn(law, 1, 1e-6), sine);
-        // a step size that is divided until it fits, and then grows, takes some 130 evaluations and 5 rejected attempts
+        // a step size that is divided until it fits, and then grows, needs about 130 evaluations and 5 rejected
+        // attempts
         assert!(evaluations < most && rejected < 0.5, "law {law}: {evaluations} evaluations, {rejected} rejected");
     }
 }
 
 #[test]
-fn jumps_far_below_the_tolerance_restart_nothing() {
+fn jumps_far_below_the_tolerance_do_not_shorten_steps() {
     for law in [1, 2] {
         let [constant, _] = cost(&turn(law, 1, 1e-6), |_| 835.0);
         let [tiny, _] = cost(&turn(law, 1, 1e-6), |k| 835.0 + 835e-9 * (k % 7) as f64);
@@ -66,10 +68,10 @@ fn jumps_far_below_the_tolerance_restart_nothing() {
 }
 
 #[test]
-fn held_inputs_are_as_accurate_as_the_tolerance_says() {
+fn results_with_held_inputs_are_within_the_tolerance() {
     let names = ["left.speed", "right.speed", "left.tangential_force", "planet[1].left_normal_force", "heat.contact"];
     for (law, allowed) in [(1, [1e-6, 1e-6, 3e-6, 3e-6, 3e-5]), (2, [1e-6, 1e-6, 3e-6, 3e-6, 5e-5])] {
-        // Radau IIA at a tolerance four orders tighter is the level above
+        // the reference is Radau IIA with a tolerance tighter by four orders of magnitude
         let [host, reference] = [turn(law, 1, 1e-6), turn(law, 3, 1e-10)];
         let (mut largest, mut errors) = ([0.0f64; 5], [0.0f64; 5]);
         for k in 0..120 {
@@ -99,7 +101,7 @@ fn reading_between_set_and_step_changes_nothing() {
 }
 
 #[test]
-fn what_was_learned_of_jumps_is_part_of_the_state() {
+fn the_memory_of_jumps_is_part_of_the_state() {
     let host = turn(2, 1, 1e-6);
     drive(&host, [0, 60], sine, |_| {});
     let saved = host.get_state();
@@ -108,7 +110,7 @@ fn what_was_learned_of_jumps_is_part_of_the_state() {
     assert_eq!(host.set_state(saved), Status::Ok);
     assert_eq!(drive(&host, [60, 90], sine, |_| {}), first);
     host.free_state(saved);
-    // in another instance, whose own steps have learned nothing
+    // in another instance, whose step-size memory is empty
     let other = turn(2, 1, 1e-6);
     let (status, state) = other.deserialize(&bytes);
     assert_eq!((status, other.set_state(state)), (Status::Ok, Status::Ok));
@@ -117,7 +119,7 @@ fn what_was_learned_of_jumps_is_part_of_the_state() {
 }
 
 #[test]
-fn a_host_whose_times_are_rounded_gets_the_steps_of_one_whose_times_are_not() {
+fn rounding_of_communication_times_does_not_change_steps() {
     let (exact, rounded) = (turn(1, 1, 1e-6), turn(1, 1, 1e-6));
     let mut time = 0.0;
     for k in 0..300 {

@@ -1,48 +1,50 @@
-//! Saved states with absurd numbers: each is refused with a message, or the run from there is finite.
+//! Tests of saved states with absurd numbers. Each state must be refused with a message, or the run from it must be
+//! finite.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::fnv1a;
 
 use crate::common::Host;
 
-/// Bytes before the payload: magic, version, hash of the GUID, length.
+/// Number of bytes before the payload: magic, version, hash of the GUID, length.
 const HEADER: usize = 28;
-/// Bytes of the checksum behind the payload.
+/// Number of bytes of the checksum after the payload.
 const CHECKSUM: usize = 8;
-/// Replacements of each number.
+/// Values that replace each number.
 const ABSURD: [f64; 6] = [f64::NAN, f64::INFINITY, 1e300, -1e300, -1.0, 1e20];
 
-/// Places of numbers in a payload: of every eight bytes that are a number of usual size, and of zeros, eight bytes apart.
-fn places(bytes: &[u8]) -> Vec<usize> {
-    let mut places = Vec::new();
+/// Positions of possible numbers in a payload: any eight bytes that form a number of ordinary magnitude, and zeros at
+/// intervals of eight bytes.
+fn positions(bytes: &[u8]) -> Vec<usize> {
+    let mut positions = Vec::new();
     let mut zeros_until = 0;
-    for place in HEADER..=bytes.len() - CHECKSUM - 8 {
-        let window: [u8; 8] = bytes[place..place + 8].try_into().unwrap();
+    for position in HEADER..=bytes.len() - CHECKSUM - 8 {
+        let window: [u8; 8] = bytes[position..position + 8].try_into().unwrap();
         let number = f64::from_le_bytes(window);
         if window == [0; 8] {
-            if place >= zeros_until {
-                places.push(place);
-                zeros_until = place + 8;
+            if position >= zeros_until {
+                positions.push(position);
+                zeros_until = position + 8;
             }
         } else if (1e-15..1e15).contains(&number.abs()) || !number.is_finite() {
-            places.push(place);
+            positions.push(position);
         }
     }
-    places
+    positions
 }
 
-/// `bytes` with `value` in place of the eight bytes at `place`, and a checksum that is right.
-fn poisoned(bytes: &[u8], place: usize, value: f64) -> Vec<u8> {
+/// Returns `bytes` with `value` in place of the eight bytes at `position`, and a valid checksum.
+fn poisoned(bytes: &[u8], position: usize, value: f64) -> Vec<u8> {
     let mut poisoned = bytes.to_vec();
-    poisoned[place..place + 8].copy_from_slice(&value.to_le_bytes());
+    poisoned[position..position + 8].copy_from_slice(&value.to_le_bytes());
     let end = bytes.len() - CHECKSUM;
     let sum = fnv1a(poisoned[..end].iter().copied());
     poisoned[end..].copy_from_slice(&sum.to_le_bytes());
     poisoned
 }
 
-/// Result of a run from a state of `bytes` at `time` [s]: true if all is finite, false if it is refused with a message. The error
-/// describes anything else.
+/// Runs from a state of `bytes` at `time` [s]. Returns true if all results are finite, and false if the state is
+/// refused with a message. The error describes any other outcome.
 fn run(host: &Host, bytes: &[u8], time: f64) -> Result<bool, String> {
     host.clear_log();
     let refused = || {
@@ -79,19 +81,19 @@ fn run(host: &Host, bytes: &[u8], time: f64) -> Result<bool, String> {
     Ok(true)
 }
 
-/// Replaces each number in the state of `host`, which is at `time` [s], by each absurd value.
+/// Replaces each number in the state of `host`, which is at `time` [s], with each absurd value.
 fn poison(host: &Host, time: f64) {
     let state = host.get_state();
     let bytes = host.serialize(state);
     host.free_state(state);
     assert_eq!(run(host, &bytes, time), Ok(true));
     let (mut refused, mut accepted, mut bad) = (0, 0, Vec::new());
-    for place in places(&bytes) {
+    for position in positions(&bytes) {
         for value in ABSURD {
-            match run(host, &poisoned(&bytes, place, value), time) {
+            match run(host, &poisoned(&bytes, position, value), time) {
                 Ok(true) => accepted += 1,
                 Ok(false) => refused += 1,
-                Err(what) => bad.push(format!("{value} at byte {place}: {what}")),
+                Err(what) => bad.push(format!("{value} at byte {position}: {what}")),
             }
         }
     }
@@ -100,7 +102,7 @@ fn poison(host: &Host, time: f64) {
 }
 
 #[test]
-fn absurd_numbers_in_a_state_with_teeth_are_refused_or_do_no_harm() {
+fn absurd_numbers_in_a_state_with_teeth_are_refused_or_harmless() {
     let host = Host::on_level(3);
     for switch in ["strength", "mesh_history", "half_shaft", "warm_up", "limited_slip", "wheel_brake"] {
         assert_eq!(host.set_boolean(&format!("effects.{switch}"), 1), Status::Ok);
@@ -114,7 +116,7 @@ fn absurd_numbers_in_a_state_with_teeth_are_refused_or_do_no_harm() {
 }
 
 #[test]
-fn absurd_numbers_in_a_state_without_teeth_are_refused_or_do_no_harm() {
+fn absurd_numbers_in_a_state_without_teeth_are_refused_or_harmless() {
     let host = Host::on_level(1);
     for switch in ["warm_up", "wheel_brake", "bearing_drag"] {
         assert_eq!(host.set_boolean(&format!("effects.{switch}"), 1), Status::Ok);
@@ -126,7 +128,7 @@ fn absurd_numbers_in_a_state_without_teeth_are_refused_or_do_no_harm() {
 }
 
 #[test]
-fn a_stop_time_that_is_no_number_or_before_the_start_is_refused() {
+fn a_stop_time_that_is_not_a_number_or_before_the_start_is_refused() {
     let host = Host::on_level(1);
     // SAFETY: a live component
     assert_eq!(unsafe { fmi2SetupExperiment(host.c, 0, 0.0, 0.25, 1, 0.75) }, Status::Ok);
@@ -135,8 +137,8 @@ fn a_stop_time_that_is_no_number_or_before_the_start_is_refused() {
     let bytes = host.serialize(state);
     host.free_state(state);
     let stop = 0.75f64.to_le_bytes();
-    let place = bytes.windows(8).rposition(|window| window == stop).expect("the stop time is saved");
+    let position = bytes.windows(8).rposition(|window| window == stop).expect("the stop time is saved");
     for bad in [f64::NAN, 0.125, f64::NEG_INFINITY] {
-        assert_eq!(host.deserialize(&poisoned(&bytes, place, bad)).0, Status::Error, "{bad}");
+        assert_eq!(host.deserialize(&poisoned(&bytes, position, bad)).0, Status::Error, "{bad}");
     }
 }

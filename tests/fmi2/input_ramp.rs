@@ -1,13 +1,14 @@
-//! `solver.input_ramp`: jumps of torques and imposed speeds become lines over the step that follows.
+//! Tests of `solver.input_ramp`: jumps of torques and imposed speeds become ramps over the following step.
 
 use bevel_differential::fmi2::*;
 
 use crate::common::{Host, assert_contains, reference};
 
-/// Step of these tests [s]: a power of two, so that lines through values with few digits are exact.
+/// Step of these tests [s]. It is a power of two, so that ramps between values with few digits are exact.
 const STEP: f64 = 1.0 / 1024.0;
-/// Inertias of the carrier and of each end [kg·m²]; gears have next to none.
+/// Inertia of the carrier [kg·m²]. Gears have almost none.
 const CARRIER: f64 = 0.25;
+/// Inertia of each wheel side [kg·m²].
 const END: f64 = 0.5;
 
 fn with_ramp(host: Host, ramps: bool) -> Host {
@@ -15,7 +16,7 @@ fn with_ramp(host: Host, ramps: bool) -> Host {
     host
 }
 
-/// A free differential of ideal gears without inertia, driven by torques, at rest.
+/// Creates a free differential at rest, with ideal gears without inertia, driven by torques.
 fn at_rest(ramps: bool) -> Host {
     let host = with_ramp(Host::on_level(1), ramps);
     assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
@@ -29,7 +30,7 @@ fn at_rest(ramps: bool) -> Host {
 }
 
 const TORQUES: [&str; 3] = ["carrier.torque_command", "left.load_torque", "right.load_torque"];
-/// Torques that a host sets at the communication points [N·m].
+/// Torques set by the host at the communication points [N·m].
 const COURSE: [[f64; 3]; 6] = [
     [300.0, 100.0, 20.0],
     [-120.0, 100.0, 80.0],
@@ -39,7 +40,7 @@ const COURSE: [[f64; 3]; 6] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// Takes a step from point `i` on.
+/// Takes a step from point `i`.
 fn step(host: &Host, i: usize) {
     assert_eq!(host.step(i as f64 * STEP, STEP), Status::Ok, "{:?}", host.log());
 }
@@ -50,13 +51,13 @@ fn set_derivative(host: &Host, name: &str, value: f64) {
     assert_eq!(status, Status::Ok, "{name}: {:?}", host.log());
 }
 
-/// Rates of carrier and half the speed difference of the wheels under torques [1/s²].
+/// Accelerations of the carrier and of half the speed difference of the wheels under torques [1/s²].
 fn accelerations([drive, left, right]: [f64; 3]) -> [f64; 2] {
     [(drive - left - right) / (CARRIER + 2.0 * END), (right - left) / (2.0 * END)]
 }
 
 #[test]
-fn speeds_are_the_integral_of_a_polygon_of_torques_or_else_of_a_staircase() {
+fn speeds_are_the_integral_of_ramped_torques_or_without_ramps_of_held_torques() {
     for ramps in [true, false] {
         let host = at_rest(ramps);
         host.start();
@@ -94,8 +95,8 @@ fn negated_torques_give_the_negated_motion_to_the_last_bit() {
     assert_eq!(one, other);
 }
 
-/// Scenes with torques, imposed speeds and brakes: level of teeth, switches, inputs with their values at the start, and their
-/// largest changes. All are multiples of powers of two.
+/// Scenes with torques, imposed speeds and brakes: level of teeth, enumerations, switches, and inputs with their start
+/// values and maximum changes. All values are multiples of powers of two.
 type Scene = (i32, &'static [(&'static str, i32)], &'static [(&'static str, i32)], &'static [(&'static str, f64, f64)]);
 const SCENES: [Scene; 4] = [
     (
@@ -118,7 +119,7 @@ const SCENES: [Scene; 4] = [
         &[("left.brake_torque", 0.0, 256.0), ("right.brake_torque", 128.0, -16.0)],
     ),
 ];
-/// Parts of the largest changes, at the start and at the communication points.
+/// Fractions of the maximum changes, at the start and at the communication points.
 const PARTS: [f64; 7] = [0.0, 1.0, 1.0, 0.25, 0.75, 0.5, 0.0];
 
 fn started((level, integers, booleans, inputs): Scene, ramps: bool) -> Host {
@@ -136,14 +137,14 @@ fn started((level, integers, booleans, inputs): Scene, ramps: bool) -> Host {
     host
 }
 
-/// Sets inputs as they are at the end of step `i`.
+/// Sets the inputs to their values at the end of step `i`.
 fn set_inputs(host: &Host, scene: Scene, i: usize) {
     for (name, start, change) in scene.3 {
         assert_eq!(host.set(name, start + change * PARTS[i + 1]), Status::Ok);
     }
 }
 
-/// All outputs after each step of the scene with ramps, from step `first` on.
+/// Returns all outputs after each step of the scene with ramps, from step `first` on.
 fn ramped(host: &Host, scene: Scene, first: usize) -> Vec<Vec<u64>> {
     (first..PARTS.len() - 1)
         .map(|i| {
@@ -155,7 +156,7 @@ fn ramped(host: &Host, scene: Scene, first: usize) -> Vec<Vec<u64>> {
 }
 
 #[test]
-fn a_ramp_equals_the_line_that_a_host_gives_by_value_and_slope_to_the_last_bit() {
+fn a_ramp_equals_a_value_and_derivative_of_the_host_to_the_last_bit() {
     for scene in SCENES {
         let with_lines = started(scene, false);
         let lines: Vec<Vec<u64>> = (0..PARTS.len() - 1)
@@ -171,9 +172,9 @@ fn a_ramp_equals_the_line_that_a_host_gives_by_value_and_slope_to_the_last_bit()
         let host = started(scene, true);
         let ramps = ramped(&host, scene, 0);
         assert!(ramps == lines, "{scene:?}");
-        // the option is what makes the difference
+        // only the option makes the difference
         assert!(ramped(&started(scene, false), scene, 0) != lines, "{scene:?}");
-        // inputs read as they were set
+        // inputs are read as they were set
         for (name, start, _) in scene.3 {
             assert_eq!(host.get(name), *start);
         }
@@ -181,7 +182,7 @@ fn a_ramp_equals_the_line_that_a_host_gives_by_value_and_slope_to_the_last_bit()
 }
 
 #[test]
-fn reading_between_setting_and_stepping_shows_the_inputs_that_act_and_changes_nothing() {
+fn reading_between_setting_and_stepping_shows_the_present_inputs_and_changes_nothing() {
     for scene in SCENES {
         let expected = ramped(&started(scene, true), scene, 0);
         let host = started(scene, true);
@@ -196,7 +197,7 @@ fn reading_between_setting_and_stepping_shows_the_inputs_that_act_and_changes_no
 }
 
 #[test]
-fn states_taken_before_a_step_contain_where_its_ramp_begins() {
+fn states_saved_before_a_step_contain_the_start_of_its_ramp() {
     for scene in SCENES {
         let expected = ramped(&started(scene, true), scene, 0);
         let host = started(scene, true);
@@ -230,11 +231,11 @@ fn states_taken_before_a_step_contain_where_its_ramp_begins() {
 }
 
 #[test]
-fn inputs_with_derivatives_of_the_host_follow_these_and_others_ramp() {
+fn inputs_with_derivatives_from_the_host_follow_these_and_others_ramp() {
     let torques = ["left.load_torque", "right.load_torque"];
     let host = at_rest(true);
     host.start();
-    // the left load jumps to 100 N·m and rises, the right one ramps to 20 N·m; a slope of 0 is one, too
+    // the left load jumps to 100 N·m and rises, the right one ramps to 20 N·m; a slope of 0 also counts as a derivative
     for (i, slope) in [8192.0, 0.0].into_iter().enumerate() {
         let (left, right, before) = (host.get("left.wheel_speed"), host.get("right.wheel_speed"), host.get(torques[1]));
         set_derivative(&host, torques[0], slope);
@@ -247,7 +248,7 @@ fn inputs_with_derivatives_of_the_host_follow_these_and_others_ramp() {
         assert!((found[1] - carrier + difference).abs() < 1e-10, "{found:?}");
         assert_eq!([host.get(torques[0]), host.get(torques[1])], [100.0 + slope * STEP, 20.0]);
     }
-    // set without a derivative, the left load ramps from where its line has led
+    // without a derivative, the left load ramps from the value that its line has reached
     let before = host.get("left.wheel_speed");
     assert_eq!(host.set(torques[0], 0.0), Status::Ok);
     step(&host, 2);
@@ -260,7 +261,7 @@ fn locks_jump_and_inputs_that_never_change_do_not_ramp() {
     let runs = [true, false].map(|ramps| {
         let host = with_ramp(Host::on_level(1), ramps);
         assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
-        // set before the end of the initialisation: the beginning
+        // values set before the end of initialisation are start values
         assert_eq!(host.set_many(&TORQUES, &[200.0, 140.0, 20.0]), Status::Ok);
         host.start();
         let commands = [0.0, 1.0, 1.0, 0.25];
@@ -277,7 +278,7 @@ fn locks_jump_and_inputs_that_never_change_do_not_ramp() {
 }
 
 #[test]
-fn a_host_that_integrates_is_told_that_the_option_changes_nothing() {
+fn a_host_that_integrates_is_warned_that_the_option_changes_nothing() {
     let speeds = [true, false].map(|ramps| {
         let host = with_ramp(Host::for_exchange(), ramps);
         assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
@@ -292,12 +293,14 @@ fn a_host_that_integrates_is_told_that_the_option_changes_nothing() {
     assert_eq!(speeds[0], speeds[1]);
 }
 
-/// Stiffness and damping of a host's spring and damper at the left wheel [N·m/rad, N·m·s/rad].
+/// Stiffness of the host's spring at the left wheel [N·m/rad].
 const SPRING: f64 = 4000.0;
+/// Damping of the host's damper at the left wheel [N·m·s/rad].
 const DAMPER: f64 = 20.0;
 
-/// Angle, speed and torque of the left wheel at the start and after each of `count` steps of `h` [s], with a spring and damper of
-/// the host that start from a twist of 1 mrad. The carrier stands, so the right wheel turns backward.
+/// Angle, speed and torque of the left wheel at the start and after each of `count` steps of `h` [s]. The host has a
+/// spring and a damper, which start from a twist of 1 mrad. The carrier does not move, so the right wheel turns
+/// backward.
 fn coupled(ramps: bool, h: f64, count: usize) -> Vec<[f64; 3]> {
     let host = at_rest(ramps);
     assert_eq!(host.set_integer("scene.carrier_drive", 1), Status::Ok);
@@ -315,7 +318,8 @@ fn coupled(ramps: bool, h: f64, count: usize) -> Vec<[f64; 3]> {
     all
 }
 
-/// The same by the recursion of a single inertia of 1 kg·m² under a torque that ramps or is held.
+/// Angle, speed and torque like [`coupled`], from the recursion of a single inertia of 1 kg·m² under a torque that is
+/// ramped or held.
 fn recursion(ramps: bool, h: f64, count: usize) -> Vec<[f64; 3]> {
     let mut all = vec![[0.0; 3]];
     for i in 0..count {
@@ -329,9 +333,10 @@ fn recursion(ramps: bool, h: f64, count: usize) -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn a_spring_of_the_host_becomes_unstable_at_the_step_that_the_eigenvalues_give() {
-    // By Jury's criterion on the characteristic polynomials, with C = hc/J and K = h²k/J: held inputs need K < 2C and C < 2, ramps
-    // K (1 - C/6) < C (1 - C/2). With c = 20, k = 4000 and J = 1 these are 10 ms and 4.84 ms.
+fn a_spring_of_the_host_becomes_unstable_at_the_step_size_given_by_the_eigenvalues() {
+    // Limits from Jury's criterion on the characteristic polynomials, with C = hc/J and K = h²k/J. Held inputs need K <
+    // 2C and C < 2, and ramps need K (1 - C/6) < C (1 - C/2). With c = 20, k = 4000 and J = 1, these limits are 10 ms
+    // and 4.84 ms.
     let excess = |h: f64| h * SPRING * (1.0 - h * DAMPER / 6.0) - DAMPER * (1.0 - 0.5 * h * DAMPER);
     let (mut low, mut high) = (0.0, 0.01);
     while high - low > 1e-12 {

@@ -1,4 +1,4 @@
-//! Instances: how they are made, how many there may be, and on which threads.
+//! Tests of instances: their creation, their number, and their threads.
 
 use std::ptr;
 
@@ -8,7 +8,7 @@ use bevel_differential::variables;
 use crate::common::recorder::Recorder;
 use crate::common::{Host, assert_contains};
 
-/// A pointer to `value` at an odd address, which lives as long as `memory`.
+/// Returns a pointer to `value` at an odd address, which is valid as long as `memory`.
 fn misaligned<T: Copy>(memory: &mut Vec<u8>, value: T) -> *const T {
     memory.resize(size_of::<T>() + 1, 0);
     let pointer = memory.as_mut_ptr();
@@ -24,7 +24,7 @@ fn misaligned_callbacks_are_refused() {
     let guid = std::ffi::CString::new(variables::guid()).unwrap();
     let (callbacks, mut memory) = (recorder.callbacks(), Vec::new());
     let odd = misaligned(&mut memory, callbacks);
-    // SAFETY: all arguments are valid during the calls, but for the alignment that is tested
+    // SAFETY: all arguments are valid during the calls, except for the alignment that is tested
     unsafe {
         assert!(fmi2Instantiate(c"test".as_ptr(), 1, guid.as_ptr(), ptr::null(), odd, 0, 1).is_null());
         let c = fmi2Instantiate(c"test".as_ptr(), 1, guid.as_ptr(), ptr::null(), &callbacks, 0, 1);
@@ -114,7 +114,7 @@ fn an_instance_may_move_from_thread_to_thread() {
     host.start();
     let mut seen = host.record_steps(0, 2);
     struct Moved(Host);
-    // SAFETY: one thread at a time, as the join below sees to
+    // SAFETY: only one thread at a time uses the host, because of the join below
     unsafe impl Send for Moved {}
     let moved = Moved(host);
     seen.extend(

@@ -1,4 +1,4 @@
-//! What is logged, and when.
+//! Tests of log messages and of the settings that select them.
 
 use std::ptr;
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
@@ -31,13 +31,13 @@ fn without_callbacks_or_logger_everything_works() {
 
 #[test]
 fn percent_signs_never_reach_the_printf_of_the_host() {
-    // the recorder refuses any percent sign
+    // the recorder rejects any percent sign
     let host = Host::instantiate(Some("100%s"), CO_SIMULATION, Some("%n%s%d"), None);
     assert!(host.c.is_null());
     assert_contains(&host.last_message(), &["percent"]);
 }
 
-/// Categories of the lines that a run logs: its start, a discarded call and a refused call.
+/// Categories of the lines logged by a run: its start, a discarded call and a refused call.
 fn logged_by_a_run(host: &Host) -> Vec<String> {
     host.start();
     assert_eq!(host.set("left.load_torque", f64::NAN), Status::Discard);
@@ -52,13 +52,14 @@ const EVENTS: &str = "logEvents";
 
 #[test]
 fn with_logging_off_only_calls_that_fail_are_logged() {
-    // the start values have a warning, the face width of the study; the last event lists the values that nobody set
+    // the start values cause a warning, about the face width of the study; the last event lists values that were not
+    // set
     assert_eq!(logged_by_a_run(&Host::with_logging(1)), [EVENTS, WARNING, EVENTS, DISCARD, ERROR]);
     assert_eq!(logged_by_a_run(&Host::with_logging(0)), [DISCARD, ERROR]);
 }
 
 #[test]
-fn categories_select_what_is_logged_but_errors_are_logged_always() {
+fn categories_select_messages_but_errors_are_always_logged() {
     let run = |logging, categories: &[Text]| {
         let host = Host::with_logging(0);
         // SAFETY: a live component and an array of strings
@@ -74,8 +75,8 @@ fn categories_select_what_is_logged_but_errors_are_logged_always() {
     assert_eq!(run(1, &[warning]), selected(&[WARNING, ERROR]));
     assert_eq!(run(1, &[discard, events]), selected(&[EVENTS, EVENTS, DISCARD, ERROR]));
     assert_eq!(run(0, &[]), selected(&[DISCARD, ERROR]));
-    assert_eq!(run(0, &[warning, events]), selected(&[DISCARD, ERROR]), "switched off, categories mean nothing");
-    // unknown names are reported, known ones count
+    assert_eq!(run(0, &[warning, events]), selected(&[DISCARD, ERROR]), "with logging off, categories have no effect");
+    // unknown names are reported, and known ones are used
     assert_eq!(run(1, &[error, c"logNonsense".as_ptr(), ptr::null()]), (Status::Warning, vec![ERROR.to_owned()]));
 }
 
@@ -94,11 +95,11 @@ fn stresses_above_the_strength_are_reported_once_with_logging_on_and_never_with_
 }
 
 #[test]
-fn a_logger_that_calls_back_is_refused_and_does_no_harm() {
+fn a_call_from_within_the_logger_is_refused_and_harmless() {
     static COMPONENT: AtomicPtr<c_void> = AtomicPtr::new(ptr::null_mut());
     static RESULT: AtomicI32 = AtomicI32::new(-1);
     unsafe extern "C" fn logger(_: *mut c_void, _: Text, _: Status, _: Text, _: Text) {
-        // SAFETY: the component lives; the call is what is tested
+        // SAFETY: a live component; the call is the object of the test
         let status = unsafe { fmi2Reset(COMPONENT.load(Ordering::Relaxed)) };
         RESULT.store(status as i32, Ordering::Relaxed);
     }

@@ -1,4 +1,5 @@
-//! The C functions as hosts call them, a topic per file. One program, so that it is linked once.
+//! Tests of the C functions as hosts call them, with one topic per file. They form one program, so that it is linked
+//! once.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -25,6 +26,6 @@ mod stepping;
 mod straight_case;
 mod values;
 
-/// Counts per thread, for the tests of allocations.
+/// Allocator with counters per thread, for the tests of allocations.
 #[global_allocator]
 static ALLOCATOR: common::counting_allocator::CountingAllocator = common::counting_allocator::CountingAllocator;

@@ -1,4 +1,5 @@
-//! States set as variables: the same as all states set together, in continuous-time mode only, all of a call or nothing.
+//! Tests of states that are set as variables. They give the same result as setting all states in one call, and can be
+//! set only in continuous-time mode. A call sets all its values or none.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
@@ -9,7 +10,7 @@ use crate::solver::{Solver, level};
 
 type Set = fn(&Host);
 
-/// Free, imposed, constrained and unused states.
+/// Scenes with free, imposed, constrained and unused states.
 const SCENES: [(&str, Set); 4] = [
     ("teeth, speed of the carrier imposed", |host| level(host, 3)),
     ("teeth, spin imposed, four planets, half-shafts and pins", |host| {
@@ -31,7 +32,7 @@ const SCENES: [(&str, Set); 4] = [
     }),
 ];
 
-/// A solver some steps after the start, with whole turns of the carrier behind it.
+/// Creates a solver some steps after the start, after whole turns of the carrier.
 fn turned(set: Set) -> Solver {
     let mut solver = Solver::new(set);
     solver.steps(1e-6, 5);
@@ -54,7 +55,7 @@ fn set_real(host: &Host, references: &[u32], values: &[f64]) -> Status {
     unsafe { fmi2SetReal(host.c, references.as_ptr(), references.len(), values.as_ptr()) }
 }
 
-/// The present state as bytes.
+/// Returns the present state as bytes.
 fn bytes(host: &Host) -> Vec<u8> {
     let state = host.get_state();
     let bytes = host.serialize(state);
@@ -62,7 +63,7 @@ fn bytes(host: &Host) -> Vec<u8> {
     bytes
 }
 
-/// Bits of derivatives, states, event indicators and a column of derivatives of the derivatives.
+/// Returns the bits of derivatives, states and event indicators, and of a column of derivatives of the derivatives.
 fn seen(solver: &Solver) -> Vec<u64> {
     let (mut rates, mut column, mut indicators) = ([0.0; STATES], [0.0; STATES], [0.0; EVENT_INDICATORS]);
     let c = solver.host.c;
@@ -77,7 +78,7 @@ fn seen(solver: &Solver) -> Vec<u64> {
     rates.into_iter().chain(solver.states()).chain(indicators).chain(column).map(f64::to_bits).collect()
 }
 
-/// States at which teeth press and bodies turn differently.
+/// Returns states at which teeth are loaded and bodies turn differently.
 fn moved(x: &[f64; STATES]) -> [f64; STATES] {
     std::array::from_fn(|k| {
         let nominal = table().rows[table().states[k]].nominal.unwrap();
@@ -86,7 +87,7 @@ fn moved(x: &[f64; STATES]) -> [f64; STATES] {
 }
 
 #[test]
-fn states_set_as_variables_are_those_set_together_to_the_last_bit() {
+fn states_set_as_variables_equal_states_set_in_one_call_to_the_last_bit() {
     for (name, set) in SCENES {
         let [together, one_by_one, in_one_call] = [(); 3].map(|()| turned(set));
         let x = moved(&together.states());
@@ -178,7 +179,7 @@ fn states_are_refused_in_every_other_mode_with_the_reason() {
 }
 
 #[test]
-fn a_saved_state_has_the_states_that_were_set() {
+fn a_saved_state_contains_the_states_that_were_set() {
     for (name, set) in SCENES {
         let [solver, other] = [(); 2].map(|()| turned(set));
         let x = moved(&solver.states());

@@ -1,4 +1,4 @@
-//! A host with its own solver for model exchange, here the classical Runge–Kutta method.
+//! A host with its own solver for model exchange, the classical Runge–Kutta method.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
@@ -14,7 +14,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Starts with the scene that `set` makes.
+    /// Creates and starts a solver with the scene that `set` defines.
     pub fn new(set: impl Fn(&Host)) -> Self {
         let host = Host::for_exchange();
         set(&host);
@@ -53,7 +53,7 @@ impl Solver {
         z
     }
 
-    /// One step, followed by an event if an indicator changed its sign or the instance requests an event.
+    /// Takes one step, followed by an event if an indicator changed its sign or the instance requests an event.
     pub fn step(&mut self, h: f64) {
         let before = self.indicators();
         let x = self.states();
@@ -91,7 +91,7 @@ impl Solver {
     }
 }
 
-/// Sets the level of gear contact, and inertias of the wheels.
+/// Sets the level of gear contact and the inertias of the wheels.
 pub fn level(host: &Host, level: i32) {
     assert_eq!(host.set_integer("scene.gear_contact", level), Status::Ok);
     assert_eq!(host.set_many(&["inertia.left_end", "inertia.right_end"], &[0.3, 0.5]), Status::Ok);

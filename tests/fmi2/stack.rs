@@ -1,4 +1,4 @@
-//! Threads with a stack of 128 KiB are enough for every level, every effect, every method, and both kinds of instances.
+//! Tests that a stack of 128 KiB is enough for every level, every effect, every method, and both kinds of instances.
 
 use std::ptr;
 
@@ -41,7 +41,7 @@ fn starts(scene: &Scene) -> bool {
     [host.setup(), host.enter(), host.exit()] == [Status::Ok; 3]
 }
 
-/// A scene of a level with every effect that can be combined.
+/// Creates a scene with gear contact `level` and every effect that can be combined with it.
 fn with_all_effects(level: i32) -> Scene {
     let mut scene = vec![("scene.gear_contact", level), ("geometry.planet_count", 4), ("solid.facets", 8)];
     if !starts(&scene) {
@@ -59,11 +59,11 @@ fn with_all_effects(level: i32) -> Scene {
     scene
 }
 
-/// Calls every function of the kind once.
+/// Calls every function for the kind of instance once.
 fn exercise_all_functions(kind: i32, scene: &Scene) {
     let host = if kind == MODEL_EXCHANGE { Host::for_exchange() } else { Host::new() };
     let (load, speed) = (reference("left.load_torque"), reference("left.speed"));
-    // a failed initialisation first: its messages are the longest
+    // a failed initialisation first, because its messages are the longest
     assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
     assert_eq!([host.enter(), host.exit()], [Status::Ok, Status::Error]);
     assert_eq!(host.reset(), Status::Ok);

@@ -1,4 +1,4 @@
-//! FMU states: a restored simulation continues bit by bit, and invalid bytes are refused.
+//! Tests of FMU states: a restored simulation continues bit by bit, and invalid bytes are refused.
 
 use std::ptr;
 
@@ -31,7 +31,7 @@ fn a_restored_state_continues_bit_by_bit() {
     }
 }
 
-/// Another instance in the serialised state `bytes`, which it serialises to the same again.
+/// Creates another instance in the serialised state `bytes`, and checks that it serialises to the same bytes.
 fn another_instance(bytes: &[u8]) -> Host {
     let other = Host::new();
     let (status, copy) = other.deserialize(bytes);
@@ -66,7 +66,7 @@ fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
 fn a_state_within_a_step_of_the_solver_continues_bit_by_bit() {
     let host = Host::on_level(3);
     host.start();
-    // inputs hold, and steps of the solver grow much longer than these
+    // inputs are held, so steps of the solver grow much longer than these steps
     let go_on = |host: &Host, first: usize| {
         (first..first + 40)
             .map(|i| {
@@ -167,7 +167,7 @@ fn a_wrong_size_and_null_pointers_are_refused() {
     let mut bytes = host.serialize(state);
     let (short, long) = (bytes.len() - 1, bytes.len() + 1);
     bytes.extend([0; 8]);
-    // SAFETY: a live component; memory of these sizes; NULL is what is tested
+    // SAFETY: a live component; memory of these sizes; NULL is the object of the test
     unsafe {
         assert_eq!(fmi2SerializeFMUstate(host.c, state, bytes.as_mut_ptr().cast(), short), Status::Error);
         assert_eq!(fmi2SerializeFMUstate(host.c, state, bytes.as_mut_ptr().cast(), long), Status::Error);

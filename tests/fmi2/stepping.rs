@@ -1,4 +1,4 @@
-//! Steps: which are carried out, which are refused, and the state after a failed step.
+//! Tests of steps that are carried out, steps that are refused, and the state after a failed step.
 
 use bevel_differential::fmi2::*;
 
@@ -51,7 +51,7 @@ fn communication_points_are_compared_with_a_tolerance() {
 }
 
 #[test]
-fn a_step_repeated_or_left_out_is_refused_at_late_times_too() {
+fn a_repeated_or_omitted_step_is_refused_even_at_late_times() {
     for (start, h) in [(1e6, 1e-4), (1e3, 1e-6), (0.0, 1e-9)] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!((status, host.enter(), host.exit()), (Status::Ok, Status::Ok, Status::Ok));
@@ -65,7 +65,7 @@ fn a_step_repeated_or_left_out_is_refused_at_late_times_too() {
 }
 
 #[test]
-fn a_step_too_small_for_the_time_axis_changes_nothing() {
+fn a_step_below_the_resolution_of_time_changes_nothing() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
@@ -107,7 +107,7 @@ fn an_invalid_experiment_is_refused() {
 }
 
 #[test]
-fn time_starts_where_the_experiment_says() {
+fn time_starts_at_the_start_time_of_the_experiment() {
     for start in [-3.0, 100.0] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!([status, host.enter(), host.exit()], [Status::Ok; 3]);

@@ -1,4 +1,5 @@
-//! The study's straight case through the C functions; expected values are the study's loads and speed, and statics.
+//! Tests of the study's straight case through the C functions. Expected values are the study's loads and speed, and
+//! statics.
 
 use bevel_differential::fmi2::Status;
 
@@ -12,7 +13,8 @@ fn close(host: &Host, name: &str, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance, "{name} = {value}, expected {expected} within {tolerance}");
 }
 
-/// Both wheels turn with the carrier, the planets stand still on their pins, loads and drive are in balance.
+/// Checks that both wheels turn with the carrier, planets do not spin on their pins, and loads and drive are in
+/// balance.
 fn assert_straight(host: &Host, relative: f64) {
     for name in ["carrier.speed", "left.speed", "right.speed"] {
         close(host, name, SPEED, relative * SPEED);
@@ -29,7 +31,7 @@ fn assert_straight(host: &Host, relative: f64) {
 }
 
 #[test]
-fn outputs_are_right_at_time_zero_before_and_after_initialisation_ends() {
+fn outputs_are_right_at_time_zero_before_and_after_the_end_of_initialisation() {
     for level in [1, 3] {
         let host = Host::new();
         host.set_integer("scene.gear_contact", level);
@@ -43,7 +45,7 @@ fn outputs_are_right_at_time_zero_before_and_after_initialisation_ends() {
 }
 
 #[test]
-fn outputs_in_initialisation_mode_follow_what_is_set() {
+fn outputs_in_initialisation_mode_follow_the_values_set() {
     let host = Host::new();
     host.set_integer("scene.gear_contact", 1);
     assert_eq!(host.enter(), Status::Ok, "without fmi2SetupExperiment the start time is 0");

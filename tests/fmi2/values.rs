@@ -1,4 +1,4 @@
-//! Setting and getting: what is refused with which message, and that a refused call changes nothing.
+//! Tests of setting and reading values: refused calls return the right message and change nothing.
 
 use std::ptr;
 
@@ -8,7 +8,7 @@ use bevel_differential::variables::table;
 use crate::common::{Host, assert_contains, reference};
 
 #[test]
-fn a_parameter_that_is_not_finite_is_discarded_at_once() {
+fn a_parameter_that_is_not_finite_is_discarded_immediately() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", f64::NAN), Status::Discard);
     assert_contains(&host.last_message(), &["geometry.module", "NaN", "0.0002", "0.1", " m"]);
@@ -31,7 +31,7 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
     );
     assert_eq!(host.step(0.0, 1e-3), Status::Error);
     assert_eq!(host.try_get("left.speed").0, Status::Error);
-    assert_eq!(host.get("geometry.module"), 4.5, "the values set can be read");
+    assert_eq!(host.get("geometry.module"), 4.5, "values that were set can be read");
     assert_eq!(host.reset(), Status::Ok);
     assert_eq!(host.get("geometry.module"), 0.0045);
     host.start();
@@ -66,8 +66,8 @@ fn outputs_and_fixed_parameters_are_not_set_in_a_running_simulation() {
 }
 
 #[test]
-fn a_tunable_parameter_acts_in_a_running_simulation() {
-    // the damping is doubled between two steps; the runs differ from there on
+fn a_tunable_parameter_takes_effect_in_a_running_simulation() {
+    // the damping is doubled between two steps; the runs differ from then on
     let (plain, tuned) = (Host::on_level(3), Host::on_level(3));
     plain.start();
     tuned.start();
@@ -108,7 +108,7 @@ fn wrong_types_and_unknown_references_are_named() {
 fn null_arrays_are_refused_unless_the_count_is_zero() {
     let host = Host::new();
     let module = reference("geometry.module");
-    // SAFETY: a live component; NULL arrays are what is tested
+    // SAFETY: a live component; NULL arrays are the object of the test
     unsafe {
         assert_eq!(fmi2GetReal(host.c, ptr::null(), 0, ptr::null_mut()), Status::Ok);
         assert_eq!(fmi2SetReal(host.c, ptr::null(), 0, ptr::null()), Status::Ok);
@@ -122,7 +122,7 @@ fn null_arrays_are_refused_unless_the_count_is_zero() {
 }
 
 #[test]
-fn every_parameter_and_input_reads_back_its_start_value() {
+fn every_real_parameter_reads_back_its_start_value() {
     let host = Host::new();
     for row in table().rows.iter().filter(|row| crate::common::is_real_parameter(&row.access)) {
         let value = host.get(row.name);

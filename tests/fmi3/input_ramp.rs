@@ -1,4 +1,4 @@
-//! `solver.input_ramp` under FMI 3.0: steps that end early, and steps that are completed in parts.
+//! Tests of `solver.input_ramp` with FMI 3.0: steps that end early, and steps that are completed in parts.
 
 use std::ffi::{CString, c_void};
 use std::ptr;
@@ -6,8 +6,9 @@ use std::ptr;
 use bevel_differential::fmi3::*;
 use bevel_differential::variables::{guid, table};
 
-/// Step [s], and speed of the carrier at the start [rad/s].
+/// Step of these tests [s].
 const STEP: f64 = 1.0 / 1024.0;
+/// Speed of the carrier at the start [rad/s].
 const SPEED: f64 = 50.0;
 
 fn reference(name: &str) -> u32 {
@@ -24,14 +25,15 @@ impl Drop for Unit {
     }
 }
 
-/// How a step ended: early or not, and when [s].
+/// End of a step: early or not, and its time [s].
 type Ended = (bool, f64);
 
 impl Unit {
-    /// An instance with tooth pairs and an imposed carrier speed. Early returns are allowed; `update` is called back, if given.
+    /// Creates an instance with tooth pairs and an imposed carrier speed. Early returns are allowed, and `update` is
+    /// called back, if given.
     fn new(update: Option<IntermediateUpdate>, environment: *mut c_void) -> Self {
         let (name, token) = (CString::new("test").unwrap(), CString::new(guid()).unwrap());
-        // SAFETY: texts and environment are valid, and no messages are asked for
+        // SAFETY: texts and environment are valid, and no messages are requested
         let c = unsafe {
             fmi3InstantiateCoSimulation(
                 name.as_ptr(),
@@ -88,14 +90,15 @@ impl Unit {
     }
 }
 
-/// Checks the carrier's speed, and the angle by which it has turned from `before` [rad].
+/// Checks the carrier's speed, and the angle turned since `before` [rad].
 fn assert_moved(unit: &Unit, before: f64, [speed, turned]: [f64; 2]) {
     let found = [unit.get("carrier.speed"), unit.get("carrier.angle") - before];
     assert!((found[0] - speed).abs() < 1e-12 * SPEED, "{found:?} instead of {speed} rad/s");
     assert!((found[1] - turned).abs() < 1e-11, "{found:?} instead of {turned} rad");
 }
 
-/// A unit whose tooth breaks in the middle of its first step, over which the speed is to rise by 0.25 rad/s.
+/// Creates a unit whose tooth breaks in the middle of its first step. The speed should rise by 0.25 rad/s over this
+/// step.
 fn breaking() -> Unit {
     let unit = Unit::new(None, ptr::null_mut());
     unit.set_boolean("effects.tooth_fault", true);
@@ -107,7 +110,7 @@ fn breaking() -> Unit {
 }
 
 #[test]
-fn a_step_that_ends_early_leaves_the_rest_of_its_ramp_to_the_next() {
+fn a_step_that_ends_early_leaves_the_rest_of_its_ramp_to_the_next_step() {
     for next in [None, Some(SPEED - 0.5)] {
         let unit = breaking();
         let angle = unit.get("carrier.angle");
@@ -169,15 +172,15 @@ fn a_command_that_ends_a_step_at_its_start_leaves_the_whole_ramp() {
     assert_moved(&unit, angle, [SPEED + 0.25, STEP * (SPEED + 0.125)]);
 }
 
-/// What a host does at the parts of a step.
+/// Host's actions and records at the parts of a step.
 #[derive(Default)]
 struct Parts {
     unit: Option<ComponentPointer>,
-    /// Parts so far.
+    /// Number of parts so far.
     count: usize,
     /// Speed to set at the next part.
     speed: Option<f64>,
-    /// When it was set [s].
+    /// Time at which the speed was set [s].
     set_at: f64,
 }
 
@@ -191,7 +194,7 @@ unsafe extern "C" fn at_part(
     early_return: *mut Boolean,
     _early_return_time: *mut f64,
 ) {
-    // SAFETY: the environment is a `Parts` that outlives the step, and nobody else uses it meanwhile
+    // SAFETY: the environment is a `Parts` that outlives the step, and nothing else uses it meanwhile
     let parts = unsafe { &mut *environment.cast::<Parts>() };
     parts.count += 1;
     if let (Some(c), Some(speed)) = (parts.unit, parts.speed.filter(|_| set_requested != 0)) {
@@ -218,7 +221,7 @@ fn a_ramp_is_one_part_and_inputs_set_within_a_step_ramp_to_its_end() {
     change(parts, Some(SPEED + 0.25));
     assert_eq!(unit.step(0.0, STEP), (false, STEP));
     let (count, set_at) = read(parts);
-    assert_eq!(count, 2, "a first part, and the rest in one");
+    assert_eq!(count, 2, "the first part, and the rest in a single part");
     assert!(set_at > 0.0 && set_at < STEP, "{set_at}");
     let turned = STEP * SPEED + 0.5 * 0.25 * (STEP - set_at);
     assert_moved(&unit, angle, [SPEED + 0.25, turned]);
@@ -231,6 +234,6 @@ fn a_ramp_is_one_part_and_inputs_set_within_a_step_ramp_to_its_end() {
     unit.step(2.0 * STEP, 8.0 * STEP);
     assert!(read(parts).0 > 1, "without a ramp, steps have parts");
     drop(unit);
-    // SAFETY: made above, and no longer used
+    // SAFETY: created above, and no longer used
     drop(unsafe { Box::from_raw(parts) });
 }

@@ -1,4 +1,4 @@
-//! The C interface of FMI 3.0.
+//! Tests of the C interface of FMI 3.0.
 
 mod input_ramp;
 mod sources;

@@ -1,9 +1,9 @@
-//! All exports go through the frame that catches panics.
+//! Test that all exports use the function that catches panics.
 
 use std::fs;
 use std::path::Path;
 
-/// How an export begins: three entries that catch panics, and a constant that cannot panic. Steps enter by `part`.
+/// Allowed entries of an export: three that catch panics, and a constant that cannot panic. Steps enter by `part`.
 const ENTRIES: [&str; 5] = ["call!(c, ", " catch(", "{ free(c) }", "c\"3.0\"", "part(c, "];
 
 #[test]

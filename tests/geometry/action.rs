@@ -17,7 +17,7 @@ fn golden() -> Vec<[f64; 11]> {
         .collect()
 }
 
-/// Axis of gear `i` from apex to heel: the planet's is z, the side gear's in the plane of z and x.
+/// Axis of gear `i` from apex to heel: the planet's axis is z, the side gear's axis is in the plane of z and x.
 fn axis(pair: &Pair, i: usize) -> Vector3<f64> {
     let angle = if i == 0 { 0.0 } else { pair.shaft_angle };
     Vector3::new(angle.sin(), 0.0, angle.cos())
@@ -28,7 +28,7 @@ fn default_pair() -> Pair {
 }
 
 #[test]
-fn points_and_normals_are_the_golden_ones_and_the_mirrored_ones() {
+fn points_and_normals_match_the_golden_ones_and_their_mirror_images() {
     let pair = default_pair();
     let action = LineOfAction::new(&pair);
     let rows = golden();
@@ -39,7 +39,7 @@ fn points_and_normals_are_the_golden_ones_and_the_mirrored_ones() {
             let point = contact.point * pair.outer_cone * 1e3;
             assert!((point - Vector3::new(cx, turn * cy, cz)).amax() < 1e-9, "{s}");
             assert!((contact.normal - Vector3::new(tx, turn * ty, tz)).amax() < 1e-10, "{s}");
-            // the flanks are there when the gears have turned as the table says, teeth in mid-gap at the pitch point
+            // the flanks contain the point after the rotations in the table, with teeth in mid-gap at the pitch point
             for (i, theta, polar) in [(0, theta1, phi1), (1, theta2, phi2)] {
                 let axis = axis(&pair, i);
                 assert!((contact.point.dot(&axis) - polar.to_radians().cos()).abs() < 1e-10);
@@ -68,7 +68,8 @@ fn corners_continue_the_path_and_their_normals_have_the_moment_arms_of_the_gap()
                     let contact = action.contact(corners[i], delta, turn);
                     assert!((contact.normal.norm() - 1.0).abs() < 1e-13);
                     assert!(contact.normal.dot(&contact.point).abs() < 1e-13);
-                    // virtual work: about its own axis the corner has the lever sinδ_b (1 − g′), about its mate's sinδ_b
+                    // virtual work: about its own axis, the corner has the lever sinδ_b (1 − g′), about its mate's axis
+                    // sinδ_b
                     let slope = corner[i].exact(delta).gap.d;
                     for k in 0..2 {
                         let axis = axis(&pair, k);
@@ -84,7 +85,7 @@ fn corners_continue_the_path_and_their_normals_have_the_moment_arms_of_the_gap()
 }
 
 #[test]
-fn contacts_lie_on_the_flanks_of_the_gears_own_frames() {
+fn contacts_are_on_the_flanks_in_the_gears_own_frames() {
     let pair = default_pair();
     let action = LineOfAction::new(&pair);
     for turn in [1.0, -1.0] {
@@ -96,7 +97,7 @@ fn contacts_lie_on_the_flanks_of_the_gears_own_frames() {
                 let polar = libm::acos(own.point.z);
                 assert!((own.point - gear.flank_point(polar, turn)).amax() < 1e-13);
                 assert!((own.normal * outward - gear.flank_normal(polar, turn)).amax() < 1e-12);
-                // toward the planet's root, and the side gear's tip
+                // toward the planet's root and the side gear's tip
                 assert!(own.along.z * outward > 0.0);
             }
         }

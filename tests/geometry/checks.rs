@@ -2,7 +2,7 @@
 
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
-/// Default gears with a face width that nobody questions.
+/// Default gears with an unquestionable face width.
 fn usual() -> GearSpec {
     GearSpec { face_width: 14e-3, ..GearSpec::default() }
 }
@@ -43,10 +43,10 @@ fn usual_gears_give_no_message() {
 
 #[test]
 fn standard_addenda_undercut_a_ten_tooth_planet() {
-    // the side gear's addendum may be 0.787 modules at 20°
+    // at 20°, the side gear's addendum must not exceed 0.787 modules
     let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..usual() };
     assert_warns(&spec, &["undercut of the planet", "1.000 modules", "limit of 0.787 modules"]);
-    // the other way round, a tall planet tip jams in a small side gear
+    // conversely, a tall planet tip jams in a small side gear
     assert_warns(&GearSpec { planet_teeth: 16, side_teeth: 10, ..spec }, &["tip interference in the side gear"]);
 }
 
@@ -58,15 +58,19 @@ fn a_wide_face_a_pointed_tooth_and_a_thin_rim_give_warnings() {
 }
 
 #[test]
-fn what_is_usual_for_forged_gears_is_a_remark_and_not_a_warning() {
-    // the outer cone distance is 42.45 mm: faces of 0.35 to 0.5 R_e are forged
+fn proportions_usual_for_forged_gears_give_a_remark_and_not_a_warning() {
+    // the outer cone distance is 42.45 mm, and faces of 0.35 to 0.5 R_e are usual for forged gears
     for (width, is_remarked) in [(14e-3, false), (15e-3, true), (20e-3, true), (21.2e-3, true), (21.3e-3, false)] {
         let spec = GearSpec { face_width: width, ..usual() };
         let remarks: Vec<String> = checks::remarks(&spec, &Pair::new(&spec)).iter().map(ToString::to_string).collect();
-        assert_eq!(remarks.iter().any(|text| text.starts_with("geometry.face_width")), is_remarked, "{width} {remarks:?}");
+        assert_eq!(
+            remarks.iter().any(|text| text.starts_with("geometry.face_width")),
+            is_remarked,
+            "{width} {remarks:?}"
+        );
         assert_eq!(found(&spec).1.is_empty(), width < 21.23e-3, "{width}");
     }
-    // a pin of 16 mm leaves a rim of 4.4 mm, where the teeth are 6.6 mm deep
+    // a pin of 16 mm leaves a rim of 4.4 mm under teeth that are 6.6 mm deep
     let spec = GearSpec { planet_bore: 16e-3, ..usual() };
     let remarks = checks::remarks(&spec, &Pair::new(&spec));
     assert!(remarks.len() == 1 && remarks[0].to_string().contains("the planet's rim"), "{remarks:?}");
@@ -74,7 +78,7 @@ fn what_is_usual_for_forged_gears_is_a_remark_and_not_a_warning() {
 }
 
 #[test]
-fn a_face_that_is_hardly_too_wide_is_told_apart_from_the_limit() {
+fn a_face_that_is_barely_too_wide_is_distinguished_from_the_limit() {
     let limit = Pair::new(&usual()).outer_cone / 2.0;
     for excess in [1e-2, 1e-4, 1e-7, 1e-12] {
         let warnings = found(&GearSpec { face_width: limit * (1.0 + excess), ..usual() }).1;
@@ -109,7 +113,7 @@ fn a_fillet_that_does_not_fit_gives_a_warning() {
     let words = [
         "geometry.root_fillet: the planet's root fillet is cut to",
         "not 4.500 mm = 1.000 modules",
-        "rounded out whole",
+        "the whole gap is rounded",
     ];
     assert_warns(&spec, &words);
     let steep = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([1.0, 2.0], [1.0, 2.0]) };
@@ -134,7 +138,7 @@ fn gears_that_cannot_be_built_give_errors() {
 fn a_rim_is_measured_along_the_toe_s_front_cone() {
     let spec = GearSpec { planet_bore: 22e-3, ..usual() };
     let pair = Pair::new(&spec);
-    // from the root cone at the toe straight to the bore, at right angles to the root cone's line
+    // from the root cone at the toe straight to the bore, perpendicular to the line of the root cone
     let (sine, cosine) = (pair.gears[0].root.sin(), pair.gears[0].root.cos());
     let (mut near, mut far) = (0.0, 0.1);
     for _ in 0..100 {

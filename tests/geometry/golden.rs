@@ -10,7 +10,7 @@ fn spec(system: AddendumSystem) -> GearSpec {
     GearSpec { addendum_system: system, backlash: 0.0, ..GearSpec::default() }
 }
 
-/// The golden variants with the specification that their labels describe.
+/// The golden variants with the specifications that their labels describe.
 fn variants() -> [(&'static str, GearSpec); 4] {
     // D: working depth 1.6 m, h_ae2 = (0.430 + 0.370/u²) m, whole depth 1.788 m + 0.051 mm, u = 16/10
     let m = 4.5e-3;
@@ -36,7 +36,7 @@ fn golden() -> Value {
     serde_json::from_str(include_str!("../data/golden_geometry.json")).expect("valid JSON")
 }
 
-/// Collects comparisons, so that one run shows all that differ.
+/// Collects comparisons, so that one run shows all differences.
 #[derive(Default)]
 struct Comparison {
     wrong: Vec<String>,
@@ -59,7 +59,7 @@ impl Comparison {
 }
 
 #[test]
-fn derived_dimensions_equal_the_golden_ones() {
+fn derived_dimensions_match_the_golden_ones() {
     let golden = golden();
     let mut c = Comparison::default();
     for (name, spec) in variants() {
@@ -117,13 +117,13 @@ fn derived_dimensions_equal_the_golden_ones() {
 }
 
 #[test]
-fn the_path_of_contact_lies_between_the_golden_ends() {
+fn the_path_of_contact_has_the_golden_ends() {
     let golden = golden();
     for (name, spec) in variants() {
         let (pair, g) = (Pair::new(&spec), &golden[name]);
         let degrees = |v: &Value| v.as_f64().expect("a number").to_radians();
         let [planet, side] = ["gear1_planet", "gear2_side"].map(|k| &g[k]);
-        // from the pitch point to each tip; no further than the mate's tangent point
+        // from the pitch point to each tip, but no further than the mate's tangent point
         let to_tip = |gear: &Value| degrees(&gear["psi_tip_deg"]) - degrees(&gear["psi_pitch_deg"]);
         let high = to_tip(planet).min(degrees(&side["psi_pitch_deg"]));
         let low = -to_tip(side).min(degrees(&planet["psi_pitch_deg"]));
@@ -151,29 +151,29 @@ fn number(field: &str) -> f64 {
 }
 
 #[test]
-fn flank_points_and_normals_equal_the_golden_flank() {
+fn flank_points_and_normals_match_the_golden_flank() {
     let pair = Pair::new(&spec(AddendumSystem::Standard));
     let (mut count, mut worst_point, mut worst_normal, mut worst_by_polar) = (0, 0.0f64, 0.0f64, 0.0f64);
     for row in rows(include_str!("../data/golden_flank.csv")) {
         let gear = &pair.gears[if row[0] == "planet" { 0 } else { 1 }];
         let f: Vec<f64> = row[2..].iter().map(|x| number(x)).collect();
-        // ψ is printed to 12 digits, half a unit being 5e-11° = 9e-13 rad: 4e-11 mm on the sphere of 42 mm, as much as
-        // the rounding of the printed coordinates; 1e-9 mm leaves room
+        // ψ is printed to 12 digits. Half a unit is 5e-11° = 9e-13 rad, or 4e-11 mm on the sphere of 42 mm, as much as
+        // the rounding of the printed coordinates. 1e-9 mm leaves some margin.
         let polar = gear.polar_at(f[1].to_radians());
         let expected = Vector3::new(f[5], f[6], f[7]);
         let point = gear.flank_point(polar, 1.0) * (pair.outer_cone * MM);
         worst_point = worst_point.max((point - expected).amax());
         let normal = Vector3::new(f[8], f[9], f[10]);
         let turned = (gear.flank_normal(polar, 1.0) - normal).amax();
-        // the normal turns by dα_φ/dφ = cotα_φ cotφ, about 1/ψ near the base circle: on it (ψ = 0) the last bit of the
-        // polar angle turns it by √ε = 1.5e-8
+        // The normal turns by dα_φ/dφ = cotα_φ cotφ, about 1/ψ near the base circle. On the base circle (ψ = 0), the
+        // last bit of the polar angle turns it by √ε = 1.5e-8.
         let psi = f[1].to_radians();
         let allowed = if psi < 1e-6 { 3e-8 } else { 1e-11 + 4e-16 / psi };
         assert!(turned < allowed, "{row:?}: normal off {turned:e}, allowed {allowed:e}");
         if psi > 1e-6 {
             worst_normal = worst_normal.max(turned);
         }
-        // by the printed polar angle the point slides along its flank by δφ/cosα ≤ 1.2 δφ: within the same 1e-9 mm
+        // with the printed polar angle, the point slides along its flank by δφ/cosα ≤ 1.2 δφ, within the same 1e-9 mm
         let by_polar = gear.flank_point(f[0].to_radians(), 1.0) * (pair.outer_cone * MM);
         worst_by_polar = worst_by_polar.max((by_polar - expected).amax());
         // the right flank is the mirror image
@@ -196,21 +196,21 @@ fn both_flanks_meet_on_the_golden_contact_path() {
     let pair = Pair::new(&spec(AddendumSystem::Gleason));
     let [planet, side] = &pair.gears;
     let radius = pair.outer_cone * MM;
-    // the file's frame: planet axis z, side gear axis x; the side gear's own x axis points to the planet
+    // frame of the file: planet axis z, side gear axis x; the side gear's own x axis points to the planet
     let side_frame = Rotation3::from_basis_unchecked(&[Vector3::z(), -Vector3::y(), Vector3::x()]);
     let (mut count, mut worst) = (0, 0.0f64);
     for row in rows(include_str!("../data/golden_contact_path_B.csv")) {
         let f: Vec<f64> = row.iter().map(|x| number(x)).collect();
         let s = f[0].to_radians();
         let polar = [planet.polar_at(pair.pitch_arc[0] + s), side.polar_at(pair.pitch_arc[1] - s)];
-        // printed to 12 digits: half a unit is 9e-13 rad
+        // printed to 12 digits, of which half a unit is 9e-13 rad
         for i in 0..2 {
             assert!((polar[i] - f[1 + i].to_radians()).abs() < 2e-12, "{row:?}");
         }
         let (contact, tangent) = (Vector3::new(f[3], f[4], f[5]), Vector3::new(f[6], f[7], f[8]));
         let turn = [s / pair.sin_base()[0], s / pair.sin_base()[1]];
         assert!((turn[0] - f[9].to_radians()).abs() < 2e-12 && (turn[1] - f[10].to_radians()).abs() < 2e-12, "{row:?}");
-        // each left flank, its pitch point brought into the plane of the axes, then turned
+        // each left flank, with its pitch point in the plane of the axes, then turned
         let about_z = |angle: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
         let on_planet = about_z(f[9].to_radians() - planet.half_pitch);
         let on_side = side_frame * about_z(-f[10].to_radians() - side.half_pitch);
@@ -221,7 +221,7 @@ fn both_flanks_meet_on_the_golden_contact_path() {
         let normals = [on_planet * planet.flank_normal(polar[0], 1.0), on_side * side.flank_normal(polar[1], 1.0)];
         assert!((normals[0] - tangent).amax() < 1e-11, "{row:?}: {}", normals[0]);
         assert!((normals[1] + tangent).amax() < 1e-11, "{row:?}: {}", normals[1]);
-        // lever arms of the header, in mm: constant along the path, of opposite hand in this frame
+        // lever arms in the file's header, in mm: constant along the path, with opposite signs in this frame
         let lever = [Vector3::z(), Vector3::x()].map(|axis| contact.cross(&tangent).dot(&axis));
         assert!((lever[0] - 21.1430839677).abs() < 1e-9 && (lever[1] + 33.8289343483).abs() < 1e-9, "{row:?}");
         assert!((pair.sin_base()[0] * radius - lever[0]).abs() < 1e-9, "{row:?}");

@@ -1,4 +1,4 @@
-//! Interference of teeth against closed forms, and against parry3d's verdict on the whole solids.
+//! Interference of teeth, checked against closed forms and against parry3d's verdict on the whole solids.
 
 use crate::solid::specs;
 use bevel_differential::geometry::solid::interference::{Approach, Interference, Stance, Verdict};
@@ -33,9 +33,9 @@ fn teeth_in_the_middle_of_their_gaps_are_half_the_normal_backlash_apart() {
             let worst = of(&found, [Part::Flank; 2]);
             assert!((worst.gap - pair.normal_backlash / 2.0).abs() < found.resolution, "{spec:?}: {worst:?}");
             assert_eq!(found.verdict(found.approaches[0].gap), Verdict::Clear);
-            // four planets as large as the side gears strike each other
+            // four planets as large as the side gears overlap each other
             assert_eq!(found.any(), planet_teeth == side_teeth && planet_count == 4, "{spec:?}: {found:?}");
-            // the resolution is below a micrometre, and the gap better than that
+            // the resolution is below a micrometre, and the gap is more accurate than that
             assert!(found.resolution * pair.outer_cone < 1e-6);
             assert!((worst.gap / pair.normal_backlash - 0.5).abs() < 1e-3, "{worst:?}");
         }
@@ -43,7 +43,7 @@ fn teeth_in_the_middle_of_their_gaps_are_half_the_normal_backlash_apart() {
 }
 
 #[test]
-fn teeth_that_are_too_thick_overlap_on_the_flanks_by_half_of_what_is_too_much() {
+fn teeth_that_are_too_thick_overlap_on_the_flanks_by_half_of_the_excess() {
     for backlash in [-2e-6, -2e-5, -1e-4, -3e-4] {
         let spec = GearSpec { backlash, ..GearSpec::default() };
         let (pair, found) = look(&spec, Stance::Middle);
@@ -64,24 +64,25 @@ fn flanks_without_backlash_touch_and_so_do_driving_flanks() {
     }
 }
 
-/// Least distance per cone distance of the side gear's tip corner from the meridian below the planet's base circle, by
-/// spherical trigonometry: the corner turns about its axis, the meridian about the planet's.
+/// Smallest distance per cone distance of the side gear's tip corner from the meridian below the planet's base circle,
+/// by spherical trigonometry. The corner turns about the side gear's axis, the meridian about the planet's axis.
 fn corner_to_meridian(pair: &Pair, lag: f64) -> f64 {
     let [planet, side] = &pair.gears;
     let ratio = f64::from(side.teeth) / f64::from(planet.teeth);
     let mut least = f64::INFINITY;
     for k in 0..200_000 {
-        // η: azimuth of the corner about the side gear's axis, on the way to the plane of both axes
+        // η: azimuth of the corner about the side gear's axis while it moves toward the plane of both axes
         let eta = -0.5 + f64::from(k) * 5e-6;
         let own = Vector3::new(side.tip.sin() * eta.cos(), side.tip.sin() * eta.sin(), side.tip.cos());
         let point = Vector3::new(own.z, -own.y, own.x);
         if point.z.acos() > planet.base || point.z.acos() < planet.root {
             continue;
         }
-        // the tooth of the side gear is centred at this azimuth, and its corner on either side
+        // the tooth of the side gear is centred at this azimuth, with a corner on either side
         let centre = eta - side.half_angle(side.tip);
         let turn = -(centre - side.tooth_pitch() / 2.0 - lag) * ratio;
-        // it stands in the gap between teeth 0 and -1 of the planet: right flank of the one, left flank of the other
+        // it is in the gap between teeth 0 and -1 of the planet: the right flank of the first, the left flank of the
+        // second
         let half = planet.half_angle(planet.base);
         for (meridian, outward) in [(turn - half, -1.0), (turn - planet.tooth_pitch() + half, 1.0)] {
             let across = -point.x * meridian.sin() + point.y * meridian.cos();
@@ -101,7 +102,7 @@ fn a_tip_beyond_the_limit_penetrates_the_flank_below_the_base_circle_when_the_ba
         let (pair, found) = look(&GearSpec { backlash, ..standard }, stance);
         let corner = of(&found, parts);
         let lag = if stance == Stance::Driving { pair.normal_backlash / 2.0 / pair.sin_base()[1] } else { 0.0 };
-        // turned by `lag` the one side, by the mirror image the other
+        // turned by `lag` on one side, and mirrored on the other
         let exact = corner_to_meridian(&pair, lag).min(corner_to_meridian(&pair, -lag));
         println!(
             "{backlash} {stance:?}: {:.4} mm, exact {:.4} mm",
@@ -138,16 +139,17 @@ fn a_tip_that_strikes_a_large_fillet_is_found() {
     }
 }
 
-/// The whole solid in parry3d's millimetres.
+/// The whole solid in millimetres for parry3d.
 fn mesh(pair: &Pair, spec: &GearSpec, i: usize) -> TriMesh {
     let solid = GearSolid::new(pair, spec, i, 32, 1);
     let vertices = solid.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
     TriMesh::new(vertices, solid.triangles).expect("triangles")
 }
 
-/// Where the side gear stands in the planet's frame: turned by `side`, and the planet back by `planet`.
+/// Pose of the side gear in the planet's frame, with the side gear turned by `side` and the planet turned back by
+/// `planet`.
 fn pose(pair: &Pair, planet: f64, side: f64) -> Pose {
-    // x of the side gear toward the planet's axis, its y against the planet's
+    // x of the side gear points toward the planet's axis, and its y is opposite to the planet's y
     let half_turn = Pose::rotation(Vector::new(0.0, 0.0, std::f64::consts::PI));
     let tilt = Pose::rotation(Vector::new(0.0, pair.shaft_angle, 0.0));
     let about = |angle: f64| Pose::rotation(Vector::new(0.0, 0.0, angle));
@@ -155,7 +157,7 @@ fn pose(pair: &Pair, planet: f64, side: f64) -> Pose {
 }
 
 #[test]
-fn the_verdict_is_that_of_the_whole_solids_facet_by_facet() {
+fn the_verdict_agrees_with_the_whole_solids_facet_by_facet() {
     let few = [("thick", GearSpec { backlash: -1e-5, ..GearSpec::default() })];
     let names = ["default", "bored", "odd", "mitre", "few teeth", "flat 10 degrees", "standard", "stub", "obtuse"];
     for (name, spec) in specs().into_iter().filter(|(name, _)| names.contains(name)).chain(few) {

@@ -1,4 +1,4 @@
-//! Geometry of a pair of gears against golden numbers, and its checks.
+//! Geometry of a pair of gears, compared with golden numbers, and its checks.
 
 mod action;
 mod checks;

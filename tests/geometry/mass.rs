@@ -1,9 +1,9 @@
-//! Tests of volumes, masses and moments of inertia against integrals over the outline, which use no facets.
-//!
-//! At every azimuth the half-plane from the axis cuts the body between the apex and its end at the cone distance R in the
-//! polygon apex – outline – root circle – axis, of which the same at the toe is taken off, and the bore. Over a triangle
-//! from the apex to P = (ρ, z) and Q a moment of degree n is |P × Q|/(n + 2) times its mean along PQ. The outline itself is
-//! integrated by the midpoint rule along flanks and fillets.
+//! Tests of volumes, masses and moments of inertia, compared with integrals over the outline that use no facets.
+//! //!
+//! At every azimuth, the half-plane from the axis cuts the body between the apex and its end at the cone distance R in
+//! the polygon apex – outline – root circle – axis. The same polygon at the toe, and the bore, are subtracted. Over a
+//! triangle from the apex to P = (ρ, z) and Q, a moment of degree n is |P × Q|/(n + 2) times its mean along PQ. The
+//! outline itself is integrated by the midpoint rule along flanks and fillets.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,11 +14,10 @@ use bevel_differential::geometry::solid::{Foot, GearSolid};
 use bevel_differential::geometry::{GearSpec, Pair};
 
 const DENSITY: f64 = 7800.0;
-/// Relative error at 64 facets below which its parts cancel each other.
+/// Relative error at 64 facets below which positive and negative error terms cancel.
 const LEVEL: f64 = 3e-7;
 
-/// Integrands per unit of azimuth: volume, and moments by z, by the square of the distance from the axis
-/// and by z².
+/// Integrands per unit of azimuth: volume, and moments of z, of the squared distance from the axis, and of z².
 type Moments = [f64; 4];
 
 /// Moments of the triangle from the apex to `p` and `q`, each (ρ, z): ∫∫ ρ (1, z, ρ², z²) dρ dz.
@@ -80,7 +79,7 @@ fn ring(gear: &Gear, wanted: f64, f: &dyn Fn(f64) -> Moments) -> Moments {
     sum
 }
 
-/// Every planet and side gear of the specimens, with the exact solution and its name.
+/// All planets and side gears of the test specifications, with the exact solution and a name.
 fn gears() -> Vec<(String, GearSpec, Pair, usize, GearMass)> {
     let mut all = Vec::new();
     for (name, spec) in specs() {
@@ -108,7 +107,8 @@ fn masses_converge_with_second_order_to_the_integral_over_the_outline() {
         let (coarse, fine) = (at(32), at(64));
         for k in 0..4 {
             all += 1;
-            // chords of flanks lie within the body, those of fillets outside: where both even out there is no order
+            // chords of flanks are inside the body, chords of fillets outside; if both cancel, there is no order of
+            // convergence
             if fine[k].abs() < LEVEL {
                 continue;
             }
@@ -141,8 +141,8 @@ fn the_exported_gear_has_the_mass_of_the_simulation() {
 }
 
 #[test]
-fn a_root_circle_all_around_gives_a_cone() {
-    // a root circle all around: textbook values of a cone of height h and base radius r about its apex
+fn a_root_circle_all_around_results_in_a_cone() {
+    // textbook values of a cone of height h and base radius r about its apex
     let (height, root) = (0.8f64, 0.6f64);
     let [volume, first, square, along] = triangle([root, height], [0.0, height]).map(|m| TAU * m);
     let cone = PI / 3.0 * root * root * height;
@@ -163,7 +163,7 @@ fn small_gears_are_large_ones_scaled_down() {
         let [face_width, backlash] = [spec.face_width, spec.backlash].map(|v| v * scale);
         let [planet_bore, side_bore] = [spec.planet_bore, spec.side_bore].map(|v| v * scale);
         let small = GearSpec { module: spec.module * scale, face_width, backlash, planet_bore, side_bore, ..spec };
-        // the dedendum of some systems has a fixed part
+        // the dedendum of some systems has a constant part
         let small_pair = Pair { gears: pair.gears, ..Pair::new(&small) };
         let found = gear_mass(&small_pair, &small, i, DENSITY);
         let grown = GearMass {

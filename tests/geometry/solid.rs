@@ -7,7 +7,7 @@ use bevel_differential::geometry::solid::{GearSolid, Outline, Part, Shape};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
 use nalgebra::Vector3;
 
-/// Gears of all kinds without `checks::errors`, with their special property.
+/// Gears of all kinds without `checks::errors`, named by their special property.
 pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {
     let base = GearSpec::default();
     let teeth = |planet_teeth, side_teeth| GearSpec { planet_teeth, side_teeth, ..base };
@@ -49,12 +49,12 @@ pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {
     specs
 }
 
-/// Angular radius of the fillets that are wanted [rad].
+/// Requested angular radius of the fillets [rad].
 pub(super) fn fillet(spec: &GearSpec, pair: &Pair) -> f64 {
     spec.root_fillet * pair.module / pair.outer_cone
 }
 
-/// Enclosed volume [m³]: the sum of the tetrahedra that the triangles make with the apex, negative if they face inward.
+/// Enclosed volume [m³]: sum of the tetrahedra between the triangles and the apex, negative if they face inward.
 pub(super) fn volume(solid: &GearSolid) -> f64 {
     let corner = |i: u32| solid.vertices[i as usize];
     solid.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
@@ -121,7 +121,7 @@ fn flank_nodes_lie_on_the_spherical_involute() {
 }
 
 #[test]
-fn outlines_run_forward_from_gap_to_gap_and_mirror_themselves() {
+fn outlines_run_forward_from_gap_to_gap_and_are_symmetric() {
     for (name, spec) in specs() {
         let pair = Pair::new(&spec);
         for gear in &pair.gears {
@@ -158,14 +158,14 @@ fn fillets_are_tangent_to_the_root_circle_and_to_the_flank() {
             let centre = direction(foot.floor + foot.radius, foot.centre);
             for u in [0.0, 0.3, 1.0] {
                 assert!((point(u).angle(&centre) - foot.radius).abs() < 1e-8, "{name}");
-                // near enough for the angle, and exactly by the chord
+                // to the accuracy of the angle, and exactly by the chord
                 assert!(((point(u) - centre).norm() - 2.0 * (foot.radius / 2.0).sin()).abs() < 1e-14, "{name}");
             }
             // ends: on the root circle below the centre, and on the flank or meridian
             let [begin, end] = [0.0, 1.0].map(point);
             assert!((begin - direction(foot.floor, foot.centre)).norm() < 1e-13, "{name}");
             assert!((end - direction(foot.end[0], foot.end[1])).norm() < 1e-13, "{name}");
-            // tangents: the radius is the normal of the root circle, and of what it runs into
+            // tangents: the radius is the normal of the root circle, and of the flank or meridian at the other end
             let normal = if foot.start_arc > 0.0 {
                 kinds[1] += 1;
                 assert!((end - gear.flank_point(foot.end[0], 1.0)).norm() < 1e-12, "{name}");
@@ -191,7 +191,7 @@ fn fillets_are_tangent_to_the_root_circle_and_to_the_flank() {
 }
 
 #[test]
-fn crowning_takes_the_parabola_off_the_flanks_and_leaves_their_middle() {
+fn crowning_removes_the_parabola_from_the_flanks_and_leaves_their_middle() {
     let spec = GearSpec::default();
     let pair = Pair::new(&spec);
     let crowning = 2e-5;
@@ -207,7 +207,7 @@ fn crowning_takes_the_parabola_off_the_flanks_and_leaves_their_middle() {
             moved += 1;
         }
     }
-    // two flanks of nine nodes on sixteen teeth, in four of five rows
+    // two flanks with nine nodes each on sixteen teeth, in four of five rows
     assert_eq!(moved, 2 * 9 * 16 * 4);
     let (less, whole) = (volume(&crowned), volume(&plain));
     assert!(less < whole, "{less:e} {whole:e}");

@@ -1,4 +1,4 @@
-//! Errors against their estimates and against the tolerance; counts of evaluations.
+//! Tests that compare errors with their estimates and with the tolerance, and check the counts of evaluations.
 
 use std::cell::Cell;
 
@@ -13,8 +13,8 @@ with_every_method!(
     every_evaluation_is_counted
 );
 
-/// Local errors over their estimates, both summed over steps of size `h` from many places along an exact solution: an
-/// estimate may pass through zero somewhere without being wrong.
+/// Ratio of local errors to their estimates. Both are summed over steps of size `h` from many points along an exact
+/// solution, because an estimate may pass through zero somewhere without being wrong.
 fn error_over_estimate<M: Known, S: SecondOrder<2>>(s: &S, exact: impl Fn(f64) -> Point<2>, h: f64) -> f64 {
     let (mut errors, mut estimates) = (0.0, 0.0);
     for k in 0..60 {
@@ -31,7 +31,7 @@ fn errors_are_within_their_estimates<M: Known>() {
         let ratio = error_over_estimate::<M, _>(&Logarithmic, Logarithmic::exact, h);
         println!("h = {h}: {ratio:.1e}");
         assert!(ratio < 1.0, "h = {h}: errors are {ratio} of their estimates");
-        // nor where it is stiff
+        // also for stiff problems
         for lambda in [1.0, 10.0, 1e2, 1e3, 1e5] {
             let ratio = error_over_estimate::<M, _>(&forced(lambda), forced_exact, h);
             println!("h = {h}, λ = {lambda:e}: {ratio:.1e}");

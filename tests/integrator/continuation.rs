@@ -1,4 +1,5 @@
-//! Runs are repeatable, continue after a stop, and return to a snapshot bit for bit; impossible ones fail cleanly.
+//! Tests that runs are repeatable, continue after a stop, and return to a snapshot bit for bit. Impossible runs must
+//! fail cleanly.
 
 use bevel_differential::integrate::{
     AfterStep, Control, Failure, Point, SecondOrder, SolverContext, Statistics, advance,
@@ -14,7 +15,7 @@ with_every_method!(
     a_failed_step_leaves_the_last_valid_state
 );
 
-/// Everything that a run depends on, and thus its snapshot.
+/// All data that a run depends on, and therefore its snapshot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<const N: usize> {
     pub point: Point<N>,
@@ -23,8 +24,8 @@ pub struct State<const N: usize> {
 }
 
 impl<const N: usize> State<N> {
-    /// Integrates until the observer stops it, if it does.
-    pub fn stretch<M: Known, S: SecondOrder<N>>(
+    /// Integrates to `until`, or until the observer stops the run.
+    pub fn integrate<M: Known, S: SecondOrder<N>>(
         &mut self,
         s: &S,
         until: f64,
@@ -52,14 +53,14 @@ fn a_run_repeats_to_the_bit<M: Known>() {
 
 fn a_stopped_run_continues_to_the_same_bits<M: Known>() {
     let (mut whole, mut statistics, mut seen) = (start(), Statistics::default(), Vec::new());
-    whole.stretch::<M, _>(&Logarithmic, 3.0, &mut statistics, |end, time| {
+    whole.integrate::<M, _>(&Logarithmic, 3.0, &mut statistics, |end, time| {
         seen.push((*end, time));
         AfterStep::Continue
     });
     let (mut state, mut counted, mut stops) = (start(), Statistics::default(), 0);
     while state.time < 3.0 {
         let mut steps = 0;
-        state.stretch::<M, _>(&Logarithmic, 3.0, &mut counted, |end, at| {
+        state.integrate::<M, _>(&Logarithmic, 3.0, &mut counted, |end, at| {
             assert_eq!((*end, at), seen[3 * stops + steps]);
             steps += 1;
             if steps == 3 { AfterStep::Stop } else { AfterStep::Continue }
@@ -75,7 +76,7 @@ fn a_stopped_run_continues_to_the_same_bits<M: Known>() {
 fn a_snapshot_is_restored_to_the_same_bits<M: Known>() {
     let trace = |state: &mut State<2>, until: f64| {
         let mut seen = Vec::new();
-        state.stretch::<M, _>(&Logarithmic, until, &mut Statistics::default(), |end, time| {
+        state.integrate::<M, _>(&Logarithmic, until, &mut Statistics::default(), |end, time| {
             seen.push((*end, time));
             AfterStep::Continue
         });

@@ -1,4 +1,4 @@
-//! Curves of quantities within a step: extremes and crossings.
+//! Tests of extremes and crossings of quantities within a step.
 
 use bevel_differential::integrate::*;
 
@@ -8,7 +8,7 @@ fn curves() -> Vec<Curve> {
     let mut all: Vec<Curve> = (0..300)
         .map(|_| Curve { start: draw(), end: draw(), coefficients: [8.0 * draw(), 8.0 * draw(), 8.0 * draw()] })
         .collect();
-    // of lower degrees too
+    // also curves of lower degrees
     all.extend((0..300).map(|i| Curve {
         start: draw(),
         end: draw(),
@@ -24,7 +24,7 @@ fn extremes(curve: &Curve, span: [f64; 2]) -> [f64; 2] {
 }
 
 #[test]
-fn extremes_are_those_of_a_dense_recording() {
+fn extremes_agree_with_a_dense_sampling() {
     for curve in curves() {
         for [from, to] in [[0.0, 1.0], [0.3, 0.7], [0.0, 1e-3]] {
             let [least, largest] = extremes(&curve, [from, to]);
@@ -37,7 +37,7 @@ fn extremes_are_those_of_a_dense_recording() {
 }
 
 #[test]
-fn a_crossing_is_where_the_curve_takes_the_value() {
+fn at_a_crossing_the_curve_has_the_value() {
     for curve in curves() {
         let middle = 0.5 * (curve.start + curve.end);
         let at = curve.crossing(middle, [0.0, 1.0]);
@@ -55,7 +55,7 @@ fn negated_curves_have_negated_extremes_to_the_last_bit() {
 }
 
 #[test]
-fn what_was_before_is_extended_by_no_more_and_no_less_than_the_curve_goes_beyond() {
+fn earlier_extremes_are_extended_exactly_as_far_as_the_curve_exceeds_them() {
     for curve in curves() {
         let [least, largest] = extremes(&curve, [0.0, 1.0]);
         let range = largest - least;

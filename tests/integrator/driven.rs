@@ -1,4 +1,5 @@
-//! Systems whose accelerations depend on the time: as accurate as those with the time as a degree of freedom.
+//! Tests of systems whose accelerations depend on time. They must be as accurate as systems with time as a degree of
+//! freedom.
 
 use std::cell::Cell;
 
@@ -10,19 +11,19 @@ use super::methods::{Known, step_from, with_every_method};
 use super::problems::{forced, forced_exact};
 
 with_every_method!(
-    a_driven_system_moves_like_one_with_the_time_as_a_degree_of_freedom
+    a_driven_system_moves_like_a_system_with_time_as_a_degree_of_freedom
     the_driver_passes_the_time_to_the_system
 );
 
-/// The problem `forced` with the time itself in place of its clock; it counts how often it is asked.
+/// The problem `forced` with time itself in place of its clock. It counts its evaluations.
 struct Driven {
     lambda: f64,
-    asked: Cell<u64>,
+    evaluations: Cell<u64>,
 }
 
 impl Driven {
     fn new(lambda: f64) -> Self {
-        Self { lambda, asked: Cell::new(0) }
+        Self { lambda, evaluations: Cell::new(0) }
     }
 
     fn with_clock(at: &Point<1>, time: f64) -> Point<2> {
@@ -43,11 +44,11 @@ impl SecondOrder<1> for Driven {
         true
     }
     fn evaluate_at(&self, at: &Point<1>, time: f64) -> ([f64; 1], ()) {
-        self.asked.set(self.asked.get() + 1);
+        self.evaluations.set(self.evaluations.get() + 1);
         ([forced(self.lambda).evaluate(&Self::with_clock(at, time)).0[0]], ())
     }
     fn linearise_at(&self, at: &Point<1>, time: f64) -> Linearisation<1, ()> {
-        self.asked.set(self.asked.get() + 1);
+        self.evaluations.set(self.evaluations.get() + 1);
         let lin = forced(self.lambda).linearise(&Self::with_clock(at, time));
         let (by_position, by_velocity) = ([[lin.by_position[0][0]]], [[lin.by_velocity[0][0]]]);
         Linearisation { acceleration: [lin.acceleration[0]], by_position, by_velocity, ledger_rates: () }
@@ -60,7 +61,7 @@ impl SecondOrder<1> for Driven {
     }
 }
 
-fn a_driven_system_moves_like_one_with_the_time_as_a_degree_of_freedom<M: Known>() {
+fn a_driven_system_moves_like_a_system_with_time_as_a_degree_of_freedom<M: Known>() {
     let lambda = 1e3;
     let (mut clock, mut driven, mut time) = (forced_exact(0.0), Point { q: [0.0], v: [1.0] }, 0.0);
     for h in [0.05, 0.11, 0.02, 0.17] {
@@ -82,8 +83,8 @@ fn the_driver_passes_the_time_to_the_system<M: Known>() {
     for until in [0.3, 0.31, 1.0] {
         let context =
             SolverContext { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-        let go_on = |_: Step<1, ()>| Ok::<_, ()>(AfterStep::Continue);
-        advance(&M::METHOD, &Driven::new(50.0), &mut point, &mut time, until, context, go_on).unwrap();
+        let proceed = |_: Step<1, ()>| Ok::<_, ()>(AfterStep::Continue);
+        advance(&M::METHOD, &Driven::new(50.0), &mut point, &mut time, until, context, proceed).unwrap();
     }
     assert!((point.v[0] - 1f64.cos()).abs() < 1e-7, "{:e}", point.v[0] - 1f64.cos());
 }
@@ -105,11 +106,11 @@ fn steps_of_fixed_size_keep_their_order_when_driven() {
 }
 
 #[test]
-fn steps_of_fixed_size_count_what_they_ask_for() {
+fn steps_of_fixed_size_count_their_evaluations() {
     let system = Driven::new(5.0);
     let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
     let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
     let counts = (&mut statistics, &mut budget);
     advance_fixed(&system, &mut point, &mut time, 1.0, 0.01, counts, |_| Ok::<_, ()>(AfterStep::Continue)).unwrap();
-    assert_eq!((statistics.accepted, statistics.evaluations), (100, system.asked.get()));
+    assert_eq!((statistics.accepted, statistics.evaluations), (100, system.evaluations.get()));
 }

@@ -1,4 +1,4 @@
-//! A free mass under the program's own contact law: the impact of Hertz has a closed form.
+//! Test of a free mass under the contact law of the program, because the Hertz impact has a closed-form solution.
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::integrate::Point;
@@ -8,7 +8,8 @@ use super::problems::{Jet, System};
 
 with_every_method!(hertz_impact_has_the_closed_form_depth_force_and_duration);
 
-/// A mass flying into a contact law along −d: position d is the penetration. Scales: micrometres, metres per second.
+/// A mass that hits a contact law along −d, so that position d is the penetration. Scales are micrometres and metres
+/// per second.
 fn bouncing(law: Impact, mass: f64, depth: f64, speed: f64) -> System<impl Fn(&Point<1>) -> Jet<1>, 1> {
     let acceleration = move |p: &Point<1>| {
         if p.q[0] <= 0.0 {
@@ -20,7 +21,7 @@ fn bouncing(law: Impact, mass: f64, depth: f64, speed: f64) -> System<impl Fn(&P
     System { acceleration, magnitude: Point { q: [depth], v: [speed] } }
 }
 
-/// Where a function that falls from positive to negative values between `lo` and `hi` passes zero.
+/// Zero of a function that falls from positive to negative values between `lo` and `hi`.
 fn zero(mut lo: f64, mut hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (lo + hi);
@@ -41,7 +42,7 @@ fn hertz_impact_has_the_closed_form_depth_force_and_duration<M: Known>() {
             run::<M, 1, _>(&s, &mut point, time, 1e-10).unwrap();
             point
         };
-        // deepest where the speed changes sign, released where the depth does
+        // deepest when the speed changes sign, released when the depth does
         let contact = g("t_contact");
         let deepest = zero(0.3 * contact, 0.7 * contact, |t| at(t).v[0]);
         let depth = at(deepest).q[0];

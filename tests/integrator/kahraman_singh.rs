@@ -1,16 +1,17 @@
-//! A gear pair with backlash under a steady load and a harmonic excitation: jumps up and down at known frequencies.
+//! A gear pair with backlash under a steady load and a harmonic excitation, which jumps up and down at known
+//! frequencies.
 //!
-//! In multiples x of half the backlash, time in units of 1/ω_n:
+//! With x in multiples of half the backlash, and time in units of 1/ω_n:
 //!
 //!   x″ + 2ζx′ + f(x) = F_m + F_a Ω² sin Ωt,   f(x) = x − 1 for x > 1, 0 in the gap, x + 1 for x < −1
 //!
 //! (A. Kahraman, R. Singh, Non-linear dynamics of a spur gear pair, Journal of Sound and Vibration 142:49, 1990). Teeth
-//! that lift off soften the resonance, which leans to lower frequencies: between the jumps there are two motions, and
-//! which one occurs depends on the direction of the frequency sweep.
+//! that lift off soften the resonance, which leans to lower frequencies. Between the jumps there are two motions, and
+//! the direction of the frequency sweep determines which one occurs.
 //!
-//! f is made of the program's own mesh with one linear spring, x of its relative position, and the motion of its own
-//! integrator. The test adds the terms that a mesh does not have: the damping, which acts in the gap too, and the
-//! excitation, whose phase is an imposed motion.
+//! The mesh of the program with one linear spring provides f, with x as its relative position, and the integrator of
+//! the program provides the motion. The test adds the terms that a mesh does not have: the damping, which also acts in
+//! the gap, and the excitation, whose phase is an imposed motion.
 
 use std::f64::consts::TAU;
 
@@ -33,7 +34,7 @@ const EXCITATION: f64 = 0.05;
 struct Oscillator {
     mesh: Mesh,
     frequency: f64,
-    /// Whether steps end on kinks, as those of the program do.
+    /// True if steps end on kinks, as in the program.
     kinks: bool,
 }
 
@@ -48,7 +49,8 @@ impl Oscillator {
         Self { mesh, frequency: 0.0, kinks }
     }
 
-    /// Load on the drive flanks, which carry at negative positions, with its derivative by the phase [N·m].
+    /// Load on the drive flanks, which transmit force at negative positions, with its derivative with respect to the
+    /// phase [N·m].
     fn load(&self, phase: f64) -> [f64; 2] {
         let (unit, dynamic) = (-self.mesh.half_backlash(), EXCITATION * self.frequency * self.frequency);
         [unit * (MEAN + dynamic * phase.sin()), unit * dynamic * phase.cos()]
@@ -63,7 +65,7 @@ impl Oscillator {
         MeshState { position: [at.q[0], 0.0], rate: [at.v[0], 0.0], ..MeshState::default() }
     }
 
-    /// x less its value at rest, and that squared.
+    /// Deviation of x from its value at rest, and the square of this deviation.
     fn moments(&self, at: &Point<2>) -> [f64; 2] {
         let from_rest = self.displacement(at) - (1.0 + MEAN);
         [from_rest, from_rest * from_rest]
@@ -95,7 +97,7 @@ impl SecondOrder<2> for Oscillator {
     }
 }
 
-/// Motion that is carried from frequency to frequency.
+/// Motion that continues from one frequency to the next.
 struct Sweep {
     oscillator: Oscillator,
     point: Point<2>,
@@ -105,12 +107,12 @@ struct Sweep {
 }
 
 const PERIODS: u32 = 400;
-/// Periods of each point over which the standard deviation is taken: the transient of the previous point has decayed. Over
-/// twice as many it is the same to all stated digits.
+/// Number of periods at each frequency over which the standard deviation is taken. The transient of the previous
+/// frequency has decayed by then. Twice as many periods give the same stated digits.
 const TAKEN: u32 = 100;
 
 impl Sweep {
-    /// At rest on the drive flanks.
+    /// Creates a sweep that starts at rest on the drive flanks.
     fn new(kinks: bool) -> Self {
         let oscillator = Oscillator::new(kinks);
         let point = Point { q: [-(1.0 + MEAN) * oscillator.mesh.half_backlash(), 0.0], v: [0.0; 2] };
@@ -119,7 +121,7 @@ impl Sweep {
 
     /// Standard deviation of x at frequency Ω = `frequency`.
     fn at(&mut self, frequency: f64) -> f64 {
-        // a whole number of periods has gone by
+        // the previous frequency ended after a whole number of periods
         (self.oscillator.frequency, self.point.q[1], self.point.v[1]) = (frequency, 0.0, frequency);
         let (period, mut time) = (TAU / frequency, 0.0);
         let mut sums = [0.0; 2];
@@ -146,13 +148,14 @@ impl Sweep {
         (square - mean * mean).sqrt()
     }
 
-    /// Ω, in thousandths, with its standard deviation, one after the other.
+    /// Returns the standard deviation of x for each Ω, in thousandths.
     fn over(&mut self, thousandths: impl Iterator<Item = u32>) -> Vec<(u32, f64)> {
         thousandths.map(|n| (n, self.at(f64::from(n) * 1e-3))).collect()
     }
 }
 
-/// The only jump of a sweep: where it is, before and after. Elsewhere no step changes the motion by a tenth of it.
+/// Frequencies before and after the only jump of a sweep. All other changes of the motion are below a tenth of the
+/// jump.
 fn only_jump(sweep: &[(u32, f64)]) -> (u32, u32) {
     let mut changes: Vec<_> = sweep.windows(2).map(|w| ((w[1].1 - w[0].1).abs(), w[0].0, w[1].0)).collect();
     changes.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -201,7 +204,7 @@ fn separating_teeth_cost_fewer_steps_with_predicted_kinks() {
         println!("Ω = {frequency}e-3, {kinks}: {:.1} steps a period, {:.1} rejected", each(steps), each(rejected));
         (each(steps + rejected), deviation)
     };
-    // at 0.5 teeth stay in touch
+    // at Ω = 0.5, the teeth stay in contact
     assert_eq!(attempts(500, true), attempts(500, false));
     for frequency in [830, 900, 1000, 1200] {
         let (seen, unseen) = (attempts(frequency, true), attempts(frequency, false));

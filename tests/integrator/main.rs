@@ -1,11 +1,11 @@
-//! The integrator on problems whose solutions are known: one suite, run with every method.
+//! Tests of the integrator on problems with known solutions: one suite, run with every method.
 
 mod accuracy;
-mod alike;
 mod continuation;
 mod curve;
+mod dense_output;
 mod driven;
-mod going_on;
+mod identical_bodies;
 mod impact;
 mod kahraman_singh;
 mod methods;

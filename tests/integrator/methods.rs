@@ -1,4 +1,4 @@
-//! Every method with its theoretical properties, and generic runs.
+//! All methods with their theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
     AfterStep, Control, ErrorNorm, Extension, Failure, Method, Point, Radau, Rodas5P, SecondOrder, SolverContext,
@@ -12,8 +12,8 @@ pub trait Known: Method {
     const ORDER: u32;
     /// Order of the continuous extension.
     const EXTENSION: u32;
-    /// Tolerance with which single steps are taken: none is refused for its error, but iterations within a step go so far
-    /// that they add nothing to it.
+    /// Tolerance for single steps. It must not reject a step for its error, but must be so small that iterations within
+    /// a step do not contribute to the error.
     const TOLERANCE: f64 = 1e6;
     /// Order k of the error h^k/λ under smooth forcing much stiffer than the step.
     const FORCED: u32;
@@ -53,18 +53,18 @@ macro_rules! with_every_method {
 }
 pub(crate) use with_every_method;
 
-/// A step: the motion in it, and the estimate of the error of its end.
+/// A step: its dense output, and the estimate of the error at its end.
 pub struct Tried<const N: usize> {
     pub extension: Extension<N>,
     pub error: Point<N>,
 }
 
-/// One step of size `h`.
+/// Takes one step of size `h`.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Tried<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
 
-/// The same of a driven system from a time on.
+/// Takes one step of size `h` of a driven system from `time`.
 pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time): (&Point<N>, f64), h: f64) -> Tried<N> {
     let lin = s.linearise_at(at, time);
     let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
@@ -74,7 +74,7 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
     Tried { extension, error }
 }
 
-/// `count` equal steps over `length`.
+/// Takes `count` equal steps over `length`.
 pub fn fixed<M: Known, const N: usize, S: SecondOrder<N>>(
     s: &S,
     mut at: Point<N>,
@@ -87,7 +87,7 @@ pub fn fixed<M: Known, const N: usize, S: SecondOrder<N>>(
     at
 }
 
-/// Adaptive steps up to `until`.
+/// Takes adaptive steps up to `until`.
 pub fn run<M: Known, const N: usize, S: SecondOrder<N>>(
     s: &S,
     point: &mut Point<N>,

@@ -1,4 +1,5 @@
-//! Orders of solution, error estimate and continuous extension, without and with stiffness.
+//! Tests of the orders of solution, error estimate and continuous extension, for problems that are not stiff and
+//! problems that are.
 
 use bevel_differential::integrate::Point;
 
@@ -6,20 +7,20 @@ use super::methods::{Known, fixed, step, with_every_method};
 use super::problems::{Logarithmic, distance, forced, forced_exact};
 
 with_every_method!(
-    solution_is_of_its_order
-    error_estimate_is_of_its_order
-    continuous_extension_is_of_its_order
-    order_under_stiff_smooth_forcing_is_that_of_theory
+    solution_has_its_theoretical_order
+    error_estimate_has_its_theoretical_order
+    continuous_extension_has_its_theoretical_order
+    order_under_stiff_smooth_forcing_agrees_with_theory
 );
 
-/// An order measured by halving steps is nearer to the order expected than to its neighbours.
+/// Asserts that an order measured by halving steps is nearer to the expected order than to its neighbours.
 fn assert_order(what: &str, expected: u32, coarse: f64, fine: f64) {
     let order = (coarse / fine).log2();
     println!("{what}: {coarse:e} {fine:e}: order {order:.2}, expected {expected}");
     assert!((order - f64::from(expected)).abs() < 0.5, "{what}: order {order} instead of {expected}");
 }
 
-fn solution_is_of_its_order<M: Known>() {
+fn solution_has_its_theoretical_order<M: Known>() {
     let error = |count| {
         let end = fixed::<M, 2, _>(&Logarithmic, Logarithmic::exact(0.0), 2.0, count);
         distance(&end, &Logarithmic::exact(2.0))
@@ -27,15 +28,15 @@ fn solution_is_of_its_order<M: Known>() {
     assert_order("solution", M::ORDER, error(32), error(64));
 }
 
-// in one step: local orders are one higher
+// size of a single step, in which orders are one higher
 const STEP: f64 = 0.0125;
 
-fn error_estimate_is_of_its_order<M: Known>() {
+fn error_estimate_has_its_theoretical_order<M: Known>() {
     let estimate = |h| distance(&step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).error, &Point::ZERO);
     assert_order("estimate", M::METHOD.estimate() + 1, estimate(STEP), estimate(STEP / 2.0));
 }
 
-fn continuous_extension_is_of_its_order<M: Known>() {
+fn continuous_extension_has_its_theoretical_order<M: Known>() {
     for fraction in [0.1, 0.5, 0.8] {
         let error = |h| {
             let extension = step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).extension;
@@ -45,8 +46,8 @@ fn continuous_extension_is_of_its_order<M: Known>() {
     }
 }
 
-fn order_under_stiff_smooth_forcing_is_that_of_theory<M: Known>() {
-    // where λh ≫ 1. Radau IIA of s stages: h^s/λ (Hairer & Wanner II, section IV.15)
+fn order_under_stiff_smooth_forcing_agrees_with_theory<M: Known>() {
+    // valid for λh ≫ 1; Radau IIA of s stages: h^s/λ (Hairer & Wanner II, section IV.15)
     let error = |lambda, count| {
         let end = fixed::<M, 2, _>(&forced(lambda), forced_exact(0.0), 1.0, count);
         (end.v[0] - forced_exact(1.0).v[0]).abs()

@@ -1,11 +1,11 @@
-//! Problems whose solutions are known.
+//! Problems with known solutions.
 
 use bevel_differential::integrate::{Linearisation, Matrix, Point, SecondOrder};
 
-/// Acceleration with its derivatives by positions and velocities.
+/// Acceleration with its derivatives with respect to positions and velocities.
 pub type Jet<const N: usize> = ([f64; N], Matrix<N>, Matrix<N>);
 
-/// A system given by its acceleration and that acceleration's derivatives, with the magnitudes of its motion.
+/// A system defined by its acceleration and the derivatives of the acceleration, with the magnitudes of its motion.
 pub struct System<F, const N: usize> {
     pub acceleration: F,
     pub magnitude: Point<N>,
@@ -28,13 +28,13 @@ impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N>
     }
 }
 
-/// A system of magnitudes near one.
+/// Creates a system with magnitudes near one.
 pub fn system<const N: usize, F: Fn(&Point<N>) -> Jet<N>>(acceleration: F) -> System<F, N> {
     System { acceleration, magnitude: Point { q: [1.0; N], v: [1.0; N] } }
 }
 
-/// Two damped oscillators x″ + 2ζx′ + ω²x = 0, seen through y = eˣ: y″ = y′²/y − 2ζy′ − ω²y ln y, nonlinear in positions
-/// and velocities to all orders; mixed by q = P y, and with q̇ = B v.
+/// Two damped oscillators x″ + 2ζx′ + ω²x = 0, transformed by y = eˣ: y″ = y′²/y − 2ζy′ − ω²y ln y, which is nonlinear
+/// in positions and velocities to all orders. They are mixed by q = P y, with q̇ = B v.
 pub struct Logarithmic;
 
 /// ω² and ζ.
@@ -56,7 +56,7 @@ fn inverse(m: &Matrix<2>) -> Matrix<2> {
 }
 
 impl Logarithmic {
-    /// The motion at time `t`.
+    /// Returns the exact motion at time `t`.
     pub fn exact(t: f64) -> Point<2> {
         let motion = OSCILLATORS.map(|[square, zeta]| {
             let (x0, v0) = (0.7, 0.3);
@@ -110,8 +110,8 @@ impl SecondOrder<2> for Logarithmic {
     }
 }
 
-/// Prothero and Robinson's problem: v̇ = −λ (v − cos c) − sin c with the clock ċ = 1 as an imposed motion; v = cos c
-/// solves it for any λ, and q = sin c.
+/// Prothero and Robinson's problem: v̇ = −λ (v − cos c) − sin c, with the clock ċ = 1 as an imposed motion. Its
+/// solution for any λ is v = cos c and q = sin c.
 pub fn forced(lambda: f64) -> System<impl Fn(&Point<2>) -> Jet<2>, 2> {
     system(move |p: &Point<2>| {
         let c = p.q[1];
@@ -121,7 +121,7 @@ pub fn forced(lambda: f64) -> System<impl Fn(&Point<2>) -> Jet<2>, 2> {
     })
 }
 
-/// The motion of [`forced`].
+/// Exact motion of [`forced`].
 pub fn forced_exact(t: f64) -> Point<2> {
     Point { q: [t.sin(), t], v: [t.cos(), 1.0] }
 }

@@ -1,7 +1,7 @@
-//! Motion that decays to rest lets steps grow: the energy ledger of a step has a floor.
+//! Tests that steps grow while motion decays to rest, because the energy ledger of a step has a floor.
 //!
-//! A damped oscillator z″ = −ω²z − 2ζωz′ about a far position. Rounding of the position moves the spring, and changes its energy
-//! by work that no force has done.
+//! The test is a damped oscillator z″ = −ω²z − 2ζωz′ about a position far from zero. Rounding of the position moves the
+//! spring and changes its energy without the work of a force.
 
 use bevel_differential::integrate::{
     AfterStep, Control, Imbalance, Linearisation, POSITION_ROUNDING, Point, SecondOrder, SolverContext, Statistics,
@@ -10,7 +10,7 @@ use bevel_differential::integrate::{
 
 use super::methods::{Known, with_every_method};
 
-with_every_method!(steps_grow_when_an_oscillator_far_from_zero_comes_to_rest an_imbalance_of_any_size_does_not_keep_steps_short);
+with_every_method!(steps_grow_when_an_oscillator_far_from_zero_comes_to_rest a_remaining_imbalance_does_not_keep_steps_short);
 
 /// Position of rest [rad].
 const FAR: f64 = 1e4;
@@ -22,11 +22,11 @@ const TOLERANCE: f64 = 1e-6;
 /// Budget of attempts. A run with a floor needs a few hundred.
 const BUDGET: u64 = 20_000;
 
-/// The oscillator of unit inertia.
+/// The oscillator, with unit inertia.
 struct Far {
     /// True if the ledger has a floor.
     has_floor: bool,
-    /// Energy that is missing in the ledger of each step, relative to the energy exchanged.
+    /// Energy missing from the ledger of each step, relative to the energy exchanged.
     missing: f64,
 }
 
@@ -76,7 +76,7 @@ impl SecondOrder<1> for Far {
         Imbalance { residual: (gained + heat).abs() + self.missing * exchanged, exchanged }
     }
 
-    /// Energy by rounding of the position, and energy of the speed that the error norm does not resolve.
+    /// Energy due to rounding of the position, and energy of the speed that the error norm does not resolve.
     fn energy_floor(&self, [start, end]: [&Point<1>; 2], tolerance: f64, _: f64) -> f64 {
         let rounding = POSITION_ROUNDING * FAR;
         let shifted = (Self::force(start).abs() + Self::force(end).abs()) * rounding;
@@ -85,7 +85,7 @@ impl SecondOrder<1> for Far {
     }
 }
 
-/// Time from which the twist is below the rounding of the position, apart from a factor of 1000 [s].
+/// Time after which the twist is below 1000 times the rounding of the position [s].
 const NEAR_REST: f64 = 1.1;
 /// End of a run [s].
 const END: f64 = 1000.0;
@@ -93,18 +93,18 @@ const END: f64 = 1000.0;
 /// Result of a run.
 struct Outcome {
     statistics: Statistics,
-    /// Attempts near rest whose ledger did not close.
+    /// Number of attempts near rest whose ledger did not close.
     unbalanced_near_rest: u64,
     /// Size of the longest step [s].
     longest: f64,
 }
 
-/// Runs the oscillator to its end, and compares its motion with the exact one.
+/// Runs the oscillator to the end, and compares its motion with the exact one.
 fn run<M: Known>(system: &Far) -> Outcome {
     let mut point = Point { q: [FAR + 1.0], v: [0.0] };
     let (mut time, mut statistics, mut longest) = (0.0, Statistics::default(), 0.0f64);
     let (control, mut budget) = (&mut Control::new(1e-3), BUDGET);
-    let mut stretch = |until: f64, statistics: &mut Statistics| {
+    let mut integrate = |until: f64, statistics: &mut Statistics| {
         let context = SolverContext { tolerance: TOLERANCE, control: &mut *control, statistics, budget: &mut budget };
         advance(&M::METHOD, system, &mut point, &mut time, until, context, |step| {
             let [z, v] = Far::exact(step.time);
@@ -116,9 +116,9 @@ fn run<M: Known>(system: &Far) -> Outcome {
         })
         .unwrap();
     };
-    stretch(NEAR_REST, &mut statistics);
+    integrate(NEAR_REST, &mut statistics);
     let before = statistics.rejected_ledger;
-    stretch(END, &mut statistics);
+    integrate(END, &mut statistics);
     Outcome { statistics, unbalanced_near_rest: statistics.rejected_ledger - before, longest }
 }
 
@@ -136,10 +136,10 @@ fn steps_grow_when_an_oscillator_far_from_zero_comes_to_rest<M: Known>() {
     assert!(without.unbalanced_near_rest > 16, "{}", without.unbalanced_near_rest);
 }
 
-fn an_imbalance_of_any_size_does_not_keep_steps_short<M: Known>() {
+fn a_remaining_imbalance_does_not_keep_steps_short<M: Known>() {
     let [closed, open] = [0.0, 1e-3].map(|missing| run::<M>(&Far { has_floor: true, missing }));
     println!("{:?} with a ledger that closes, {:?} with one that does not", closed.statistics, open.statistics);
-    // each step is shortened a few times, and then taken as a whole
+    // each step is shortened a few times, and then accepted as a whole
     assert!(open.statistics.accepted <= 2 * closed.statistics.accepted, "{:?}", open.statistics);
     assert!(open.longest > 0.1 * END, "the longest step is {} s", open.longest);
 }

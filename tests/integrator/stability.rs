@@ -1,4 +1,4 @@
-//! Stiff motion is damped, and does not limit steps.
+//! Tests that stiff motion is damped and does not limit steps.
 
 use bevel_differential::integrate::Point;
 
@@ -8,16 +8,16 @@ use super::problems::{distance, forced, forced_exact, system};
 with_every_method!(
     infinitely_stiff_motion_is_damped_in_one_step
     no_oscillation_grows_however_long_the_step
-    smooth_stiff_forcing_costs_no_more_the_stiffer_it_is
+    smooth_forcing_does_not_cost_more_when_it_is_stiffer
 );
 
-/// One step of size 1 of v̇ = −λv from v = 1: R(−λ).
+/// Result R(−λ) of one step of size 1 of v̇ = −λv from v = 1.
 fn decay<M: Known>(lambda: f64) -> f64 {
     let s = system(move |p: &Point<1>| ([-lambda * p.v[0]], [[0.0]], [[-lambda]]));
     step::<M, 1, _>(&s, &Point { q: [0.0], v: [1.0] }, 1.0).extension.end.v[0].abs()
 }
 
-/// Amplitude after one step of size `h` of q̈ = −q from amplitude 1: |R(ih)|.
+/// Amplitude |R(ih)| after one step of size `h` of q̈ = −q from amplitude 1.
 fn amplitude<M: Known>(h: f64) -> f64 {
     let s = system(|p: &Point<1>| ([-p.q[0]], [[-1.0]], [[0.0]]));
     let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, h).extension.end;
@@ -26,10 +26,10 @@ fn amplitude<M: Known>(h: f64) -> f64 {
 
 fn infinitely_stiff_motion_is_damped_in_one_step<M: Known>() {
     for rate in [1e6, 1e10, 1e14] {
-        // R(z) falls as 1/z
+        // R(z) decreases as 1/z
         assert!(decay::<M>(rate) < 100.0 / rate, "rate {rate}: {}", decay::<M>(rate));
     }
-    // and an oscillation far faster than the step as well
+    // also an oscillation far faster than the step
     let s = system(|p: &Point<1>| ([-1e16 * p.q[0]], [[-1e16]], [[0.0]]));
     let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, 1.0).extension.end;
     assert!(end.q[0].abs() < 1e-6, "{}", end.q[0]);
@@ -43,7 +43,7 @@ fn no_oscillation_grows_however_long_the_step<M: Known>() {
     }
 }
 
-/// Accepted steps under forcing of stiffness `lambda`, with the error at the end.
+/// Number of accepted steps under forcing of stiffness `lambda`, and the error at the end.
 fn steps<M: Known>(lambda: f64) -> (u64, f64) {
     let mut point = forced_exact(0.0);
     let statistics = run::<M, 2, _>(&forced(lambda), &mut point, 1.0, 1e-6).unwrap();
@@ -51,8 +51,8 @@ fn steps<M: Known>(lambda: f64) -> (u64, f64) {
     (statistics.accepted, distance(&point, &forced_exact(1.0)))
 }
 
-fn smooth_stiff_forcing_costs_no_more_the_stiffer_it_is<M: Known>() {
-    // λ = 1e3 is where methods that lose order take most steps
+fn smooth_forcing_does_not_cost_more_when_it_is_stiffer<M: Known>() {
+    // methods that lose order take most steps at λ = 1e3
     let (worst, _) = steps::<M>(1e3);
     for lambda in [1e4, 1e5, 1e8] {
         let (count, error) = steps::<M>(lambda);

@@ -1,18 +1,18 @@
-//! Steps end where the equations switch.
+//! Tests that steps end where the equations switch.
 
 use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, SecondOrder, Statistics};
 
 use super::continuation::State;
 use super::methods::{Known, with_every_method};
 
-with_every_method!(steps_land_on_switches_in_a_few_attempts what_stands_on_a_kink_is_not_held_up_by_it);
+with_every_method!(steps_land_on_switches_in_a_few_attempts a_system_at_rest_on_a_kink_is_not_held_there);
 
-/// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. Which of both is chosen from outside.
+/// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. The test sets the active side.
 struct Kinked {
     side: f64,
 }
 
-/// How closely a step must end on the switch.
+/// Maximum distance between the end of a step and the switch.
 const LANDING: f64 = 1e-11;
 
 impl SecondOrder<1> for Kinked {
@@ -35,7 +35,7 @@ impl SecondOrder<1> for Kinked {
     }
     fn crossing(&self, (start, _): (&Point<1>, f64), (end, _): (&Point<1>, f64)) -> Option<f64> {
         let (from, to) = (start.q[0] * self.side, end.q[0] * self.side);
-        // to the middle of what counts as landed
+        // aims at the middle of the allowed distance
         (to < -LANDING).then(|| (from + 0.5 * LANDING) / (from - to))
     }
 }
@@ -48,7 +48,7 @@ fn steps_land_on_switches_in_a_few_attempts<M: Known>() {
     let mut switches = Vec::new();
     while state.time < 10.0 * period {
         let (side, mut landed) = (s.side, false);
-        state.stretch::<M, _>(&s, 10.0 * period, &mut statistics, |end, _| {
+        state.integrate::<M, _>(&s, 10.0 * period, &mut statistics, |end, _| {
             assert!(end.q[0] * side >= -LANDING, "no step goes on beyond the switch: {}", end.q[0]);
             landed = end.q[0] * side < 0.0;
             if landed { AfterStep::Stop } else { AfterStep::Continue }
@@ -61,7 +61,7 @@ fn steps_land_on_switches_in_a_few_attempts<M: Known>() {
     let point = state.point;
     println!("{} switches, {statistics:?}", switches.len());
     assert_eq!(switches.len(), 20);
-    // half a period of π above and of π/2 below, the first quarter above
+    // the half-periods are π above and π/2 below zero; the first quarter is above
     for (k, at) in switches.iter().enumerate() {
         let expected = std::f64::consts::FRAC_PI_2
             + f64::from(k as u32 / 2) * period
@@ -93,12 +93,12 @@ impl SecondOrder<1> for BeforeKink {
     }
 }
 
-fn what_stands_on_a_kink_is_not_held_up_by_it<M: Known>() {
-    // far out numbers resolve 1.5e-11, and the body moves by 1e-12 in all
+fn a_system_at_rest_on_a_kink_is_not_held_there<M: Known>() {
+    // numbers of this size resolve 1.5e-11, and the body moves by only 1e-12 in total
     let mut state = State { point: Point { q: [1e5], v: [1e-13] }, time: 0.0, control: Control::new(1e-3) };
     let mut statistics = Statistics::default();
-    state.stretch::<M, _>(&BeforeKink, 10.0, &mut statistics, |_, _| AfterStep::Continue);
+    state.integrate::<M, _>(&BeforeKink, 10.0, &mut statistics, |_, _| AfterStep::Continue);
     assert_eq!(state.time, 10.0);
-    // from 1 ms on, six times as long each time
+    // from 1 ms on, each step is six times longer
     assert!(statistics.accepted <= 8, "{statistics:?}");
 }

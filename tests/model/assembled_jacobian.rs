@@ -1,19 +1,21 @@
-//! The Jacobian of the assembled equations of motion against differences of their rates, with every effect of the teeth: what
-//! adds the meshes of all planets together has no other witness, as a wrong Jacobian only makes steps shorter.
+//! The Jacobian of the assembled equations of motion, compared with differences of their rates, for every effect of the
+//! teeth. No other test checks the sums over the meshes of all planets, because a wrong Jacobian only makes steps
+//! shorter.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
 use bevel_differential::variables::{Access, named};
 
-/// Central differences of order 4: places and weights.
+/// Central differences of order 4: positions and weights.
 const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// Steps of a difference: angles move by a thousandth of a deflection, speeds by a millionth of theirs [rad, rad/s].
+/// Steps of a difference [rad, rad/s]: a thousandth of a deflection for angles, and a millionth of their values for
+/// speeds.
 const STEP: [f64; 2] = [3e-8, 3e-5];
-/// What a difference may be off, relative to the largest derivative of its block: the fourth power of step over deflection, and
-/// the rounding of forces over the step.
+/// Allowed error of a difference, relative to the largest derivative of its block. It results from the fourth power of
+/// step over deflection, and from the rounding of forces over the step.
 const WITHIN: f64 = 1e-6;
 
-/// A turn under unequal loads, so that no two meshes are alike, changed by `change`.
+/// Turn under unequal loads, so that no two meshes are identical, changed by `change`.
 fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
     (inputs.carrier_speed, inputs.planet_spin) = (954f64.to_radians(), 200f64.to_radians());
@@ -29,13 +31,13 @@ fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
-/// The same with brakes that slide.
+/// Scene with sliding brakes.
 fn braked((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
     inputs.brake_torque = [40.0, 60.0];
     (p, inputs)
 }
 
-/// Friction that falls and rises with the speed of sliding, on washers, pins, plates and linings.
+/// Friction that decreases or increases with the sliding speed, on washers, pins, plates and linings.
 fn by_speed(p: &mut Parameters) {
     (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
     let specs = &mut p.specs;
@@ -58,7 +60,7 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     };
     let friction = |p: &mut Parameters| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true);
     let pins = |p: &mut Parameters| p.effects.pin_compliance = true;
-    // a large carrier in a cold oil
+    // a large carrier in cold oil
     let dragged = |p: &mut Parameters| {
         (p.effects.bearing_drag, p.oil.temperature) = (true, 263.15);
         let drag = &mut p.specs.bearing_drag;
@@ -85,7 +87,7 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     ]
 }
 
-/// Derivatives of the rates along coordinate `k` of positions and velocities, by differences.
+/// Derivatives of the rates with respect to coordinate `k` of positions and velocities, by differences.
 fn difference(simulation: &Simulation, at: &[Vec<f64>; 2], k: usize) -> Vec<f64> {
     let n = at[0].len();
     let (kind, place) = (k / n, k % n);
@@ -112,7 +114,7 @@ fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
     }
 }
 
-/// p·v of washers and pins, clutch packs and linings: the largest of each [W/m²].
+/// Largest p·v of washers and pins, of clutch packs and of linings [W/m²].
 fn largest_pv(simulation: &mut Simulation) -> [f64; 3] {
     ["pv.washers", "pv.clutch", "pv.brake"].map(|name| {
         let Access::Output(of) = named(name).unwrap().access else { panic!("{name} is no output") };
@@ -124,7 +126,7 @@ fn largest_pv(simulation: &mut Simulation) -> [f64; 3] {
 fn the_jacobian_of_frictions_within_and_beyond_the_band_of_their_limit_equals_differences() {
     for (name, pins) in [("limits", false), ("limits, pins", true)] {
         let (mut parameters, mut inputs) = braked(turn(|p| (by_speed(p), p.effects.pin_compliance = pins).0));
-        // loads so unequal that washers and plates slide, faster and faster
+        // loads so unequal that washers and plates slide with increasing speed
         inputs.load_torque = [1400.0, 160.0];
         let mut reached = |limits: [f64; 3], stop: f64| {
             let specs = &mut parameters.specs;

@@ -1,9 +1,9 @@
-//! Scenes with elastic bodies of the gears: energy, the preloaded start, deflection, refusals.
+//! Scenes with elastic gear bodies: energy, preloaded start, deflection, refusals.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
 
-/// The study's turn with the law of the teeth and bores, changed by `change`.
+/// Turn of the study with the line law and bores, changed by `change`.
 fn turn(bodies: bool, change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
     p.scene.planet_spin = PlanetSpin::Imposed;
@@ -20,7 +20,7 @@ fn ran(scene: &(Parameters, Inputs), stop: f64) -> Simulation {
     simulation
 }
 
-/// Scenes by name; the third says whether it has the effect.
+/// Named scenes, with elastic gear bodies if `bodies`.
 fn scenes(bodies: bool) -> Vec<(&'static str, (Parameters, Inputs))> {
     vec![
         ("turn", turn(bodies, |_| {})),
@@ -44,14 +44,14 @@ fn scenes(bodies: bool) -> Vec<(&'static str, (Parameters, Inputs))> {
     ]
 }
 
-/// Energy that the loads turn over in `time` [s].
+/// Energy that the loads convert in `time` [s].
 fn turned_over(inputs: &Inputs, time: f64) -> f64 {
     let torque: f64 = inputs.load_torque.iter().map(|torque| torque.abs()).sum();
     torque * inputs.carrier_speed.abs() * time
 }
 
 #[test]
-fn energy_balances_as_without_the_bodies() {
+fn energy_balances_as_well_as_without_elastic_bodies() {
     const STOP: f64 = 0.1;
     for (with, without) in scenes(true).into_iter().zip(scenes(false)) {
         let residual = |scene: &(Parameters, Inputs), tolerance: f64| {
@@ -85,8 +85,8 @@ fn a_preloaded_start_is_in_balance() {
 }
 
 #[test]
-fn gears_give_way_more_on_bodies_and_not_without_load() {
-    // backlash aside, straight ahead under a load and without one
+fn elastic_bodies_increase_deflection_only_under_load() {
+    // without backlash, straight ahead, with and without load
     let error = |bodies: bool, load: f64| {
         let (mut p, mut inputs) = turn(bodies, |p| p.effects.backlash = false);
         p.scene.planet_spin = PlanetSpin::Free;
@@ -98,13 +98,13 @@ fn gears_give_way_more_on_bodies_and_not_without_load() {
     let [with, without] = [true, false].map(|bodies| error(bodies, 800.0));
     println!("{with:e} {without:e} {}", with / without);
     assert!(with / without > 1.05 && with / without < 1.6, "{with:e} {without:e}");
-    // a linear law: deflections fall with the load to none
+    // the law is linear: deflections are proportional to the load
     let [small, none] = [1e-3, 0.0].map(|load| error(true, load));
     assert!((small / with * 8e5 - 1.0).abs() < 1e-2 && none.abs() < 1e-12, "{with:e} {small:e} {none:e}");
 }
 
 #[test]
-fn what_it_cannot_work_with_is_refused_by_name() {
+fn scenes_that_elastic_bodies_do_not_support_are_refused_by_name() {
     let refused = |change: &dyn Fn(&mut Parameters)| {
         let (p, inputs) = turn(true, change);
         Simulation::start(&p, &inputs, 0.0).map(|_| ()).expect_err("a scene that cannot be built").remove(0)
@@ -127,7 +127,7 @@ fn what_it_cannot_work_with_is_refused_by_name() {
 }
 
 #[test]
-fn what_is_assumed_of_bores_is_in_the_log_with_the_effect_alone() {
+fn assumptions_about_bores_are_logged_only_with_the_effect() {
     let log = |bodies: bool, [planet, side]: [f64; 2]| -> Vec<String> {
         let (p, inputs) = turn(bodies, |p| (p.geometry.planet_bore, p.geometry.side_bore) = (planet, side));
         let simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene that can be built");
@@ -149,12 +149,13 @@ fn what_is_assumed_of_bores_is_in_the_log_with_the_effect_alone() {
     assert!(side.starts_with("geometry.side_bore: 0 mm: the side gear is taken as one piece with a shaft"), "{side}");
     // the rim of a quarter module at the toe, whose root circle is 33.931 mm
     assert!(side.contains("about as stiff as on the widest bore, 32.743 mm"), "{side}");
-    // a pin takes no torque, so that a thin one decides nothing
+    // a pin transmits no torque, so that a thin pin has no effect
     let [side] = &added([4e-3, 8e-3])[..] else { panic!("one bore that takes torque") };
     assert!(side.starts_with("geometry.side_bore: 8.000 mm is less than half the root circle at the toe"), "{side}");
 }
 
-/// Straight ahead without backlash under a load that a shaft of half a millimetre carries: transmission error with a side bore [m].
+/// Transmission error with a side bore [m], straight ahead without backlash, under a load that a shaft of half a
+/// millimetre can transmit.
 fn error_on(side_bore: f64) -> f64 {
     let (p, mut inputs) = turn(true, |p| {
         (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
@@ -165,11 +166,11 @@ fn error_on(side_bore: f64) -> f64 {
 }
 
 #[test]
-fn transmission_error_falls_with_the_bore_and_without_one_is_about_that_of_the_widest() {
+fn transmission_error_falls_with_the_bore_and_without_a_bore_is_close_to_that_of_the_widest() {
     let widest = 32.743e-3;
     let errors: Vec<f64> = (1..=40).map(|k| error_on(widest * f64::from(k) / 40.001)).collect();
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
-    // narrow bores let the gear turn with 1/d²
+    // for narrow bores, the rotation of the gear is proportional to 1/d²
     let narrow = [0.5e-3, 1e-3, 2e-3].map(error_on);
     for two in narrow.windows(2) {
         let ratio = two[0] / two[1];
@@ -180,7 +181,8 @@ fn transmission_error_falls_with_the_bore_and_without_one_is_about_that_of_the_w
     assert!((none / widest - 1.0).abs() < 0.1, "{none:e} {widest:e}");
 }
 
-/// Gears of many small teeth under `load`, over face width, module and Young's modulus; spin of the planets imposed [rad/s].
+/// Gears with many small teeth. `load` is the force of a tooth over face width, module and Young's modulus; `spin` is
+/// imposed on the planets [rad/s].
 fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, Inputs) {
     let (p, mut inputs) = turn(true, |p| {
         (p.geometry.planet_teeth, p.geometry.side_teeth, p.contact.law) = (teeth[0], teeth[1], law);
@@ -194,10 +196,10 @@ fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, 
 }
 
 #[test]
-fn many_small_teeth_carry_their_load_from_the_start_on() {
+fn many_small_teeth_carry_their_load_from_the_start() {
     for teeth in [[200, 40], [40, 200], [100, 160], [160, 160], [200, 200]] {
         for law in [ContactLaw::Line, ContactLaw::LineWeber] {
-            // 1e-3 is 19 kN on each tooth of a face of 20 mm
+            // 1e-3 is 19 kN on each tooth with a face of 20 mm
             for load in [1e-4, 1e-3, 3e-3, 1e-2] {
                 let still = many(teeth, law, load, 0.0);
                 let mut simulation = Simulation::start(&still.0, &still.1, 0.0).expect("teeth that carry");
@@ -206,7 +208,7 @@ fn many_small_teeth_carry_their_load_from_the_start_on() {
                     let left = (inertia[s] * acceleration[s] / still.1.load_torque[s]).abs();
                     assert!(left < 1e-6, "{teeth:?} {law:?} {load}: {left:e} of the load is not balanced");
                 }
-                // over a pitch, in which loads that jump took a hundred thousand steps
+                // over a pitch; loads with jumps took a hundred thousand steps there
                 let scene = many(teeth, law, load, 2.0);
                 let pitch = std::f64::consts::TAU / f64::from(teeth[0]) / scene.1.planet_spin;
                 let ledger = ran(&scene, pitch).ledger();

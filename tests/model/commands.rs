@@ -1,4 +1,5 @@
-//! Commands of brakes and lock at standstill are events, whether the step applies them or they are applied before it.
+//! Commands of brakes and lock at standstill cause events, both if the step applies them and if they are applied before
+//! it.
 
 use bevel_differential::model::{
     CarrierDrive, Event, GearContact, Happening, Inputs, Parameters, Simulation, Start, Way,
@@ -16,7 +17,7 @@ fn at_rest(contact: GearContact) -> (Simulation, Inputs) {
     (Simulation::start(&parameters, &inputs, 0.0).unwrap(), inputs)
 }
 
-/// Commands that begin or end to hold something, with the events that they cause.
+/// Commands that start or stop holding bodies, with the events that they cause.
 fn commands(inputs: &Inputs) -> Vec<(Inputs, Vec<(Happening, i32)>)> {
     use Happening::*;
     let braked = Inputs { brake_torque: [100.0; 2], ..*inputs };
@@ -64,7 +65,7 @@ fn inputs_that_are_applied_before_the_step_give_the_same_state() {
         for (k, (command, expected)) in (1u8..).zip(commands(&inputs)) {
             let until = f64::from(k) * 0.125;
             let [by_step, before, twice] = &mut simulations;
-            // a load that moves the wheels that are free
+            // a load that moves free wheels
             let command = Inputs { load_torque: [0.0, 1e-3], ..command };
             by_step.set_inputs(&command);
             by_step.advance(until).unwrap();

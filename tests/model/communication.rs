@@ -1,10 +1,10 @@
-//! The integrator's steps go on beyond communication points: they do not depend on them, nor do results, and nothing from
-//! beyond a point shows at it.
+//! The integrator's steps continue beyond communication points. Neither steps nor results depend on these points, and
+//! nothing that happens beyond a point affects the results at it.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{CarrierDrive, Given, Inputs, Parameters, PlanetSpin, Simulation, Start, State};
 
-/// A scene with its name.
+/// Named scene.
 struct Scene {
     name: &'static str,
     parameters: Parameters,
@@ -23,7 +23,7 @@ impl Scene {
     }
 }
 
-/// The study's turn, changed by `change`.
+/// Turn of the study, changed by `change`.
 fn turn(name: &'static str, change: impl Fn(&mut Parameters)) -> Scene {
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     parameters.scene.planet_spin = PlanetSpin::Imposed;
@@ -53,7 +53,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Communication points up to `stop` [s].
+/// Sequences of communication points up to `stop` [s].
 fn ways(stop: f64) -> Vec<Vec<f64>> {
     let even = |h: f64| {
         let count = (stop / h).round();
@@ -67,7 +67,7 @@ fn ways(stop: f64) -> Vec<Vec<f64>> {
     vec![even(1e-5), even(1e-3), even(7e-3), irregular]
 }
 
-/// All by which the integrator's steps can be told from others.
+/// Step-size control and statistics as text. They differ if steps differ.
 fn steps_of(state: &State) -> String {
     format!("{:?} {:?}", state.control, state.statistics)
 }
@@ -88,7 +88,7 @@ fn the_integrator_s_steps_do_not_depend_on_communication_points() {
     }
 }
 
-/// Speeds, and their natural magnitude.
+/// Speeds and their natural magnitude.
 fn speeds(simulation: &Simulation) -> ([f64; 3], f64) {
     let motion = simulation.motion();
     let [left, right] = motion.side_speed;
@@ -120,7 +120,7 @@ fn motion_and_forces_at_and_between_the_ends_of_steps_are_within_ten_tolerances(
     }
 }
 
-/// Changes at a communication point after which the integration begins anew.
+/// Change at a communication point after which the integration restarts.
 type Change = fn(&mut Simulation, &Scene);
 
 const CHANGES: [(&str, Change); 4] = [
@@ -142,7 +142,7 @@ const CHANGES: [(&str, Change); 4] = [
 ];
 
 #[test]
-fn the_integration_begins_anew_where_something_changes() {
+fn the_integration_restarts_when_something_changes() {
     for scene in scenes() {
         for (what, change) in CHANGES {
             let mut fine = scene.start();
@@ -166,7 +166,7 @@ fn the_integration_begins_anew_where_something_changes() {
 }
 
 #[test]
-fn what_is_set_again_as_it_was_changes_nothing() {
+fn setting_the_same_inputs_again_changes_nothing() {
     let scene = turn("turn", |_| {});
     let [mut once, mut again] = [0; 2].map(|_| scene.start());
     for k in 1..=50 {
@@ -180,7 +180,7 @@ fn what_is_set_again_as_it_was_changes_nothing() {
 }
 
 #[test]
-fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
+fn the_ledger_at_a_point_equals_that_of_a_run_that_ends_there() {
     for scene in scenes() {
         let mut parameters = scene.parameters;
         parameters.effects.strength = true;
@@ -191,15 +191,15 @@ fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
             ends.advance(stop).unwrap();
             within.advance(stop).unwrap();
             let (a, b) = (within.ledger(), ends.ledger());
-            // ten tolerances of the energy turned over
+            // ten tolerances of the energy converted so far
             let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * (1.0 + b.heat.iter().sum::<f64>());
             let heats = a.heat.iter().zip(&b.heat).all(|(&x, &y)| close(x, y));
-            // other steps look at the highest stress at other instants
+            // different steps evaluate the highest stress at different times
             let near = |x: f64, y: f64| close(x, y) || (x - y).abs() < 1e-4 * y.abs();
             let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| near(x, y));
             assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
             assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
-            // reading leaves no trace
+            // reading does not change the simulation
             let read = (*within.state(), *within.watched());
             within.ledger();
             within.forces();
@@ -225,7 +225,7 @@ fn energy_balances_as_well_as_without_communication_points() {
     }
 }
 
-/// A load that bends the teeth beyond their limit, some time after the start.
+/// Scene with a load that bends the teeth beyond their limit some time after the start.
 fn overload() -> Scene {
     let mut scene = turn("overload", |p| {
         (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
@@ -236,13 +236,13 @@ fn overload() -> Scene {
 }
 
 #[test]
-fn a_failure_beyond_a_point_does_not_show_at_it() {
+fn a_failure_beyond_a_communication_point_is_not_reported_at_it() {
     let scene = overload();
     let mut whole = scene.start();
     let failure = whole.advance(0.5).unwrap_err();
     assert!(failure.message.contains("tooth deflection exceeds"), "{failure}");
     assert!(failure.time > 1e-6 && whole.time() == failure.time);
-    // in small steps, nearly as far as that, whatever the integrator's step ahead finds
+    // small steps come nearly as far, because a failure of the pending step beyond the present is not reported
     let mut simulation = scene.start();
     let h = failure.time / 200.0;
     let mut reached = 0;
@@ -255,7 +255,7 @@ fn a_failure_beyond_a_point_does_not_show_at_it() {
     };
     assert!(reached >= 200, "{reached}: {refused}");
     assert!(refused.time >= f64::from(reached) * h * (1.0 - 1e-12), "{refused}");
-    // relieved in time, the run goes on
+    // if the load is removed in time, the run continues
     let mut relieved = scene.start();
     relieved.advance(0.3 * failure.time).unwrap();
     relieved.set_inputs(&Inputs { load_torque: [0.0; 2], ..scene.inputs });
@@ -263,7 +263,7 @@ fn a_failure_beyond_a_point_does_not_show_at_it() {
 }
 
 #[test]
-fn a_copy_within_a_step_goes_on_to_the_same_bits() {
+fn a_copy_within_a_step_continues_with_the_same_bits() {
     for scene in scenes() {
         let mut simulation = scene.start();
         simulation.advance(0.0104).unwrap();

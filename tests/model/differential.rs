@@ -1,4 +1,4 @@
-//! A differential for programs in Rust.
+//! Tests of `Differential`, the interface for programs in Rust.
 
 use bevel_differential::*;
 
@@ -7,7 +7,7 @@ fn refused(outcome: Result<(), DifferentialError>) -> String {
 }
 
 #[test]
-fn what_does_not_fit_is_refused_by_name_value_and_range() {
+fn invalid_values_are_refused_with_name_value_and_range() {
     let mut it = Differential::new();
     for (outcome, words) in [
         (it.set("geometry.modul", 1.0), vec!["geometry.modul"]),
@@ -29,7 +29,7 @@ fn what_does_not_fit_is_refused_by_name_value_and_range() {
 }
 
 #[test]
-fn problems_of_the_start_come_together_and_the_values_stay() {
+fn a_refused_start_names_its_problems_and_keeps_all_values() {
     let mut it = Differential::new();
     it.set("geometry.face_width", 0.2).expect("within its range");
     let said = refused(it.advance(0.1));
@@ -40,7 +40,7 @@ fn problems_of_the_start_come_together_and_the_values_stay() {
 }
 
 #[test]
-fn inputs_and_tunable_parameters_act_from_when_they_are_set() {
+fn inputs_and_tunable_parameters_act_from_the_time_they_are_set() {
     let mut it = Differential::new();
     it.set_text("scene.carrier_drive", "torque").expect("a choice");
     it.advance(0.01).expect("a step");
@@ -54,7 +54,7 @@ fn inputs_and_tunable_parameters_act_from_when_they_are_set() {
 }
 
 #[test]
-fn a_clone_goes_its_own_way() {
+fn a_clone_continues_independently_with_the_same_results() {
     let mut it = Differential::new();
     it.advance(0.01).expect("a step");
     let mut other = it.clone();
@@ -64,7 +64,7 @@ fn a_clone_goes_its_own_way() {
 }
 
 #[test]
-fn a_pin_gives_way_by_its_force_over_its_stiffness() {
+fn a_pin_deflects_by_its_force_over_its_stiffness() {
     let (stiffness, load, teeth) = (2e8, 700.0, [11.0, 18.0]);
     let (module, face) = (4.5e-3, 14e-3);
     let mut it = Differential::new();

@@ -1,10 +1,10 @@
-//! What is kept from earlier starts changes nothing but the time that a start takes.
+//! Tests of the gear cache: it changes only the duration of a start.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, PlanetSpin, Simulation};
 use bevel_differential::variables::{Access, Variable, check_ranges, table};
 
-/// State and forces after the start and some steps, or the problems; as text, which tells all bits of numbers.
+/// State and forces after the start and some steps, or the problems. The result is text that shows all bits of numbers.
 fn outcome(p: &Parameters, cache: Option<&GearCache>) -> String {
     let inputs = Inputs { carrier_speed: 20.0, planet_spin: 3.0, ..Inputs::default() };
     let mut simulation = match Simulation::start_with(p, &inputs, 0.0, &Given { cache, ..Given::default() }) {
@@ -17,7 +17,7 @@ fn outcome(p: &Parameters, cache: Option<&GearCache>) -> String {
     format!("{warnings} {stepped:?} {forces:?} {:?}", (simulation.state(), simulation.watched()))
 }
 
-/// Scenes between which all that can be kept is made.
+/// Scenes that together fill every part of the cache.
 fn scenes() -> Vec<Parameters> {
     let mut base = Parameters::default();
     base.scene.planet_spin = PlanetSpin::Imposed;
@@ -37,7 +37,7 @@ fn scenes() -> Vec<Parameters> {
     ]
 }
 
-/// `p` with other values of the parameter `row`, those within its range.
+/// Copies of `p` with other values of the parameter `row` within its range.
 fn changed(p: &Parameters, row: &Variable) -> Vec<Parameters> {
     let with = |set: &dyn Fn(&mut Parameters)| {
         let mut other = *p;
@@ -66,7 +66,7 @@ fn changed(p: &Parameters, row: &Variable) -> Vec<Parameters> {
 }
 
 #[test]
-fn every_parameter_acts_at_once_whatever_is_kept() {
+fn every_parameter_acts_immediately_despite_the_cache() {
     for base in scenes() {
         let (cache, unchanged) = (GearCache::default(), outcome(&base, None));
         let mut acting = Vec::new();
@@ -95,7 +95,7 @@ fn every_parameter_acts_at_once_whatever_is_kept() {
 }
 
 #[test]
-fn threads_that_share_have_the_bits_of_those_that_do_not() {
+fn threads_that_share_a_cache_get_the_bits_of_runs_without_a_cache() {
     let scenes: Vec<Parameters> = scenes()
         .into_iter()
         .flat_map(|p| {

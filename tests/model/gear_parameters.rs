@@ -1,5 +1,5 @@
-//! Calculated parameters of the gears against closed forms, the volume of the exported solid, and a wheel that is turned
-//! through its lash.
+//! Calculated parameters of the gears, compared with closed forms, with the volume of the exported solid, and with a
+//! wheel that turns through its lash.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -14,7 +14,7 @@ fn close(program: f64, expected: f64, relative: f64) {
     assert!((program / expected - 1.0).abs() <= relative, "program {program:e}, expected {expected:e}");
 }
 
-/// A host whose gears are set, in initialisation mode.
+/// Host in initialisation mode with the given gears.
 fn initialising(values: &[(&str, f64)], whole: &[(&str, i32)]) -> Host {
     let host = Host::new();
     for &(name, value) in values {
@@ -68,7 +68,7 @@ fn calculated_parameters_cannot_be_set_and_do_not_exist_before_initialisation() 
 }
 
 #[test]
-fn play_that_is_switched_off_is_no_lash() {
+fn without_backlash_the_wheel_lash_is_zero() {
     let host = initialising(&[], &[]);
     assert_eq!(host.set_boolean("effects.backlash", 0), Status::Ok);
     assert_eq!(host.get("geometry.wheel_lash"), 0.0);
@@ -83,7 +83,7 @@ fn volume(solid: &GearSolid) -> f64 {
     solid.triangles.iter().map(tetrahedron).sum()
 }
 
-/// Volumes of the frustum of the root cone that carries the teeth of gear `i`, and of the ring of teeth and gaps on it.
+/// Volumes of the frustum of the root cone of gear `i`, and of the ring of teeth and gaps on it.
 fn frustum_and_ring(pair: &Pair, i: usize) -> [f64; 2] {
     let [root, tip] = [pair.gears[i].root, pair.gears[i].tip];
     let length = PI / 3.0 * (pair.outer_cone.powi(3) - pair.inner_cone.powi(3));
@@ -91,7 +91,7 @@ fn frustum_and_ring(pair: &Pair, i: usize) -> [f64; 2] {
 }
 
 #[test]
-fn masses_are_density_times_the_volume_of_the_solids_whatever_inertias_are_given() {
+fn masses_are_density_times_the_volume_of_the_solids_for_any_given_inertias() {
     for bores in [[0.0, 0.0], [0.012, 0.03]] {
         let spec = GearSpec { planet_bore: bores[0], side_bore: bores[1], ..GearSpec::default() };
         let pair = Pair::new(&spec);
@@ -115,7 +115,7 @@ fn masses_are_density_times_the_volume_of_the_solids_whatever_inertias_are_given
     }
 }
 
-/// Angle at which the left wheel comes to rest under a small torque, with carrier and right wheel held [rad].
+/// Angle at which the left wheel stops under a small torque, with carrier and right wheel held [rad].
 fn resting_angle(torque: f64) -> f64 {
     let held = [("scene.right_drive", 2), ("scene.start", 3)];
     let values = [
@@ -144,7 +144,7 @@ fn a_wheel_turns_through_its_lash_while_carrier_and_other_wheel_are_held() {
     let lash = host.get("geometry.wheel_lash");
     let turned = resting_angle(-0.004) - resting_angle(0.004);
     println!("lash {lash:e} rad, turned {turned:e} rad");
-    // the teeth give way a little
+    // the teeth deflect a little
     assert!((0.0..2e-3).contains(&(turned / lash - 1.0)), "{turned} {lash}");
     assert!(lash < FRAC_PI_2);
 }

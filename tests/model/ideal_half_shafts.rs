@@ -1,4 +1,5 @@
-//! Half-shafts on ideal gears against the damped oscillation of two bodies, while the loads change at every communication step.
+//! Half-shafts on ideal gears, compared with the damped oscillation of two bodies, while the loads change at every
+//! communication step.
 
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Method, Parameters, Simulation};
 
@@ -11,7 +12,7 @@ const TORQUE: f64 = 250.0;
 /// Communication step [s].
 const H: f64 = 1e-3;
 
-/// Twist and its rate `h` [s] after they were `twist` and `rate`: φ̈ = f − a (k φ + c φ̇).
+/// Twist and twist rate `h` [s] after they were `twist` and `rate`: φ̈ = f − a (k φ + c φ̇).
 fn twist_after(h: f64, [twist, rate]: [f64; 2], f: f64, a: f64) -> [f64; 2] {
     let rest = f / (a * STIFFNESS);
     let decay = 0.5 * a * DAMPING;
@@ -50,7 +51,7 @@ fn twists_under_loads_that_change_at_every_step_follow_a_damped_oscillation() {
             let (f, a) = (TORQUE / inner + load / END, 2.0 / inner + 1.0 / END);
             expected = twist_after(H, expected, f, a);
             largest = largest.max(expected[0].abs());
-            // every step may be in error by the tolerance of a twist
+            // each step may add an error of one tolerance of the twist
             let allowed = f64::from(k + 1) * tolerance * (1e-3 + largest);
             for side in 0..2 {
                 let found = twist(&s, side)[0];

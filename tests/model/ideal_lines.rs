@@ -1,6 +1,6 @@
-//! Ideal gears without effects under inputs that are lines or parabolas of time: their steps have a closed form.
+//! Ideal gears without effects under inputs that are linear or quadratic in time. Their steps have a closed form.
 //!
-//! Expected values are momenta and energies of all bodies, and integrals of the torques by hand.
+//! Expected values are momenta and energies of all bodies, and integrals of the torques.
 
 use bevel_differential::model::{
     CarrierDrive, GearContact, InputDerivatives, Inputs, Parameters, PlanetSpin, Simulation,
@@ -11,7 +11,7 @@ const H: f64 = 0.07;
 /// z_p/z_s of the default gears.
 const RATIO: f64 = 0.625;
 
-/// Scenes with ends of unequal inertia, for imposed and free carriers and spins.
+/// Scenes with half-shaft ends of unequal inertia, for imposed and free carriers and spins.
 fn scenes() -> Vec<Parameters> {
     let mut scenes = Vec::new();
     for drive in [CarrierDrive::Speed, CarrierDrive::Torque] {
@@ -26,7 +26,7 @@ fn scenes() -> Vec<Parameters> {
     scenes
 }
 
-/// Inputs and their derivatives; with `sign` −1 those of the mirror image.
+/// Inputs and their derivatives. The `sign` −1 gives the mirror image.
 fn course(sign: f64) -> (Inputs, InputDerivatives) {
     let of = |carrier_speed, carrier_torque, load_torque: [f64; 2], planet_spin| Inputs {
         carrier_speed: sign * carrier_speed,
@@ -47,7 +47,7 @@ fn start(p: &Parameters, sign: f64) -> Simulation {
     s
 }
 
-/// A sum of inputs after `t` [s], integrated once, and integrated twice.
+/// Value of a `sum` of inputs after `t` [s], with its first and second integral.
 fn along(sum: impl Fn(&Inputs) -> f64, t: f64) -> [f64; 3] {
     let (inputs, InputDerivatives { rates: [first, second] }) = course(1.0);
     let [a, b, c] = [inputs, first, second].map(|inputs| sum(&inputs));
@@ -92,7 +92,7 @@ fn imposed_speeds_follow_their_inputs_and_free_ones_the_sums_of_torques() {
         let after = motion(&s);
         let gained: [f64; 4] = std::array::from_fn(|i| after[0][i] - speeds[i]);
         let turned: [f64; 4] = std::array::from_fn(|i| after[1][i] - angles[i]);
-        // what the accelerations turn beyond the speeds at the start
+        // angles that result from the accelerations
         let beyond: [f64; 4] = std::array::from_fn(|i| turned[i] - H * speeds[i]);
         if p.scene.carrier_drive == CarrierDrive::Speed {
             let [speed, angle, _] = along(|u| u.carrier_speed, H);
@@ -137,8 +137,8 @@ fn the_work_of_all_inputs_is_the_gain_of_kinetic_energy() {
     }
 }
 
-/// The ledger of imposed speeds follows from the torques that impose them, so the work of a scene without such torques is compared
-/// with its power at many points.
+/// Work of imposed speeds follows from the torques that impose them. The work of a scene without such torques is
+/// therefore compared with the integral of its power.
 #[test]
 fn the_work_of_torques_is_the_integral_of_their_power() {
     let p = scenes().remove(2);
@@ -152,7 +152,7 @@ fn the_work_of_torques_is_the_integral_of_their_power() {
     };
     let mut s = start(&p, 1.0);
     s.advance(H).unwrap();
-    // Simpson's rule on intervals so short that it is exact but for rounding
+    // Simpson's rule on intervals so short that it is exact except for rounding
     let n = 400;
     let sum: f64 = (0..=n)
         .map(|k| {

@@ -1,4 +1,4 @@
-//! Inputs that change while they act.
+//! Inputs that change with time.
 
 use bevel_differential::model::*;
 

@@ -1,4 +1,5 @@
-//! The whole model in a simulation: motion, statics, tooth forces in space, mirror images, what values are felt.
+//! Tests of the whole model in simulations: motion, statics, tooth forces in space, mirror images, and the values that
+//! have an effect.
 
 mod assembled_jacobian;
 mod body_compliance;

@@ -1,11 +1,12 @@
-//! Peak-to-peak values over mesh cycles against dense recordings through the FMI calls, and what they must not depend on.
+//! Peak-to-peak values over mesh cycles, compared with dense recordings through the FMI calls. They must not depend on
+//! communication steps.
 
 use std::f64::consts::PI;
 
 use crate::common::Host;
 use bevel_differential::fmi2::Status;
 
-/// What is recorded, with the output of its peak-to-peak value.
+/// Recorded outputs, each with the output of its peak-to-peak value.
 const QUANTITIES: [[&str; 2]; 6] = [
     ["left.speed", "left.speed_peak_to_peak"],
     ["right.speed", "right.speed_peak_to_peak"],
@@ -16,10 +17,10 @@ const QUANTITIES: [[&str; 2]; 6] = [
 ];
 /// Spin of the planets [rad/s]; a tooth passes in 26 ms.
 const SPIN: f64 = 24.0;
-/// Two cycles and a half [s].
+/// Duration of two and a half cycles [s].
 const STOP: f64 = 0.065;
 
-/// A turn with the history on and changes of integers and Booleans, before its first step.
+/// Turn before its first step, with mesh history, these `integers`, and these Booleans set to true.
 fn turn(sign: f64, integers: &[(&str, i32)], switches: &[&str]) -> Host {
     let host = Host::new();
     for name in switches.iter().chain(&["effects.mesh_history"]) {
@@ -39,12 +40,12 @@ fn peak_to_peak(host: &Host) -> [f64; 6] {
     QUANTITIES.map(|[_, name]| host.get(name))
 }
 
-/// Mesh cycles rolled, up to a constant.
+/// Number of mesh cycles rolled, up to a constant.
 fn rolled(host: &Host) -> f64 {
     0.5 * (host.get("left.angle") - host.get("right.angle")) * 16.0 / (2.0 * PI)
 }
 
-/// A load that changes every millisecond, if it varies.
+/// Changes the load every millisecond, if `varies`.
 fn load(host: &Host, millisecond: usize, varies: bool) {
     if varies {
         let torque = 400.0 + 60.0 * (1.7 * millisecond as f64).sin();
@@ -52,7 +53,7 @@ fn load(host: &Host, millisecond: usize, varies: bool) {
     }
 }
 
-/// Runs in steps of `per` to a millisecond.
+/// Runs with `per` steps per millisecond.
 fn run(host: &Host, per: usize, varies: bool) {
     for k in 0..(STOP * 1e3).round() as usize {
         load(host, k, varies);
@@ -100,7 +101,7 @@ fn assert_close(found: [f64; 6], expected: [f64; 6], relative: f64) {
 }
 
 #[test]
-fn values_are_those_of_a_recording_in_steps_of_a_microsecond() {
+fn values_equal_those_of_a_recording_in_steps_of_a_microsecond() {
     for (varies, integers, switches) in [
         (false, &[][..], &[][..]),
         (true, &[][..], &[][..]),
@@ -155,7 +156,7 @@ fn other_methods_agree_within_their_accuracy() {
 }
 
 #[test]
-fn there_is_no_value_before_a_whole_cycle_nor_straight_ahead_nor_where_it_is_off() {
+fn values_are_zero_before_a_whole_cycle_straight_ahead_and_without_the_effect() {
     let host = turn(1.0, &[], &[]);
     assert_eq!(peak_to_peak(&host), [0.0; 6]);
     host.steps(0.0, 1e-3, 25);
@@ -177,7 +178,7 @@ fn there_is_no_value_before_a_whole_cycle_nor_straight_ahead_nor_where_it_is_off
 }
 
 #[test]
-fn the_motion_is_the_same_to_the_last_bit_with_and_without() {
+fn the_motion_has_the_same_bits_with_and_without_the_effect() {
     let names =
         ["left.speed", "planet[2].spin_angle", "planet[1].left_transmission_error", "solver.steps", "heat.contact"];
     let [with, without] = [1, 0].map(|on| {
@@ -193,7 +194,7 @@ fn the_motion_is_the_same_to_the_last_bit_with_and_without() {
 }
 
 #[test]
-fn a_state_saved_within_a_cycle_goes_on_to_the_same_bits() {
+fn a_state_saved_within_a_cycle_continues_with_the_same_bits() {
     let host = turn(1.0, &[], &[]);
     host.steps(0.0, 1e-3, 37);
     let state = host.get_state();
@@ -215,7 +216,7 @@ fn a_state_saved_within_a_cycle_goes_on_to_the_same_bits() {
     assert_eq!((status, other.set_state(state)), (Status::Ok, Status::Ok), "{:?}", other.log());
     assert_eq!(ends(&other), expected);
     other.free_state(state);
-    // and a run after a reset is the first one
+    // a run after a reset equals the first one
     assert_eq!(other.reset(), Status::Ok);
     assert_eq!(other.set_boolean("effects.mesh_history", 1), Status::Ok);
     other.start();
@@ -223,7 +224,7 @@ fn a_state_saved_within_a_cycle_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn states_of_the_format_before_are_refused_by_name() {
+fn states_of_the_previous_format_are_refused_by_name() {
     let host = turn(1.0, &[], &[]);
     let state = host.get_state();
     let mut bytes = host.serialize(state);

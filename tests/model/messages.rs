@@ -1,4 +1,4 @@
-//! Messages of a run: what is refused says what helps, and what is unusual is reported once.
+//! Messages of a run: errors name a remedy, and unusual results are reported once.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Reported, Simulation};
@@ -17,7 +17,7 @@ fn messages(p: &Parameters) -> [String; 2] {
 }
 
 #[test]
-fn teeth_bent_too_far_name_what_stiffens_them_under_the_law_in_use() {
+fn errors_of_teeth_bent_too_far_name_a_remedy_for_the_law_in_use() {
     type Change = fn(&mut Parameters);
     let changes: [(&str, Change); 7] = [
         ("or raise contact.stiffness", |_| {}),
@@ -46,7 +46,7 @@ fn teeth_bent_too_far_name_what_stiffens_them_under_the_law_in_use() {
 }
 
 #[test]
-fn low_teeth_are_limited_by_their_working_depth() {
+fn short_teeth_are_limited_by_their_working_depth() {
     let mut p = Parameters::default();
     p.geometry.addendum_system = bevel_differential::geometry::AddendumSystem::Explicit;
     (p.geometry.planet_addendum, p.geometry.side_addendum) = (0.7, 0.7);
@@ -55,7 +55,7 @@ fn low_teeth_are_limited_by_their_working_depth() {
     }
 }
 
-/// A scene whose planets roll or stand, with stresses rated.
+/// Scene with rated stresses, whose planets roll if `rolling`.
 fn rated(rolling: bool) -> (Parameters, Inputs) {
     let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
     p.effects.strength = true;
@@ -81,7 +81,8 @@ fn each_stress_above_its_strength_is_reported_once_with_gear_values_and_time() {
     let (mut p, mut inputs) = rated(false);
     inputs.load_torque = [100.0, 100.0];
     let mut reported = Reported::default();
-    // strengths between the stresses of 100 and those of 200 N·m; root stress grows with the torque, pressure with its root
+    // strengths between the stresses at 100 N·m and at 200 N·m; root stress is proportional to the torque, pressure to
+    // its square root
     let stresses = |load: f64| {
         let mut inputs = inputs;
         inputs.load_torque = [load; 2];
@@ -99,7 +100,7 @@ fn each_stress_above_its_strength_is_reported_once_with_gear_values_and_time() {
     inputs.load_torque[1] = 200.0 * planet.max(side) / planet.min(side);
     simulation.set_inputs(&inputs);
     simulation.advance(0.05).unwrap();
-    // the unequal loads also turn the planets beyond all speeds
+    // the unequal loads also accelerate the planets, which causes other reports
     let reports = simulation.unreported(&mut reported);
     let found: Vec<String> =
         reports.iter().filter(|one| one.variable.starts_with("strength")).map(ToString::to_string).collect();
@@ -136,7 +137,7 @@ fn a_planet_that_rolls_has_its_idler_strength() {
     let found = reports(true);
     let strength = format!("strength of {:.1} MPa", 0.7 * 1.2 * stress * 1e-6);
     assert!(found[0].message.contains("root stress of planet[1]") && found[0].message.contains(&strength), "{found:?}");
-    // not before it has rolled half a pitch of 36 deg at 20 rad/s, and within the next pitch
+    // after the planet has rolled half a pitch of 36 deg at 20 rad/s, and within the next pitch
     let time: f64 = found[0].message.split("t = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(time > 0.0157 && time < 0.0157 + 0.0314, "{time}");
 }

@@ -1,4 +1,4 @@
-//! Motion against closed forms and conservation laws.
+//! Motion compared with closed forms and conservation laws.
 
 use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation};
 
@@ -50,7 +50,7 @@ fn an_ideal_torque_driven_differential_with_unequal_ends_follows_its_mass_matrix
     let before = s.motion();
     s.advance(0.1).unwrap();
     let (m, j, r) = (s.motion(), *s.inertias(), 0.625);
-    // momentum balances of carrier with gears, and of the spin, by d'Alembert
+    // d'Alembert's momentum balances of the carrier with its gears, and of the spin
     let d = |a: f64, b: f64| (b - a) / 0.1;
     let (left, right) = (d(before.side_speed[0], m.side_speed[0]), d(before.side_speed[1], m.side_speed[1]));
     let (carrier, spin) = (d(before.carrier_speed, m.carrier_speed), d(0.0, m.spin_speed[0]));
@@ -85,7 +85,7 @@ fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     p.effects.corner_contact = false;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     s.advance(0.5).unwrap();
-    // each jump is of some tenths of a joule, and there are a dozen of them
+    // there are a dozen jumps of some tenths of a joule
     let residual = s.ledger().energy_residual;
     assert!(residual.abs() < 1e-3, "{residual} J");
 }

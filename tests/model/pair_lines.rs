@@ -1,4 +1,4 @@
-//! Loaded tooth pairs as outputs: their sum, their way along the flank, their pressure, and mirror images.
+//! Loaded tooth pairs as outputs: their sum, their motion along the flank, their pressure, and mirror images.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -9,7 +9,7 @@ use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::action::LineOfAction;
 use bevel_differential::model::{GearContact, Inputs, PairLine, Parameters, PlanetSpin, Simulation, Start};
 
-/// A turn that begins in equilibrium.
+/// Turn that starts in equilibrium.
 fn turn(law: ContactLaw, sense: f64) -> (Parameters, Inputs) {
     let mut p = Parameters::default();
     p.contact.law = law;
@@ -24,7 +24,7 @@ fn turn(law: ContactLaw, sense: f64) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
-/// Runs the scene, and looks at it every millisecond.
+/// Runs the scene and calls `look` every millisecond.
 fn watch((p, inputs): (Parameters, Inputs), points: usize, mut look: impl FnMut(&mut Simulation, Vec<PairLine>)) {
     let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
     for k in 1..=points {
@@ -48,7 +48,7 @@ fn arc(pair: &Pair, line: &PairLine) -> f64 {
     (polar.cos() / planet.base.cos()).acos()
 }
 
-/// Kind of contact and polar angle on the planet [rad] by the planet's tooth, from the points of the line of action.
+/// Kind of contact and polar angle on the planet [rad] for each planet tooth, from the points of the line of action.
 fn contacts(simulation: &Simulation, pair: &Pair) -> HashMap<usize, (Spot, f64)> {
     let action = LineOfAction::new(pair);
     let mut all = HashMap::new();
@@ -144,7 +144,7 @@ fn crowned_teeth_press_in_the_middle_and_displaced_ones_at_an_end() {
     for solid in [false, true] {
         let [toe, middle, heel] = ends(4e-5, 0.0, solid);
         assert!(middle > toe && middle > heel, "{toe} {middle} {heel}");
-        // outward, the heel carries more than it does inward
+        // if the side gear is displaced outward, the heel carries more than if it is displaced inward
         let ([toe, _, heel], [toe_in, _, heel_in]) = (ends(0.0, 5e-5, solid), ends(0.0, -5e-5, solid));
         assert!(heel / toe > heel_in / toe_in, "{heel} {toe} {heel_in} {toe_in}");
     }

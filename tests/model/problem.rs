@@ -1,9 +1,9 @@
-//! Numbers in messages.
+//! Tests of numbers in messages.
 
 use bevel_differential::problem::*;
 
 #[test]
-fn numbers_that_differ_are_written_until_it_shows() {
+fn different_numbers_are_written_with_enough_digits_to_differ() {
     let [a, b] = told_apart([11.1, 11.0999], 2);
     assert_eq!((a.as_str(), b.as_str()), ("11.1000", "11.0999"));
     assert_eq!(told_apart([20.0, 14.15], 2), ["20.00", "14.15"]);
@@ -14,7 +14,7 @@ fn numbers_that_differ_are_written_until_it_shows() {
 }
 
 #[test]
-fn equal_numbers_and_those_that_are_none_stay_short() {
+fn equal_numbers_and_numbers_that_are_not_finite_stay_short() {
     assert_eq!(told_apart([11.1, 11.1], 2), ["11.10", "11.10"]);
     assert_eq!(told_apart([f64::NAN, f64::NAN], 2), ["NaN", "NaN"]);
     assert_eq!(told_apart([f64::INFINITY, 1.0], 3), ["inf", "1.000"]);

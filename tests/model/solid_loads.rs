@@ -1,5 +1,5 @@
-//! Loads of single sections of solid teeth, aligned and displaced: they derive from the energy, they balance the torques,
-//! and they lie where a calculation by slices has them.
+//! Loads of single sections of solid teeth, aligned and displaced. They derive from the energy, balance the torques,
+//! and have the positions that a calculation by slices gives.
 
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::errors::ToothErrorSpec;
@@ -13,9 +13,10 @@ use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Sim
 
 const IMPACT: Impact = Impact { stiffness: 1.82463e10, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
 const DAMPING: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 1e4 };
-/// Sections of these tests: enough for the midpoint rule.
+/// Number of sections in these tests, enough for the midpoint rule.
 const SECTIONS: usize = 20;
-/// A section's force is reported along the mean normal of its patch: relative error of that where corners carry load.
+/// Relative error of the reported force of a section if corners are loaded. The force is reported along the mean normal
+/// of its patch.
 const ROUGH: f64 = 0.01;
 
 fn pair() -> Pair {
@@ -40,7 +41,8 @@ fn mesh(pair: &Pair, crowning: f64, displaced: Displacement) -> SolidMesh {
     SolidMesh::new(pair, &spec, IMPACT, DAMPING, 1e-3)
 }
 
-/// Position in which a pair is at place `s` and all are pressed together by `approach` [m] at the mean cone distance.
+/// Mesh position in which a tooth pair is at position `s`, and all pairs are pressed together by `approach` [m] at the
+/// mean cone distance.
 fn position(pair: &Pair, flank: Flank, s: f64, approach: f64) -> [f64; 2] {
     let sign = if flank == Flank::Drive { 1.0 } else { -1.0 };
     [-sign * (approach / pair.mean_cone + pair.normal_backlash / 2.0), sign * (s - pair.centred_position())]
@@ -104,7 +106,8 @@ fn torques_of_the_sections_about_both_axes_are_those_of_the_mesh() {
         for s in [-0.15, -0.05, 0.0, 0.08] {
             let at = position(&pair, Flank::Drive, s, 9e-5);
             let mesh = mesh(&pair, 1e-5, displaced);
-            // the axes are at right angles: parts along planet's axis, side gear's and across are components
+            // the axes are at right angles: the components are along the planet's axis, along the side gear's axis, and
+            // across
             let (mut on_planet, mut on_side) = (0.0, 0.0);
             for load in loads(&mesh, at) {
                 let [n_planet, n_side, n_across] = load.normal.map(|n| n * load.force.total);
@@ -122,7 +125,8 @@ fn torques_of_the_sections_about_both_axes_are_those_of_the_mesh() {
     }
 }
 
-/// Centroid of load from mid-face and sum of forces of slices with the first-order gap `gap` by cone distance [m].
+/// Distance of the load centroid from mid-face [m] and sum of the forces [N] of slices with the first-order gap `gap`
+/// over the cone distance [m].
 fn slices(pair: &Pair, approach: f64, gap: impl Fn(f64) -> f64) -> [f64; 2] {
     let (mean, face) = (pair.mean_cone, pair.outer_cone - pair.inner_cone);
     let (mut force, mut moment) = (0.0, 0.0);
@@ -136,13 +140,13 @@ fn slices(pair: &Pair, approach: f64, gap: impl Fn(f64) -> f64) -> [f64; 2] {
     [moment / force, force]
 }
 
-/// The same of solid teeth.
+/// Distance of the load centroid from mid-face [m] and sum of the forces [N] of solid teeth.
 fn solids(pair: &Pair, all: &[SolidLoad]) -> [f64; 2] {
     let force: f64 = all.iter().map(|l| l.force.total).sum();
     [all.iter().map(|l| l.force.total * (l.slice.cone - pair.mean_cone)).sum::<f64>() / force, force]
 }
 
-/// Approach at which `force` of an approach is that of `target`.
+/// Approach at which `force` equals `target`.
 fn solved(target: f64, force: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, 5e-4);
     for _ in 0..60 {
@@ -157,8 +161,8 @@ fn the_load_shifts_by_the_amount_of_the_first_order_gap() {
     let pair = pair();
     let (alpha, [planet, side]) = (pair.pressure_angle, pair.gears.map(|g| g.pitch));
     let none = Displacement::default();
-    // gap at the pitch point of a planet moved outward and of one moved forward, and of a side gear moved outward
-    // (src/contact/errors/misalignment.rs); +1 where the heel carries
+    // gaps at the pitch point if a planet moves outward or forward, or if a side gear moves outward
+    // (src/contact/errors/misalignment.rs); +1 if the heel is loaded
     let by = 8e-5;
     let outward = by * alpha.sin() * planet.sin();
     let side_outward = by * alpha.sin() * side.sin();
@@ -202,26 +206,26 @@ fn crowning_leaves_the_centroid_and_takes_load_from_the_ends() {
     let half = 0.5 * (pair.outer_cone - pair.inner_cone);
     let [found, _] = solids(&pair, &all);
     let [wanted, _] = slices(&pair, 9e-5, |cone| 2e-5 * ((cone - pair.mean_cone) / half).powi(2));
-    // a gap of one height counts for more at the toe, as R a is the approach: a little goes to the heel
+    // a gap has more influence at the toe, because the approach is R a: a little load moves to the heel
     assert!((found - wanted).abs() < 2e-5, "{found} {wanted}");
     assert!(found > 0.0 && found < 0.03 * half, "{found}");
     assert!(line(0) < 0.75 * line(SECTIONS / 2) && line(SECTIONS - 1) < 0.85 * line(SECTIONS / 2));
 }
 
 #[test]
-fn an_error_of_the_shaft_angle_leaves_the_load_even_and_moves_contact_to_where_both_base_circles_have_it() {
+fn a_shaft_angle_error_leaves_the_load_even_and_moves_contact_to_the_common_tangent_of_both_base_circles() {
     let pair = pair();
     let base = pair.gears.map(|g| g.base);
     for lean in [-3e-3, 0.0, 3e-3] {
         let mesh = mesh(&pair, 0.0, Displacement { lean, ..Default::default() });
-        // the great circle tangent to both base circles, whose axes are now Σ + δΣ apart
+        // great circle tangent to both base circles, whose axes now have the angle Σ + δΣ
         let length = (((pair.shaft_angle + lean).cos() + base[0].sin() * base[1].sin())
             / (base[0].cos() * base[1].cos()))
         .acos();
         if lean == 0.0 {
             assert!((length - pair.line_of_action()).abs() < 1e-12);
         }
-        // approach as it would be without the gap R sinα δΣ
+        // approach without the gap R sinα δΣ
         let approach = 8e-5 + pair.mean_cone * pair.pressure_angle.sin() * lean;
         let all = loads(&mesh, position(&pair, Flank::Drive, 0.0, approach));
         let one: Vec<&SolidLoad> = all.iter().filter(|l| l.s.abs() < 1e-9).collect();
@@ -230,7 +234,7 @@ fn an_error_of_the_shaft_angle_leaves_the_load_even_and_moves_contact_to_where_b
         for (load, w) in one.iter().zip(&line) {
             assert!((w / line[0] - 1.0).abs() < 1e-9, "{lean}: {w} {}", line[0]);
             let arcs: f64 = (0..2).map(|i| pair.gears[i].action_arc(load.polar[i])).sum();
-            // the flanks overlap by 80 µm, and the place is that of a patch of some facets
+            // the flanks overlap by 80 µm, and the position is that of a patch of some facets
             assert!((arcs - length).abs() < 1e-3, "{lean}: {arcs} {length}");
         }
         let force: f64 = one.iter().map(|l| l.force.total).sum();
@@ -239,7 +243,7 @@ fn an_error_of_the_shaft_angle_leaves_the_load_even_and_moves_contact_to_where_b
     }
 }
 
-/// A turn with solid teeth in which every gear is misaligned.
+/// Turn with solid teeth in which every gear is misaligned.
 fn turn(errors: ToothErrorSpec, spin: f64, carrier: f64, load: [f64; 2]) -> Simulation {
     let mut p = Parameters::default();
     p.scene.gear_contact = GearContact::Solid;
@@ -297,13 +301,13 @@ fn mirrored_scenes_have_mirrored_loads() {
     };
     let (spin, carrier) = (200f64.to_radians(), 954f64.to_radians());
     let scene = turn(errors, spin, carrier, [835.0, 700.0]);
-    // in the mirror between the side gears: left is right, planets spin and lean the other way
+    // mirror plane between the side gears: left is right, planets spin and lean the other way
     let swapped = ToothErrorSpec { shaft_angle_error: -errors.shaft_angle_error, ..errors };
     let swapped = turn(swapped, -spin, carrier, [700.0, 835.0]);
     for side in 0..2 {
         assert_alike(&shown(&scene, side), &shown(&swapped, 1 - side), false, 1.0);
     }
-    // in the mirror through the side gears' axis and planet 0's: forward is backward, drive is coast
+    // mirror plane through the axes of the side gears and of planet 0: forward is backward, drive is coast
     let turned = ToothErrorSpec { axis_offset: -errors.axis_offset, ..errors };
     let turned = turn(turned, -spin, -carrier, [-835.0, -700.0]);
     for side in 0..2 {
@@ -323,7 +327,7 @@ fn sections_of_all_planets_carry_the_side_gears_torque() {
                 .iter()
                 .map(|l| {
                     let [point, [planet, _, across]] = [l.touch.expect("solid teeth").point, l.parts];
-                    // the part along the planet's axis is reported as it acts on the planet
+                    // the component along the planet's axis is reported as it acts on the planet
                     l.cone * (point[0] * across + point[2] * planet) * l.normal
                 })
                 .sum();

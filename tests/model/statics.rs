@@ -1,4 +1,4 @@
-//! Statics: preload, sharing of load, the cogging well of free planets and its threshold.
+//! Statics: preload, load sharing, the cogging well of free planets, and its threshold.
 
 use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::spring::{ImpactSpring, Resultant};
@@ -59,7 +59,7 @@ fn three_planets_that_differ_stay_in_the_equilibrium_they_start_in() {
     }
 }
 
-/// The default differential's mesh under the study's law, for statics by hand.
+/// Mesh of the default differential under the law of the study, for an independent computation of statics.
 struct Statics {
     mesh: Mesh,
     sin_base: [f64; 2],
@@ -74,8 +74,8 @@ impl Statics {
         Self { mesh: Mesh::new(&pair, (spring, Damping::NONE), whole, true, 0.1), sin_base: pair.sin_base() }
     }
 
-    /// Both planets alike: energy of the loaded mesh and torque on one planet, for side σ, spin ψ and load `torque`,
-    /// with the side gear where it carries the load.
+    /// Energy of the loaded mesh of two identical planets, and torque on one planet, for side σ, spin angle ψ and load
+    /// `torque`. The side gear is turned until it carries the load.
     fn side(&self, sigma: f64, psi: f64, torque: f64) -> (f64, f64) {
         let x = sigma * self.sin_base[0] * psi;
         let load = |q: f64| self.mesh.force(&MeshState { position: [q, x], rate: [0.0; 2], ..MeshState::default() });
@@ -92,12 +92,12 @@ impl Statics {
         )
     }
 
-    /// Torque on both planets at spin ψ with `extra` on the left side.
+    /// Torque on both planets at spin angle ψ with `extra` load on the left side [N·m].
     fn spin_torque(&self, psi: f64, extra: f64) -> f64 {
         2.0 * (self.side(1.0, psi, LOAD + extra).1 + self.side(-1.0, psi, LOAD).1)
     }
 
-    /// Whether the planets can rest anywhere in a tooth cycle with `extra` on the left side.
+    /// True if the planets can rest somewhere in a tooth cycle with `extra` load on the left side [N·m].
     fn rests(&self, extra: f64) -> bool {
         let signs: Vec<bool> = (0..=400)
             .map(|k| self.spin_torque(f64::from(k - 200) * std::f64::consts::PI / 2000.0, extra) > 0.0)
@@ -105,7 +105,7 @@ impl Statics {
         signs.windows(2).any(|w| w[0] != w[1])
     }
 
-    /// Steepest slope of the balanced well against the side gears' angle, max |dΠ/dα| with α = ψ z_p/z_s [N·m].
+    /// Steepest slope of the balanced well over the angle of the side gears, max |dΠ/dα| with α = ψ z_p/z_s [N·m].
     fn steepest(&self) -> f64 {
         let ratio = self.sin_base[0] / self.sin_base[1];
         (0..=400)
@@ -152,7 +152,7 @@ fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() 
         s.motion()
     };
     let carrier = Inputs::default().carrier_speed;
-    // from the transient of a rolling start, small imbalances settle with both sides at carrier speed
+    // after the transient of a rolling start, both sides settle at carrier speed under small imbalances
     for extra in [1.0, 20.0] {
         let m = run(extra, Start::Rolling, 0.5);
         for speed in m.side_speed {
@@ -160,7 +160,7 @@ fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() 
         }
         assert!(m.spin_angle[0].abs() < 0.1, "+{extra} N·m rolled {} rad", m.spin_angle[0]);
     }
-    // quasi-statically the program's threshold is that of its potential
+    // quasi-statically, the threshold of the program is that of its potential
     assert!(run(0.97 * threshold, Start::Equilibrium, 0.2).spin_speed[0].abs() < 1e-3);
     for extra in [1.03 * threshold, 60.0] {
         let m = run(extra, Start::Equilibrium, 0.1);
@@ -179,7 +179,7 @@ fn a_load_no_tooth_can_carry_is_an_error_with_a_hint() {
     let problems = Simulation::start(&Parameters::default(), &inputs, 0.0).unwrap_err();
     assert_eq!(problems[0].variable, "right.load_torque");
     assert!(problems[0].message.contains("tooth deflection exceeds half the base pitch"), "{}", problems[0]);
-    // during a run it is a step failure with time and cause, and the state stays valid
+    // during a run, it is a step failure with time and cause, and the state stays valid
     let mut s = started(&Parameters::default(), &Inputs::default());
     s.advance(0.01).unwrap();
     let before = s.clone();
@@ -187,7 +187,7 @@ fn a_load_no_tooth_can_carry_is_an_error_with_a_hint() {
     let failure = s.advance(0.02).unwrap_err();
     assert!(failure.message.contains("tooth deflection exceeds half the base pitch"), "{failure}");
     assert!(failure.time >= 0.01 && failure.time < 0.02 && s.state().is_valid());
-    // from the state before the load the run continues
+    // the run continues from the state before the load
     let mut s = before;
     s.advance(0.03).unwrap();
 }
@@ -224,7 +224,7 @@ fn half_shafts_start_wound_on_every_level_and_rest() {
     }
 }
 
-/// The reading `name` of an effect.
+/// Reading `name` of an effect.
 fn reading(forces: &Forces, name: &str) -> f64 {
     readings().zip(forces.readings).find(|(reading, _)| reading.name == name).expect("the reading exists").1
 }
@@ -239,7 +239,7 @@ fn an_equilibrium_beyond_the_largest_deflection_is_refused_at_the_start() {
         let load = 30e3 + 1e3 * f64::from(k);
         let inputs = Inputs { load_torque: [-load, -load], ..Inputs::default() };
         match Simulation::start(&p, &inputs, 0.0) {
-            // what begins in equilibrium goes on
+            // a start in equilibrium can continue
             Ok(mut s) => {
                 if !s.warnings().iter().any(|warning| warning.message.contains("no equilibrium")) {
                     carried += 1;

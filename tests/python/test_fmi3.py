@@ -207,7 +207,7 @@ def test_states_go_back_and_are_refused_by_the_other_version(fmu3, fmu, plain_ou
         other = two.raw.deSerializeFMUstate(bytes3)
         with pytest.raises(FMICallException):
             two.raw.setFMUstate(other)
-        assert "made by FMI 3.0, this instance was made by FMI 2.0" in two.messages[-1]
+        assert "created with FMI 3.0, but this instance was created with FMI 2.0" in two.messages[-1]
 
 
 @pytest.mark.parametrize("act, words", [
@@ -218,8 +218,8 @@ def test_states_go_back_and_are_refused_by_the_other_version(fmu3, fmu, plain_ou
     (lambda unit: unit.raw.fmi3GetFloat64(unit.raw.component, (ctypes.c_uint * 1)(99999), 1, (ctypes.c_double * 1)(), 1),
      "there is no variable with value reference 99999"),
     (lambda unit: unit.raw.fmi3GetFloat64(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_double * 2)(), 2),
-     "have 1 values, and the host has room for 2"),
-    (lambda unit: unit.raw.fmi3GetInt8(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_int8 * 1)(), 1), "is no Int8"),
+     "have 1 values, but the host has room for 2"),
+    (lambda unit: unit.raw.fmi3GetInt8(unit.raw.component, (ctypes.c_uint * 1)(0), 1, (ctypes.c_int8 * 1)(), 1), "is not of type Int8"),
 ])
 def test_wrong_calls_are_refused_by_name(fmu3, act, words):
     with Unit3(fmu3) as unit:
@@ -233,7 +233,7 @@ def test_an_instance_of_one_version_is_refused_by_the_other(fmu3, fmu):
         library = ctypes.CDLL(unit.raw.dll._name)
         library.fmi2Reset.argtypes, library.fmi2Reset.restype = [ctypes.c_void_p], ctypes.c_int
         assert library.fmi2Reset(unit.raw.component) == 3
-        assert "made by a function of FMI 3.0" in unit.messages[-1][1]
+        assert "created with FMI 3.0" in unit.messages[-1][1]
 
 
 def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps(fmu3):

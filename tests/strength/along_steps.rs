@@ -1,4 +1,4 @@
-//! Damage and largest stresses along steps, against integrals and oscillations in closed form.
+//! Damage and largest stresses along steps, compared with integrals and oscillations in closed form.
 
 use crate::common::{Host, assert_contains, reference};
 use bevel_differential::fmi2::{Status, fmi2SetRealInputDerivatives};
@@ -21,14 +21,14 @@ fn rating() -> Rating {
     Rating::new(&pair, (2.07e11, 0.25), &ToothStrength::default(), 0.25).expect("sound teeth")
 }
 
-/// Normal force of a mesh under the torque on a side gear [N].
+/// Normal force of a mesh under a torque on a side gear [N].
 fn force(torque: f64) -> f64 {
     let pair = Pair::new(&GearSpec::default());
     torque / (PLANETS * pair.mean_cone * pair.sin_base()[1])
 }
 
-/// The same where the force acts as a line law has it: its load per length grows with the cone distance R, so that the
-/// resultant is at ∫R² dR / ∫R dR.
+/// Normal force of a mesh [N] under a line law, whose load per length grows with the cone distance R. The resultant is
+/// then at ∫R² dR / ∫R dR.
 fn flank_force(torque: f64) -> f64 {
     let pair = Pair::new(&GearSpec::default());
     let [inner, outer] = [pair.inner_cone, pair.outer_cone];
@@ -44,7 +44,7 @@ fn set_slopes(host: &Host, slope: f64) {
     assert_eq!(status, Status::Ok, "{:?}", host.log());
 }
 
-/// Gears on the level 2 (lumped) or 3 (tooth) with strength on, before their start in equilibrium.
+/// Gears at level 2 (lumped) or 3 (tooth) with strength enabled, before their start in equilibrium.
 fn host(level: i32, integers: &[(&str, i32)], values: &[(&str, f64)]) -> Host {
     let host = Host::new();
     assert_eq!(host.set_boolean("effects.strength", 1), Status::Ok);
@@ -59,7 +59,8 @@ fn host(level: i32, integers: &[(&str, i32)], values: &[(&str, f64)]) -> Host {
     host
 }
 
-/// Damage after one second at constant speed under loads that grow from `low` to `high` [N·m], in `steps` communication steps.
+/// Damage after one second at constant speed under loads that grow from `low` to `high` [N·m], in `steps` communication
+/// steps.
 fn ramp(level: i32, method: i32, sign: f64, [low, high]: [f64; 2], steps: usize) -> [f64; 4] {
     let integers = [("solver.method", method)];
     let values = [
@@ -79,9 +80,8 @@ fn ramp(level: i32, method: i32, sign: f64, [low, high]: [f64; 2], steps: usize)
     DAMAGES.map(|name| host.get(name))
 }
 
-/// ∫ D₁(T(t)) dn over the same second: D₁ the damage of a cycle under the torque T, dn the cycles of a tooth; `on_flank` is the
-/// force that presses flanks. A play of one
-/// pitch is left out at the begin.
+/// ∫ D₁(T(t)) dn over the same second, with D₁ the damage of a cycle under the torque T, and dn the cycles of a tooth.
+/// `on_flank` is the force that presses flanks. A dead band of one pitch is omitted at the start.
 fn integral([low, high]: [f64; 2], on_flank: fn(f64) -> f64) -> [f64; 4] {
     let (rating, spec) = (rating(), GearSpec::default());
     let speeds = [SPIN, SPIN * f64::from(spec.planet_teeth) / f64::from(spec.side_teeth)];
@@ -102,7 +102,7 @@ fn integral([low, high]: [f64; 2], on_flank: fn(f64) -> f64) -> [f64; 4] {
 }
 
 #[test]
-fn damage_of_a_ramp_of_load_is_its_integral_in_one_step_and_in_steps_of_a_millisecond() {
+fn damage_of_a_load_ramp_is_its_integral_in_one_step_and_in_millisecond_steps() {
     let range = [80.0, 835.0];
     let expected = integral(range, flank_force);
     for (name, method) in METHODS {
@@ -111,7 +111,7 @@ fn damage_of_a_ramp_of_load_is_its_integral_in_one_step_and_in_steps_of_a_millis
             let off: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a / b - 1.0).collect();
             println!("{name}, {steps} steps: {off:?}");
             for (found, expected) in found.into_iter().zip(expected) {
-                // the loads themselves are known to what makes the side gears follow
+                // the loads are known up to the torque that accelerates the side gears
                 close(found, expected, 3e-4);
             }
         }
@@ -129,19 +129,20 @@ fn the_mirrored_ramp_does_the_same_damage() {
 
 #[test]
 fn damage_of_teeth_that_pass_does_not_depend_on_communication_steps() {
-    // teeth come and go along the path, the meshes ring
+    // teeth enter and leave along the path, and the meshes vibrate
     let range = [300.0, 835.0];
     let (one, many) = (ramp(3, 1, 1.0, range, 1), ramp(3, 1, 1.0, range, 1000));
     println!("{one:?} {many:?}");
     one.into_iter().zip(many).for_each(|(a, b)| close(b, a, 1e-3));
-    // a force that is the moment of the load, but for what teeth add as they come and go; impact acts at the mean cone
+    // the force equals the load torque over its arm, except for changes when teeth enter and leave; impact acts at the
+    // mean cone
     one.into_iter().zip(integral(range, force)).for_each(|(a, b)| close(a, b, 0.05));
 }
 
-/// Standing gears without damping, whose loads jump from `low` to `high` [N·m] at the start: they swing between `low` and
-/// 2 `high` − `low` for ever. Returns them and the time of a swing to and fro [s].
+/// Gears without rolling and damping, whose loads jump from `low` to `high` [N·m] at the start. They swing forever
+/// between `low` and 2 `high` − `low`. Returns the host and the period of the oscillation [s].
 fn swinging(method: i32, [low, high]: [f64; 2]) -> (Host, f64) {
-    // the spring constant from two loads
+    // spring constant from two loads
     let angle = |torque: f64| {
         let still = host(2, &[], &[("spin.command", 0.0), (LOADS[0], torque), (LOADS[1], torque)]);
         still.start();
@@ -167,7 +168,7 @@ fn swinging(method: i32, [low, high]: [f64; 2]) -> (Host, f64) {
 }
 
 #[test]
-fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_steps() {
+fn teeth_that_do_not_roll_are_damaged_by_load_reversals_between_the_ends_of_steps() {
     let (rating, [low, high]) = (rating(), [300.0, 500.0]);
     let peak = 2.0 * high - low;
     let per_cycle = |gear: usize| {
@@ -178,11 +179,11 @@ fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_ste
     for (name, method) in METHODS.into_iter().filter(|(_, method)| *method != 2) {
         for steps in [1, 100] {
             let (host, period) = swinging(method, [low, high]);
-            // ends halfway between the turns
+            // ends halfway between reversals
             let periods = 100.25;
             let h = periods * period / steps as f64;
             host.steps(0.0, h, steps);
-            // half a cycle for each half of a swing; the last one has come to the middle
+            // half a cycle for each half of an oscillation; the last one has reached the middle
             let halves = (2.0 * periods).floor();
             for (gear, damage) in ["damage.planet", "damage.side"].into_iter().enumerate() {
                 let [drive, coast] = per_cycle(gear);
@@ -190,7 +191,7 @@ fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_ste
                 println!("{name}, {steps} steps: {damage} {:+.1e} off", host.get(damage) / expected - 1.0);
                 close(host.get(damage), expected, 2e-3);
             }
-            // the largest stress of all is that of the highest peak
+            // the largest stress is that of the highest peak
             let worst = (0..2).map(|gear| rating.root[gear].stress(force(peak))).fold(0.0, f64::max);
             close(host.get("safety.root_min"), rating.bending[1].strength / worst, 2e-4);
             let pressure = rating.contact.rated_pressure(flank_force(peak)).unwrap();
@@ -200,7 +201,7 @@ fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_ste
 }
 
 #[test]
-fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
+fn ratings_start_at_their_time_and_omit_earlier_loads() {
     let run = |from: f64, until: f64| {
         let values = [("carrier.speed_command", 50.0), ("spin.command", SPIN), ("strength.rate_from", from)];
         let host = host(2, &[], &values);
@@ -217,7 +218,7 @@ fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
     for i in 0..4 {
         close(before.0[i] + after.0[i], all.0[i], 1e-4);
     }
-    // the load falls: the smallest factor is that of the begin, of roots that of the begin of rolling
+    // the load decreases: the smallest factor is at the start, for roots at the start of rolling
     let rolls = 0.5 * rating().pitch[0] / SPIN;
     for (i, exponent, begin) in [(0, 1.0, rolls), (1, 0.5, 0.0)] {
         let [first, later] = [begin, 0.4].map(|t| 835.0 - 300.0 * t);
@@ -228,7 +229,7 @@ fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
 }
 
 #[test]
-fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
+fn a_run_that_counts_a_start_out_of_equilibrium_reports_the_time_of_the_worst_stress() {
     // scene.start: equilibrium, rolling, rest
     for (start, from, strength, has_note) in
         [(3, 0.0, 1, true), (2, 0.0, 1, true), (1, 0.0, 1, false), (2, 0.05, 1, false), (2, 0.0, 0, false)]
@@ -254,8 +255,8 @@ fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
 }
 
 #[test]
-fn a_pulse_between_two_communication_points_is_seen() {
-    // half a wave of load, which is 0 at both ends of one step
+fn a_pulse_between_two_communication_points_is_counted() {
+    // half a wave of load that is 0 at both ends of one step
     let host = host(2, &[], &[("spin.command", 0.0), (LOADS[0], 300.0), (LOADS[1], 300.0)]);
     set_slopes(&host, 0.0);
     host.start();

@@ -1,8 +1,9 @@
-//! A step is rated from the loads with which the one before ended. They are kept, and must be those of the state itself.
+//! A step is rated from the loads at the end of the previous step. They are cached and must equal the loads of the
+//! state itself.
 
 use bevel_differential::model::{Given, Inputs, Parameters, PlanetSpin, Simulation, Watched};
 
-/// The study's turn from teeth in mid-gap, with ratings: blows and a ripple in every step.
+/// The study's turn from teeth in mid-gap, with ratings; it has impacts and a ripple in every step.
 fn turn() -> (Parameters, Inputs) {
     let (mut p, mut i) = (Parameters::default(), Inputs::default());
     p.scene.planet_spin = PlanetSpin::Imposed;
@@ -11,20 +12,20 @@ fn turn() -> (Parameters, Inputs) {
     (p, i)
 }
 
-/// The same simulation, without loads that were kept.
+/// Copies the simulation without its cached loads.
 fn without_kept_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Simulation {
     let watched = Watched { last_loads: None, ..*simulation.watched() };
     Simulation::resume_with(p, i, (*simulation.state(), watched), &Given::default()).unwrap()
 }
 
 #[test]
-fn damage_is_the_same_to_the_last_bit_whether_loads_were_kept_or_not() {
+fn damage_has_the_same_bits_with_and_without_cached_loads() {
     let (mut p, i) = turn();
     let mut kept = Simulation::start(&p, &i, 0.0).unwrap();
     let mut fresh = kept.clone();
     for k in 1..=40 {
         if k == 20 {
-            // the forces of the same motion are others from here on
+            // from here on, the same motion has different forces
             p.contact.damping *= 3.0;
             kept.tune(&p);
             fresh.tune(&p);

@@ -1,4 +1,4 @@
-//! Load that differs over the face: closed forms of K_Hβ and N_F, and where the factor is 1.
+//! Load that differs over the face: closed forms of K_Hβ and N_F, and cases in which the factor is 1.
 
 use crate::loads::{TORQUE, close, reading, standing};
 use crate::mesh_laws::{Built, Kind, UNDAMPED};
@@ -14,7 +14,7 @@ use bevel_differential::strength::RootStress;
 use bevel_differential::strength::face_load::{exponent, exponent_of, root_factor};
 
 #[test]
-fn the_exponent_is_that_of_the_standard_and_wide_teeth_follow_the_load_closely() {
+fn the_exponent_matches_the_standard_and_wide_teeth_follow_the_load_closely() {
     // (b/h)² = 9 and 100
     close(exponent(3.0), 9.0 / 13.0, 1e-15);
     close(exponent(10.0), 100.0 / 111.0, 1e-15);
@@ -23,7 +23,7 @@ fn the_exponent_is_that_of_the_standard_and_wide_teeth_follow_the_load_closely()
     }
     assert_eq!(root_factor(1.0, exponent(4.0)), 1.0);
     close(root_factor(4.0, 0.5), 2.0, 1e-15);
-    // depth at the mean section from tip and root cones; the deeper tooth decides
+    // depth at the mean section from tip and root cones; the deeper tooth determines it
     for (module, planet_teeth, side_teeth) in [(4.5, 10, 16), (1.2, 40, 60)] {
         let spec =
             GearSpec { module: module * 1e-3, planet_teeth, side_teeth, face_width: 14e-3, ..GearSpec::default() };
@@ -39,19 +39,19 @@ fn the_exponent_is_that_of_the_standard_and_wide_teeth_follow_the_load_closely()
     close(exponent_of(&Pair::new(&GearSpec::default())), 9.0 / 13.0, 1e-15);
 }
 
-/// A mesh under the linear law whose face is cut.
+/// A mesh under the linear law whose loads differ over the face.
 fn linear_mesh(pair: &Pair) -> Detailed {
     let spring = Built::new(pair, Kind::Line).spring;
     Detailed::new(pair, spring, UNDAMPED, Face::cut(pair.inner_cone, pair.outer_cone), false, None)
 }
 
-/// An opening that is the same at every place.
+/// An opening that is the same at every position.
 fn level(even: f64, turn: f64) -> Opening {
     Opening { even: Jet { v: even, d: 0.0, dd: 0.0 }, turn, ..Opening::NONE }
 }
 
 #[test]
-fn a_displaced_gear_leans_the_load_as_its_closed_form_says() {
+fn a_displaced_gear_shifts_the_load_as_in_its_closed_form() {
     let pair = Pair::new(&GearSpec { backlash: 1e-4, ..GearSpec::default() });
     let (inner, outer) = (pair.inner_cone, pair.outer_cone);
     let mesh = linear_mesh(&pair);
@@ -70,17 +70,17 @@ fn a_displaced_gear_leans_the_load_as_its_closed_form_says() {
             close(factor(level(e, 0.0), cone), expected, 1e-12);
         }
     }
-    // lifted off the toe: the face carries from R₀ = e/a on, ∫(aR² − eR)dR = a(R_e³ − R₀³)/3 − e(R_e² − R₀²)/2
+    // lifted off the toe, the face is loaded from R₀ = e/a on: ∫(aR² − eR)dR = a(R_e³ − R₀³)/3 − e(R_e² − R₀²)/2
     let e = 30e-6;
     let from = e / approach;
     let torque = approach * (outer.powi(3) - from.powi(3)) / 3.0 - e * (outer.powi(2) - from.powi(2)) / 2.0;
     let expected = (approach - e / outer) * (outer.powi(3) - inner.powi(3)) / 3.0 / torque;
     close(factor(level(e, 0.0), outer), expected, 1e-12);
-    // a turn about the apex, and a pitch deviation, open every section by the same arc
+    // a rotation about the apex and a pitch deviation open every section by the same arc
     for slope in [2e-4, -5e-4] {
         close(factor(level(0.0, slope), inner), 1.0, 1e-12);
     }
-    // the heel is gone: what is left carries evenly, over a smaller moment
+    // without the heel, the remaining face is loaded evenly, over a smaller moment
     let edge = inner + 0.6 * (outer - inner);
     let broken = Opening { edge: Some((edge, 1e-3)), ..Opening::NONE };
     let known = KnownSlice { cone: inner, arc: approach, s };
@@ -89,7 +89,7 @@ fn a_displaced_gear_leans_the_load_as_its_closed_form_says() {
 }
 
 #[test]
-fn aligned_unmodified_teeth_carry_the_root_stress_of_their_mean_load() {
+fn aligned_unmodified_teeth_have_the_root_stress_of_their_mean_load() {
     for (detail, law, contact) in [
         (0, ContactLaw::Impact, GearContact::Tooth),
         (0, ContactLaw::Line, GearContact::Tooth),
@@ -105,11 +105,11 @@ fn aligned_unmodified_teeth_carry_the_root_stress_of_their_mean_load() {
         p.effects.strength = true;
         p.scene.gear_contact = contact;
         p.contact.law = law;
-        // in detail for other reasons; a tooth that has not broken yet asks for slices
+        // detailed for other reasons; a tooth that has not broken yet also requires slices
         p.effects.tooth_friction = detail == 1 || detail == 2;
         p.effects.tooth_fault = detail == 2 || detail == 3;
         p.effects.tooth_errors = detail == 4;
-        // alike at every cone distance
+        // errors that are uniform over the face
         p.specs.tooth_errors.accuracy_grade = if detail == 4 { 8 } else { 0 };
         p.specs.tooth_errors.shaft_angle_error = if detail == 4 { 2e-3 } else { 0.0 };
         p.scene.planet_spin = PlanetSpin::Imposed;
@@ -130,7 +130,7 @@ fn aligned_unmodified_teeth_carry_the_root_stress_of_their_mean_load() {
 }
 
 #[test]
-fn laws_of_one_resultant_and_solids_on_their_apex_carry_evenly_by_definition() {
+fn laws_with_one_resultant_and_solids_on_their_apex_have_an_even_load_by_definition() {
     let crowned = ToothErrorSpec { crowning: 60e-6, ..ToothErrorSpec::default() };
     let pair = Pair::new(&GearSpec::default());
     let per_force = RootStress::new(&pair, 0, 0.25).unwrap().per_force;
@@ -141,7 +141,7 @@ fn laws_of_one_resultant_and_solids_on_their_apex_carry_evenly_by_definition() {
         moment.iter().flatten().copied().fold(0.0, f64::max) / pair.mean_cone
     };
     close(reading(&mut simulation, "stress.root_planet_max"), per_force * largest(&simulation), 1e-12);
-    // a shaft that leans turns solids about their apex: one section stands for all
+    // a leaning shaft turns solids about their apex, so one section represents all
     let mut p = Parameters::default();
     (p.effects.strength, p.effects.tooth_errors) = (true, true);
     p.scene.gear_contact = GearContact::Solid;
@@ -173,7 +173,7 @@ fn an_application_factor_multiplies_the_load() {
     for i in 0..4 {
         close(more[i] / one[i], if i < 2 { 1.3 } else { 1.3f64.sqrt() }, 1e-12);
     }
-    // slopes of the S–N curves from the life factors 2.5 at 10³ of 3·10⁶ cycles and 1.6 at 10⁵ of 5·10⁷
+    // slopes of the S–N curves from the life factors 2.5 at 10³ of 3·10⁶ cycles and 1.6 at 10⁵ of 5·10⁷ cycles
     close(harms[0] / harm[0], 1.3f64.powf(3000f64.ln() / 2.5f64.ln()), 1e-9);
     close(harms[1] / harm[1], 1.3f64.powf(0.5 * 500f64.ln() / 1.6f64.ln()), 1e-9);
 }

@@ -1,4 +1,4 @@
-//! Strength of the teeth against tests/data/golden_fatigue.json, the standards' closed forms and laws of scaling.
+//! Strength of the teeth, compared with tests/data/golden_fatigue.json, the standards' closed forms and scaling laws.
 
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::strength::root_stress::{bevel_factor, contact_ratio_factor};
@@ -32,7 +32,7 @@ fn rating(tool_radius: f64) -> Rating {
 }
 
 #[test]
-fn pressure_at_the_pitch_point_is_that_of_the_mean_section() {
+fn pressure_at_the_pitch_point_matches_the_mean_section() {
     let pair = default_pair();
     let contact = rating(SHARP).contact;
     for (planets, force, expected) in [(4.0, 8072.2, 1686e6), (2.0, 16144.4, 2385e6)] {
@@ -44,7 +44,7 @@ fn pressure_at_the_pitch_point_is_that_of_the_mean_section() {
     let ends = [pair.path.low, pair.path.high].map(|s| contact.pressure(16144.4, s).unwrap() / 1e6);
     let rated = contact.rated_pressure(16144.4).unwrap();
     println!("N = 2: rated {:.1} MPa at the inner point of single contact", rated / 1e6);
-    // τ is concave: the pressure is nowhere higher where one pair carries alone
+    // τ is concave, so the pressure is nowhere higher within single contact
     for i in 0..=10 {
         let s = contact.single[0] + f64::from(i) / 10.0 * (contact.single[1] - contact.single[0]);
         assert!(contact.pressure(16144.4, s).unwrap() <= rated * (1.0 + 1e-12));
@@ -65,7 +65,7 @@ fn pressure_grows_with_the_root_of_the_force_and_is_total() {
     assert_eq!(contact.rated_pressure(0.0), Some(0.0));
     assert_eq!(contact.pressure(f64::INFINITY, 0.0), None);
     assert_eq!(contact.pressure(1e3, f64::NAN), None);
-    // corner contact beyond the path counts with the radii at its end
+    // corner contact beyond the path uses the radii at its end
     assert_eq!(contact.pressure(1e3, 9.0), contact.pressure(1e3, contact.path[1]));
     // a path that is clipped at a base circle ends where the radius vanishes
     let clipped = LineContact { path: [-contact.pitch_arc[0], contact.pitch_arc[1]], ..contact };
@@ -75,14 +75,14 @@ fn pressure_grows_with_the_root_of_the_force_and_is_total() {
 }
 
 #[test]
-fn method_b1_gives_the_golden_stress_with_a_tool_of_a_quarter_module_and_no_backlash() {
+fn method_b1_matches_the_golden_stress_with_a_tool_of_a_quarter_module_and_no_backlash() {
     let spec = GearSpec { backlash: 0.0, ..GearSpec::default() };
     let pair = Pair::new(&spec);
     for planets in [2.0, 4.0] {
         let name = format!("Miner_N{planets}_side, unidirectional");
         let expected = golden()[name]["sigma_at_835"].as_f64().unwrap() * 1e6;
         let root = RootStress::new(&pair, 0, 0.25).unwrap();
-        // the golden number has no Y_K (1.00106 here)
+        // the golden number omits Y_K (1.00106 here)
         close(root.stress(normal_force(&pair, TORQUE, planets)) / root.bevel, expected, 1e-9);
     }
 }
@@ -105,7 +105,7 @@ fn root_stress_of_the_default_gears_is_near_the_golden_one() {
                 root.bevel,
                 root.per_force
             );
-            // same formula, other notch and other gear
+            // same formula, but another notch and another gear
             close(b1, 778.7377, 0.15);
             close(single, b1, 0.2);
         }
@@ -127,7 +127,7 @@ fn root_stress_is_linear_in_force_and_total() {
 }
 
 #[test]
-fn a_load_at_the_base_circle_but_for_roundings_has_a_form() {
+fn a_load_at_the_base_circle_up_to_rounding_has_a_form() {
     let profile = Profile::of(&default_pair(), 0, 0.25);
     let base = profile.teeth * profile.pressure_angle.cos();
     let [at, below] =
@@ -165,7 +165,7 @@ fn contact_ratio_and_bevel_factor_have_their_limits() {
     assert!(bevel_factor(0.3).is_finite() && bevel_factor(f64::MAX) == 1.0);
 }
 
-/// Cycles to failure N_f at `stress` [Pa]; infinite where no cycle does damage.
+/// Cycles to failure N_f at `stress` [Pa]; infinite if a cycle does no damage.
 fn cycles_to_failure(curve: &SnCurve, stress: f64) -> f64 {
     1.0 / curve.damage_per_cycle(stress)
 }
@@ -259,7 +259,7 @@ fn a_gear_that_rolls_counts_each_mesh_once_per_revolution_and_one_that_rocks_not
     for _ in 0..steps {
         planet.add(step, r.pitch[0], loads(true));
     }
-    // half a tooth pitch of play before the first count
+    // half a tooth pitch of dead band before the first count
     let expected = revolutions - 0.05;
     for flank in &planet.flanks {
         close(flank.root.cycles, expected, 1e-9);
@@ -273,7 +273,7 @@ fn a_gear_that_rolls_counts_each_mesh_once_per_revolution_and_one_that_rocks_not
         planet.add(f64::NAN, r.pitch[0], loads(true));
     }
     assert_eq!(before.flanks, planet.flanks);
-    // a side gear's four planets load one flank; in overrun the other
+    // a side gear's four planets load one flank, and in overrun the other
     let mut side = ToothDamage::default();
     for driving in [true, true, false] {
         let load = cycle(&r.bending[1], loaded_flank(false, driving), 1e9);

@@ -1,4 +1,4 @@
-//! Flash temperature over the whole face of rolling teeth, against Blok's formula applied apart from the program.
+//! Flash temperature over the whole face of rolling teeth, compared with a separate evaluation of Blok's formula.
 
 use crate::loads::{TORQUE, close, loads, pairs_of, reading};
 use crate::mesh_laws::{Built, Kind};
@@ -11,7 +11,7 @@ use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{Inputs, Motion, Parameters, PlanetSpin, Simulation};
 use std::f64::consts::PI;
 
-/// Spin of the planets relative to the carrier [rad/s].
+/// Spin rate of the planets relative to the carrier [rad/s].
 const SPIN: f64 = 15.0;
 /// Modulus of the contact of steel with E = 207 GPa and ν = 0.25 [Pa], and thermal contact coefficient [W·√s/(m²·K)].
 const MODULUS: f64 = 2.07e11 / (2.0 * (1.0 - 0.0625));
@@ -23,7 +23,7 @@ const REGULARISATION: f64 = 1e-3;
 /// Sets one error to a size [m].
 type Set = fn(&mut ToothErrorSpec, f64);
 
-/// Rolling teeth with friction, with errors if any are given.
+/// Rolling teeth with friction, and with errors if given.
 fn rolling(law: ContactLaw, errors: Option<&ToothErrorSpec>, change: impl Fn(&mut Parameters)) -> Simulation {
     let mut p = Parameters::default();
     (p.effects.strength, p.effects.tooth_friction) = (true, true);
@@ -39,7 +39,7 @@ fn rolling(law: ContactLaw, errors: Option<&ToothErrorSpec>, change: impl Fn(&mu
     Simulation::start(&p, &inputs, 0.0).expect("a scene")
 }
 
-/// Blok's formula [K] for a pair at the place `s` with the load per width `load` [N/m] at cone distance `r` [m].
+/// Blok's formula [K] for a pair at the position `s` with the load per width `load` [N/m] at cone distance `r` [m].
 fn blok(pair: &Pair, motion: &Motion, (side, s): (usize, f64), r: f64, load: f64) -> f64 {
     let arcs = [pair.pitch_arc[0] + s, pair.pitch_arc[1] - s];
     let spins = [motion.spin_speed[0].abs(), (motion.side_speed[side] - motion.carrier_speed).abs()];
@@ -58,7 +58,7 @@ fn torque(all: &[ToothLoad], mesh: &(usize, usize, bevel_differential::contact::
 }
 
 #[test]
-fn aligned_teeth_flash_at_the_heel_by_blok_s_formula() {
+fn flash_temperature_of_aligned_teeth_is_largest_at_the_heel_and_matches_blok_s_formula() {
     let pair = Pair::new(&GearSpec::default());
     let (inner, outer) = (pair.inner_cone, pair.outer_cone);
     for law in [ContactLaw::Line, ContactLaw::LineWeber] {
@@ -70,7 +70,7 @@ fn aligned_teeth_flash_at_the_heel_by_blok_s_formula() {
             if all.iter().any(|load| load.spot != Spot::Path) {
                 continue;
             }
-            // w = ωR with ω the same all over the face
+            // w = ωR with the same ω over the whole face
             let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
             let heel = |mesh: &(usize, usize, _, f64)| {
                 blok(&pair, &motion, (mesh.1, mesh.3), outer, outer * torque(&all, mesh) / moment)
@@ -87,8 +87,8 @@ fn aligned_teeth_flash_at_the_heel_by_blok_s_formula() {
     }
 }
 
-/// Largest flash temperature of teeth with crowning and tilted shafts: a fine search over each face, whose approach balances the
-/// torque of its pair.
+/// Largest flash temperature of teeth with crowning and tilted shafts, by a fine search over each face. The approach is
+/// chosen so that the torque of the pair is balanced.
 fn searched(pair: &Pair, spring: &AnySpring, e: &ToothErrorSpec, simulation: &Simulation) -> (f64, f64) {
     let (all, motion) = (loads(simulation), simulation.motion());
     let (inner, outer) = (pair.inner_cone, pair.outer_cone);
@@ -124,7 +124,7 @@ fn searched(pair: &Pair, spring: &AnySpring, e: &ToothErrorSpec, simulation: &Si
 }
 
 #[test]
-fn flanks_flash_where_a_fine_search_over_the_face_says_inside_it_and_at_both_ends() {
+fn the_largest_flash_temperature_matches_a_fine_search_inside_the_face_and_at_both_ends() {
     let pair = Pair::new(&GearSpec::default());
     let none = ToothErrorSpec::default();
     let cases = [
@@ -156,8 +156,8 @@ fn flanks_flash_where_a_fine_search_over_the_face_says_inside_it_and_at_both_end
 
 #[test]
 fn temperatures_are_continuous_in_every_error() {
-    // flanks that come nearer by 1e-12 m of a deflection of 10 μm are loaded more by 1e-7, which is 4e-6 K of 40 K; an offset of the
-    // axes moves whole flanks
+    // Flanks with a deflection of 10 μm that come nearer by 1e-12 m are loaded more by 1e-7, which is 4e-6 K of 40 K.
+    // An offset of the axes moves whole flanks.
     let errors: [(&str, Set); 9] = [
         ("nothing", |_, _| {}),
         ("crowning", |e, x| e.crowning = x),
@@ -170,7 +170,8 @@ fn temperatures_are_continuous_in_every_error() {
         ("shaft angle", |e, x| e.shaft_angle_error = x / 0.04),
     ];
     for law in [ContactLaw::Line, ContactLaw::LineWeber] {
-        // the published law makes temperatures steeper, so that 1e-12 m of crowning changes them by 3e-6 K, and a tenth by a tenth
+        // the published law is more sensitive: 1e-12 m of crowning changes temperatures by 3e-6 K, and a tenth of it by
+        // a tenth
         for (friction, largest) in [(FrictionLaw::CoulombStribeck, 1e-12), (FrictionLaw::BenedictKelley, 1e-13)] {
             let course = |errors: Option<&ToothErrorSpec>| -> Vec<[f64; 3]> {
                 let mut simulation = rolling(law, errors, |p| p.specs.tooth_friction.law = friction);

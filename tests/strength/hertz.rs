@@ -8,7 +8,7 @@ fn contact() -> LineContact {
 }
 
 #[test]
-fn the_short_form_of_the_curvature_is_the_sum_of_both() {
+fn the_short_form_of_the_curvature_equals_the_sum_of_both() {
     let c = contact();
     for s in [-0.15, 0.0, 0.2] {
         let [p, g] = [c.pitch_arc[0] + s, c.pitch_arc[1] - s].map(|psi| 30e-3 * psi.tan());
@@ -18,7 +18,7 @@ fn the_short_form_of_the_curvature_is_the_sum_of_both() {
 }
 
 #[test]
-fn a_line_law_presses_evenly_over_the_face_and_as_impact_does() {
+fn a_line_law_has_a_uniform_pressure_over_the_face_equal_to_that_of_impact() {
     let c = contact();
     for cone in [c.cone_range[0], 30e-3, c.cone_range[1]] {
         let p = c.pressure_at(c.line_load(5e3, cone), cone, 0.1).unwrap();

@@ -1,4 +1,4 @@
-//! Swings of the load while teeth are in mesh: teeth that stand, teeth that roll, and all between.
+//! Load swings while teeth are in mesh: teeth that do not roll, teeth that roll, and all cases between.
 
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::strength::{LoadCycle, Rating, TeethInMesh, ToothStrength, ToothSums, pulsating_range};
@@ -12,8 +12,8 @@ fn rating() -> Rating {
     Rating::new(&pair, (2.07e11, 0.25), &ToothStrength::default(), 0.25).expect("sound teeth")
 }
 
-/// Both sides under a force that swings `swings` times about `mean` by `amplitude` [N], while planets roll by `pitches` and wind up
-/// by `windup` pitches with the force.
+/// Both sides under a force that oscillates `swings` times about `mean` with `amplitude` [N], while planets roll by
+/// `pitches` and wind up by `windup` pitches with the force.
 fn swung(rating: &Rating, [mean, amplitude]: [f64; 2], swings: u32, pitches: f64, windup: f64) -> TeethInMesh {
     let mut teeth = TeethInMesh::default();
     let steps = swings * PER_SWING;
@@ -27,7 +27,7 @@ fn swung(rating: &Rating, [mean, amplitude]: [f64; 2], swings: u32, pitches: f64
     teeth
 }
 
-/// Damage of a swing to planet and side gear, at the roots in tension and in compression.
+/// Damage of one swing to planet and side gear, at the roots in tension and in compression.
 fn of_swing(rating: &Rating, [mean, amplitude]: [f64; 2]) -> [[f64; 2]; 2] {
     rating.root.map(|root| {
         [mean, -mean].map(|mean| {
@@ -49,7 +49,7 @@ fn close(program: f64, expected: f64, relative: f64) {
 const LOADS: [[f64; 2]; 3] = [[8e3, 7e3], [0.0, 9e3], [-6e3, 8e3]];
 
 #[test]
-fn standing_teeth_count_every_swing_and_wind_up_is_no_rolling() {
+fn teeth_that_do_not_roll_count_every_swing_and_wind_up_is_not_rolling() {
     let rating = rating();
     for load in LOADS {
         for windup in [0.0, 0.1, -0.1] {
@@ -64,17 +64,18 @@ fn standing_teeth_count_every_swing_and_wind_up_is_no_rolling() {
 #[test]
 fn rolling_teeth_count_all_swings_of_a_passage_but_one() {
     let rating = rating();
-    // 30 swings a pitch, over 5 revolutions of the planets after the half pitch of the first tooth
+    // 30 swings per pitch, over 5 revolutions of the planets after the half pitch of the first tooth
     let (swings, pitches) = (1515, 50.5);
     for load in LOADS {
         for windup in [0.0, 0.1, -0.1] {
             for way in [1.0, -1.0] {
                 let found = worst(&rating, &swung(&rating, load, swings, way * pitches, windup));
                 let [[tension, compression], [side, other]] = of_swing(&rating, load);
-                // a planet's tooth once in either mesh, and those that are in mesh at the start half a passage more
+                // a planet's tooth meshes once with either side gear; teeth in mesh at the start have half a passage
+                // more
                 let first = 15.0 * tension.max(compression);
                 close(found[0], 5.0 * 29.0 * (tension + compression) + first, 0.03);
-                // of 50 passages of 8 pairs of teeth some see 7
+                // some of the 8 pairs of teeth have 7 of the 50 passages
                 close(found[1], 7.0 * 29.0 * side.max(other), 0.03);
             }
         }
@@ -82,14 +83,14 @@ fn rolling_teeth_count_all_swings_of_a_passage_but_one() {
 }
 
 #[test]
-fn a_load_that_does_not_swing_within_a_passage_counts_nothing_here() {
+fn a_load_that_does_not_swing_within_a_passage_is_not_counted_here() {
     let rating = rating();
     for load in [[8e3, 0.0], [8e3, 7e3], [0.0, 9e3]] {
-        // 30 and more passages in a swing
+        // 30 or more passages per swing
         for pitches in [900.5, 1e4, 1e7] {
             let swings = if load[1] > 0.0 { 30 } else { 1 };
             let found = worst(&rating, &swung(&rating, load, swings, pitches, 0.0));
-            // but in the first tooth, which has stood in mesh
+            // except in the first tooth, which was in mesh without rolling
             let one = of_swing(&rating, [8e3, 8e3]);
             for gear in 0..2 {
                 assert!(found[gear] < 1e-4 * one[gear][0], "{load:?} {pitches}: {found:?} {one:?}");
@@ -99,7 +100,7 @@ fn a_load_that_does_not_swing_within_a_passage_counts_nothing_here() {
 }
 
 #[test]
-fn from_standing_to_rolling_damage_changes_by_single_swings() {
+fn between_no_rolling_and_rolling_damage_changes_by_single_swings() {
     let rating = rating();
     for load in LOADS {
         let one = of_swing(&rating, load).map(|[a, b]| a + b);
@@ -108,7 +109,7 @@ fn from_standing_to_rolling_damage_changes_by_single_swings() {
         while pitches < 150.0 {
             let found = worst(&rating, &swung(&rating, load, 150, pitches, 0.01));
             for gear in 0..2 {
-                // one more or less in each passage, beside what 5 % of all swings are
+                // one swing more or less in each passage, and 5 % of all swings
                 let passages = [0.2 * pitches, 0.125 * pitches][gear] + 2.0;
                 let step = (found[gear] - before[gear]).abs();
                 assert!(step < (passages + 0.05 * 150.0) * one[gear], "{load:?} {pitches} {gear}: {step:e} {one:?}");

@@ -1,4 +1,5 @@
-//! Rainflow counting against ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole sequence.
+//! Rainflow counting, compared with ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole
+//! sequence.
 
 use bevel_differential::strength::{Damage, LoadCycle, Rainflow, SnCurve, ToothStrength, pulsating_range};
 use fastrand::Rng;
@@ -12,7 +13,7 @@ fn close(program: f64, expected: f64, relative: f64) {
     assert!((program / expected - 1.0).abs() <= relative, "program {program}, expected {expected}");
 }
 
-/// Rainflow counting of a whole sequence, word for word after ASTM E1049, 5.4.4, on a growing list.
+/// Rainflow counting of a whole sequence as in ASTM E1049, 5.4.4, on a growing list.
 fn textbook(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
     let mut turning: Vec<f64> = Vec::new();
     for (i, &x) in sequence.iter().enumerate() {
@@ -73,7 +74,7 @@ fn rainflow_streamed_equals_the_textbook_on_random_histories() {
     let mut random = Rng::with_seed(1);
     for run in 0..2000 {
         let length = 2 + random.usize(..300);
-        // whole numbers, so that equal ranges occur; neighbours differ, so that the textbook sees every turn
+        // whole numbers, so that equal ranges occur; neighbours differ, so that the textbook detects every reversal
         let mut sequence: Vec<f64> = (0..length).map(|_| f64::from(random.u8(..41))).collect();
         sequence.dedup();
         if sequence.len() > 1 {
@@ -83,7 +84,7 @@ fn rainflow_streamed_equals_the_textbook_on_random_histories() {
 }
 
 #[test]
-fn a_decaying_oscillation_overflows_the_stack_on_the_safe_side_and_loses_only_its_smallest_ranges() {
+fn a_decaying_oscillation_overflows_the_stack_conservatively_and_loses_only_its_smallest_ranges() {
     let curve = SnCurve::through(100.0, 1e6, 2.0, 1e3);
     let damage =
         |counted: &[(f64, f64, f64)]| -> f64 { counted.iter().map(|c| c.2 * curve.damage_per_cycle(c.0)).sum() };
@@ -92,12 +93,12 @@ fn a_decaying_oscillation_overflows_the_stack_on_the_safe_side_and_loses_only_it
         let decay = 0.90 + 0.0004 * f64::from(run);
         let wave = |i: i32| if i % 2 == 0 { 1.0 } else { -1.0 } * 50.0 * decay.powi(i);
         let mut sequence: Vec<f64> = (0..120).map(wave).collect();
-        // and then it may grow again
+        // afterwards it may grow again
         sequence.extend((0..random.u64(..9)).map(|i| wave(40 + 3 * i as i32)));
         let (stream, book) = (streamed(&sequence), textbook(&sequence));
         let (d_stream, d_book) = (damage(&stream), damage(&book));
         assert!(d_stream >= d_book * (1.0 - 1e-12) && d_stream < 2.0 * d_book, "{d_stream} {d_book}");
-        // the 25 largest ranges are the textbook's
+        // the 25 largest ranges equal the textbook's
         let largest = |c: &[(f64, f64, f64)]| -> Vec<f64> { c.iter().rev().take(25).map(|c| c.0).collect() };
         assert_eq!(largest(&stream), largest(&book), "run {run}");
     }
@@ -121,7 +122,7 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
     }
     history.rest(|_| seen += 1);
     assert_eq!(seen, 0);
-    // what the gate hides takes nothing from the first range, upward or downward
+    // reversals hidden by the gate do not reduce the first range, upward or downward
     for sign in [1.0, -1.0] {
         let (mut start, mut ranges) = (Rainflow::new(1.0), Vec::new());
         for x in [10.0, 9.3, 10.2, 50.0] {
@@ -144,12 +145,12 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
 }
 
 #[test]
-fn a_standing_gear_s_cycles_become_damage_of_its_root() {
+fn the_cycles_of_a_gear_that_does_not_roll_become_damage_of_its_root() {
     let material = ToothStrength::default();
     let per_torque = 1e6;
     let mut history = Rainflow::new(0.0);
     let mut damage = Damage::default();
-    // drive and overrun in turn: purely alternating, the idler factor's case
+    // drive and overrun alternate: purely alternating load, the case of the idler factor
     for i in 0..=2000 {
         let torque = if i % 2 == 0 { 500.0 } else { -500.0 };
         history.push(torque, |c| {

@@ -16,7 +16,7 @@ fn close(program: f64, expected: f64, relative: f64) {
     assert!((program / expected - 1.0).abs() <= relative, "program {program:e}, expected {expected:e}");
 }
 
-/// A host with strength on and `values`, before its first step.
+/// A host with strength enabled and `values` set, before its first step.
 fn started(values: &[(&str, f64)], spin: bool) -> Host {
     let host = Host::new();
     assert_eq!(host.set_boolean("effects.strength", 1), Status::Ok);
@@ -41,7 +41,7 @@ fn rated(torque: f64) -> [f64; 3] {
 }
 
 #[test]
-fn standing_teeth_have_the_full_strength_over_the_stress_of_their_load() {
+fn teeth_that_do_not_roll_have_the_full_strength_over_the_stress_of_their_load() {
     let host = started(&[], false);
     assert_eq!(safety(&host), [1e3; 2], "before the first step");
     host.steps(0.0, 1e-3, 5);
@@ -50,11 +50,11 @@ fn standing_teeth_have_the_full_strength_over_the_stress_of_their_load() {
     println!("S_F = {root_min:.4}, S_H = {flank_min:.4}");
     close(root_min, 1e9 / planet.max(side), 1e-6);
     close(flank_min, 1.5e9 / flank, 1e-6);
-    // strengths scale it
+    // safety is proportional to strength
     let strong = started(&[("strength.bending_strength", 2e9), ("strength.contact_strength", 3e9)], false);
     strong.steps(0.0, 1e-3, 5);
     assert_eq!(safety(&strong), [2.0 * root_min, 2.0 * flank_min]);
-    // and it stays what it was under less load
+    // safety does not increase under less load
     assert_eq!(host.set_many(&["left.load_torque", "right.load_torque"], &[100.0; 2]), Status::Ok);
     host.steps(5e-3, 1e-3, 20);
     assert!(safety(&host)[0] <= root_min && safety(&host)[0] > 0.9 * root_min, "{:?}", safety(&host));
@@ -68,7 +68,7 @@ fn planets_that_roll_have_their_idler_strength_and_safety_only_falls() {
     for k in 0..300 {
         host.steps(f64::from(k) * 1e-3, 1e-3, 1);
         let now = safety(&host);
-        // the load at a point within a step of the solver counts only while the time stands there
+        // the load at a point within a solver step counts only while the time is at this point
         let grown = (now[0] / last[0] - 1.0).max(now[1] / last[1] - 1.0);
         assert!(grown < 1e-4, "{last:?} {now:?}");
         most = most.max(grown);
@@ -93,7 +93,7 @@ fn a_safety_below_one_is_a_stress_that_is_reported() {
 }
 
 #[test]
-fn safety_is_0_where_strength_is_off() {
+fn safety_is_0_if_strength_is_off() {
     let host = Host::new();
     host.start();
     host.steps(0.0, 1e-3, 3);

@@ -1,5 +1,6 @@
-//! Stress of roots and flanks whose load differs over the face, against values made apart: openings of the flanks by the
-//! formulas of the theory, and slices of which the program knows nothing, balanced with the torque of the mesh.
+//! Stress of roots and flanks whose load differs over the face, compared with separate calculations. The flanks are
+//! opened by the formulas of the theory, and slices that the program does not use are balanced with the torque of the
+//! mesh.
 
 use crate::loads::{TORQUE, close, loads, middles, pairs_of, reading, standing};
 use crate::mesh_laws::{Built, Kind};
@@ -12,12 +13,12 @@ use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation, ToothLoad};
 use bevel_differential::strength::{LineContact, RootStress};
 
-/// Opening of the flanks by errors [m] of a mesh of planet 1 or the opposite planet 2, after section 5 of the theory.
+/// Opening of the flanks by errors [m] in a mesh of planet 1 or the opposite planet 2, from section 5 of the theory.
 fn opening(pair: &Pair, e: &ToothErrorSpec, planet: usize, side: usize, r: f64, s: f64) -> f64 {
     let [dp, ds] = pair.gears.map(|gear| gear.pitch);
     let alpha = pair.pressure_angle;
     let x = (r - pair.mean_cone) / (0.5 * (pair.outer_cone - pair.inner_cone));
-    // drive flanks; a planet on the other side of the axis is offset the other way
+    // drive flanks; a planet on the other side of the axis is offset in the opposite direction
     let across = if planet == 0 { -e.axis_offset } else { e.axis_offset };
     let tilt = if side == 0 { e.shaft_angle_error } else { -e.shaft_angle_error };
     e.crowning * x * x
@@ -27,10 +28,11 @@ fn opening(pair: &Pair, e: &ToothErrorSpec, planet: usize, side: usize, r: f64, 
         + r * alpha.sin() * tilt
 }
 
-/// N_F of the default gears: their teeth are less than three depths wide, so that the standard takes 3.
+/// N_F of the default gears. Their teeth are less than three depths wide, so the standard uses 3.
 const EXPONENT: f64 = 9.0 / 13.0;
 
-/// Root stress and Hertz pressure [Pa], each the largest of all meshes: 64 slices of each pair, balanced with its torque.
+/// Root stress and Hertzian pressure [Pa], each the largest of all meshes, from 64 slices of each pair balanced with
+/// its torque.
 fn expected(pair: &Pair, spring: &AnySpring, e: &ToothErrorSpec, loads: &[ToothLoad]) -> [f64; 2] {
     let (cones, width) = middles(pair, 64);
     let area = (pair.outer_cone.powi(3) - pair.inner_cone.powi(3)) / 3.0;
@@ -63,7 +65,7 @@ fn expected(pair: &Pair, spring: &AnySpring, e: &ToothErrorSpec, loads: &[ToothL
 }
 
 #[test]
-fn root_stress_and_pressure_rise_as_64_slices_made_apart_say() {
+fn root_stress_and_pressure_match_64_separately_computed_slices() {
     let none = ToothErrorSpec::default();
     let cases = [
         ("crowned", ToothErrorSpec { crowning: 20e-6, ..none }),
@@ -112,7 +114,7 @@ fn root_stress_and_pressure_rise_as_64_slices_made_apart_say() {
 }
 
 #[test]
-fn solid_teeth_have_the_factor_of_their_overlap_over_the_face() {
+fn solid_teeth_have_the_face_load_factor_of_their_overlap() {
     let none = ToothErrorSpec::default();
     let pair = Pair::new(&GearSpec::default());
     let per_force = RootStress::new(&pair, 0, 0.25).unwrap().per_force;
@@ -135,7 +137,7 @@ fn solid_teeth_have_the_factor_of_their_overlap_over_the_face() {
                 for mesh in pairs_of(&all).iter().filter(|m| (m.0, m.1) == (planet, side)) {
                     let of: Vec<&ToothLoad> =
                         all.iter().filter(|l| (l.planet, l.side, l.flank, l.s) == *mesh).collect();
-                    // R p is a parabola in R, here through three of its sections
+                    // R p is a parabola in R, determined from three of its sections
                     let [a, b, c] = [0, of.len() / 2, of.len() - 1].map(|i| (of[i].cone, of[i].depth));
                     let overlap = |r: f64| {
                         let part = |(x, y): (f64, f64), (u, _): (f64, f64), (v, _): (f64, f64)| {
@@ -143,7 +145,7 @@ fn solid_teeth_have_the_factor_of_their_overlap_over_the_face() {
                         };
                         ((part(a, b, c) + part(b, c, a) + part(c, a, b)) / r).max(0.0)
                     };
-                    // IMPACT's load per width follows the overlap to the power 1.5
+                    // the load per width of IMPACT is proportional to the overlap to the power 1.5
                     let (cones, width) = middles(&pair, 64);
                     let load = cones.map(|r| (r, overlap(r).powf(1.5)));
                     let largest = load.clone().map(|(_, w)| w).fold(0.0, f64::max);

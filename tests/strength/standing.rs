@@ -1,15 +1,15 @@
-//! Fatigue of teeth that stand in mesh: both roots of a tooth count, each under its own flank's tension.
+//! Fatigue of teeth in mesh that do not roll: both roots of a tooth count, each with the tension of its own flank.
 
 use crate::common::Host;
 use std::f64::consts::PI;
 
 const SPEED: f64 = 2861.0 * PI / 180.0;
-/// Length of a pulse [s].
+/// Duration of a pulse [s].
 const PULSE: f64 = 0.02;
 const STEP: f64 = 5e-4;
 const PULSES: u32 = 6;
 
-/// Roots' damage [planet, side gear] after smooth pulses of the load torques from `low` to `high` [N·m] on both sides.
+/// Root damage [planet, side gear] after smooth pulses of the load torques from `low` to `high` [N·m] on both sides.
 fn pulses(settings: &[(&str, i32)], speed: f64, [low, high]: [f64; 2]) -> [f64; 2] {
     let host = Host::new();
     host.set_boolean("effects.strength", 1);
@@ -51,8 +51,8 @@ fn pulses_of_overrun_do_the_damage_of_pulses_of_drive() {
 }
 
 #[test]
-fn reversal_damages_a_standing_root_more_than_pulses_of_either_sign() {
-    // at equal peaks the compression of the other flank widens the cycle of both roots
+fn reversals_damage_a_root_that_does_not_roll_more_than_pulses_of_either_sign() {
+    // at equal peaks, the compression from the other flank widens the cycle of both roots
     let pulsating = pulses(&[LAWS[1]], SPEED, [0.0, 700.0]);
     let alternating = pulses(&[LAWS[1]], SPEED, [-700.0, 700.0]);
     println!("{pulsating:?} {alternating:?}");

@@ -3,10 +3,11 @@
 use bevel_differential::variables::{Access, Causality, Variability, Variable, table};
 
 use crate::fmu::documentation::{allowed, parameter_groups, start};
-use answers::text::table::Table;
 
-/// Maximum number of letters of a sentence, so that no line of the page is longer than 160.
-const LONGEST: usize = 78;
+/// Maximum number of letters of a line.
+const WIDEST: usize = 160;
+/// Letters around a cell.
+const BETWEEN: usize = 3;
 /// Groups that come first; the groups of the effects follow.
 const FIRST: [&str; 8] = ["geometry", "material", "inertia", "scene", "contact", "solid", "solver", "effects"];
 
@@ -26,22 +27,24 @@ pub fn groups() -> String {
     out
 }
 
-/// Appends a heading and the table of `rows`.
+/// Appends a heading and the table of `rows`. A sentence fills the line that the other cells of its row leave.
 fn push_group(out: &mut String, title: &str, rows: &[&Variable]) {
     let has_start = rows.iter().any(|row| !matches!(row.access, Access::Output(_)));
-    let mut table = match has_start {
-        true => Table::new(["variable", "start", "range", "unit", "what it is"]),
-        false => Table::new(["variable", "unit", "what it is"]),
-    }
-    .all_left();
+    let head = if has_start {
+        "| variable | start | range | unit | what it is |\n|---|---|---|---|---|"
+    } else {
+        "| variable | unit | what it is |\n|---|---|---|"
+    };
+    out.push_str(&format!("\n## {title}\n\n{head}\n"));
     for row in rows.iter().filter(|row| !has_twin(row)) {
-        let (name, what) = (format!("`{}`", row.name.replace("[1]", "[i]")), sentence(row));
-        match has_start {
-            true => table.push([name, without_unit(row, start(row)), range(row), unit(row), what]),
-            false => table.push([name, unit(row), what]),
-        }
+        let name = row.name.replace("[1]", "[i]");
+        let cells = match has_start {
+            true => format!("| `{name}` | {} | {} | {} |", without_unit(row, start(row)), range(row), unit(row)),
+            false => format!("| `{name}` | {} |", unit(row)),
+        };
+        let room = WIDEST.saturating_sub(cells.chars().count() + BETWEEN);
+        out.push_str(&format!("{cells} {} |\n", sentence(row, room)));
     }
-    out.push_str(&format!("\n## {title}\n\n{}", table.markdown()));
 }
 
 /// True for a variable whose twin represents it: the right side by the left side, elements of arrays by the first one.
@@ -51,7 +54,8 @@ fn has_twin(row: &Variable) -> bool {
         Some((array, rest)) => rest.split_once(']').map_or(name.clone(), |(_, end)| format!("{array}[1]{end}")),
         None => name,
     };
-    let is_alike = |other: &Variable| start(other) == start(row) && other.unit.map(|of| of.name) == row.unit.map(|of| of.name);
+    let is_alike =
+        |other: &Variable| start(other) == start(row) && other.unit.map(|of| of.name) == row.unit.map(|of| of.name);
     twin != row.name && table().rows.iter().any(|other| other.name == twin && is_alike(other))
 }
 
@@ -74,11 +78,15 @@ fn range(row: &Variable) -> String {
     }
 }
 
-/// The description up to its explanation, if it is long.
-fn sentence(row: &Variable) -> String {
+/// The description; up to its explanation, if it is longer than `longest` letters.
+fn sentence(row: &Variable, longest: usize) -> String {
     let tunable = if row.variability == Variability::Tunable { " (tunable)" } else { "" };
     let words = row.description;
-    let is_short = words.chars().count() + tunable.len() <= LONGEST;
-    let end = [": ", "; ", " (", ", "].iter().filter_map(|mark| words.find(mark)).filter(|_| !is_short).min();
-    format!("{}{tunable}", end.map_or(words, |end| &words[..end]))
+    let fits = |text: &str| text.chars().count() + tunable.len() <= longest;
+    // the longest beginning that ends before an explanation, else what is before the first comma
+    let explained = || [": ", "; ", " ("].iter().flat_map(|mark| words.match_indices(mark)).map(|(end, _)| end);
+    let longest_fit = explained().filter(|&end| fits(&words[..end])).max();
+    let end = longest_fit.or_else(|| explained().min()).or_else(|| words.find(", "));
+    let short = end.map_or(words, |end| &words[..end]);
+    format!("{}{tunable}", if fits(words) { words } else { short })
 }

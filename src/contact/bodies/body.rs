@@ -1,7 +1,7 @@
-//! The body of one gear: how far a load on one tooth moves this tooth and others.
-//!
+//! The elastic body of one gear: displacement of its teeth under a load on one of them.
+//! //!
 //! Displacements of a root are work-conjugate to its loads. The compliance between two teeth, `angle` apart, is a sum
-//! over harmonics n: with cos(n·angle) between loads of like parity in ζ, else with sin(n·angle).
+//! over harmonics n. Entries between loads of like parity in ζ use cos(n·angle), the others sin(n·angle).
 
 use nalgebra::Matrix3;
 
@@ -12,14 +12,14 @@ use crate::geometry::Pair;
 use crate::numeric::{PI, TAU, sin, sin_cos, sqrt};
 use crate::problem::Problem;
 
-/// Waves in half the width of a root at the last harmonic of the series.
+/// Number of waves over half the width of a root at the last harmonic of the series.
 const WAVES: f64 = 4.0;
 /// Harmonics up to which free ends of the face are computed. On shorter waves their effect falls with the wavelength.
 const FINITE: usize = 8;
-/// Nodes across a finite face.
+/// Number of nodes across a finite face.
 const ACROSS: usize = 3;
-/// Harmonics up to which the cone's curvature is followed exactly; shorter waves see a half-space and its correction of first
-/// order.
+/// Harmonics up to which the cone's curvature is computed exactly. For shorter waves the compliance is that of a
+/// half-space with a first-order correction.
 const CURVED: usize = 24;
 
 /// The body of a gear under its teeth.
@@ -32,8 +32,8 @@ pub struct GearBody {
 }
 
 impl GearBody {
-    /// The body of gear `i` of `pair`, whose teeth have the section `section`, held by `support`. A problem with the
-    /// support names the variable `name`.
+    /// Returns the body of gear `i` of `pair`, whose teeth have the section `section`, held by `support`. Errors about
+    /// the support name the variable `name`.
     pub fn new(
         pair: &Pair,
         i: usize,
@@ -47,7 +47,7 @@ impl GearBody {
         let cone = HollowCone { surface: root.polar, held, face, elasticity: *elasticity };
         let area = TAU * sin(root.polar) * sin(root.polar);
         let last = (WAVES * TAU / root.half_azimuth) as usize;
-        let inelastic = || Problem::new("material.poisson_ratio", "the bodies of the gears have no stiffness");
+        let inelastic = || Problem::new("material.poisson_ratio", "the gear bodies have no stiffness");
         let compliance = |n: usize, across: usize| cone.compliance(n, support.turns(), across).ok_or_else(inelastic);
         let [finite, endless] = [compliance(FINITE, ACROSS)?, compliance(FINITE, 1)?];
         let ends = [0, 1, 2].map(|k| finite[(k, k)] / endless[(k, k)] - 1.0);
@@ -76,11 +76,11 @@ impl GearBody {
         Ok(Self { root, harmonics })
     }
 
-    /// Compliance between the load on one tooth (column) and the displacement of a tooth that stands `angle` [rad] further
-    /// toward positive ζ (row) [1/Pa].
+    /// Compliance between the load on one tooth (column) and the displacement of a tooth `angle` [rad] further toward
+    /// positive ζ (row) [1/Pa].
     pub fn compliance_between(&self, angle: f64) -> [[f64; 3]; 3] {
         let mut sum = [[0.0; 3]; 3];
-        // angle sums: one sine and cosine for all
+        // angle-addition formulas: one sine and one cosine serve all harmonics
         let (step_sin, step_cos) = sin_cos(angle.rem_euclid(TAU) - if angle.rem_euclid(TAU) > PI { TAU } else { 0.0 });
         let (mut odd, mut even) = (0.0, 1.0);
         for part in &self.harmonics {
@@ -99,8 +99,8 @@ impl GearBody {
         sum
     }
 
-    /// Displacement of one tooth along the load `measured`, caused by the load `acting` on another; `compliance` is that
-    /// between the two teeth [1/Pa].
+    /// Displacement of one tooth along the load `measured`, caused by the load `acting` on another tooth. `compliance`
+    /// is the compliance between the two teeth [1/Pa].
     pub fn displacement(compliance: &[[f64; 3]; 3], measured: &RootLoad, acting: &RootLoad) -> f64 {
         (0..3).map(|i| measured[i] * (0..3).map(|j| compliance[i][j] * acting[j]).sum::<f64>()).sum()
     }

@@ -1,13 +1,16 @@
-//! The elastic body of a gear under loads on its root cone, by finite elements in the meridian and Fourier series around.
+//! The elastic body of a gear under loads on its root cone: finite elements in the meridian, Fourier series around the
+//! axis.
 //!
-//! u = R (U, V, W) along R, φ and ζ, U and V like e^{inζ}, W = i w. With s = sin φ, c = cot φ and D = R ∂/∂R the strains are
+//! u = R (U, V, W) along R, φ and ζ. U and V vary like e^{inζ}, and W = i w. With s = sin φ, c = cot φ and D = R ∂/∂R,
+//! the strains are
 //!
 //! ε_R = U + D U,  ε_φ = ∂V/∂φ + U,  ε_ζ = U + c V − n w/s,
 //! γ_Rφ = ∂U/∂φ + D V,  γ_Rζ = n U/s + D w,  γ_φζ = n V/s + ∂w/∂φ − c w   (the last two times i);
 //!
-//! O. C. Zienkiewicz, R. L. Taylor: axisymmetric bodies under loads that are not. Elements have three nodes along φ; across
-//! the face they have three as well, with free ends, or one: then the motion is the same at all R, as in a face without ends.
-//! Work and energy are per ∫R²dR. Elements are eliminated one by one, from where the body is held up to the root cone.
+//! Source: O. C. Zienkiewicz, R. L. Taylor, axisymmetric bodies under loads that are not axisymmetric. Elements have
+//! three nodes along φ. Across the face they have three nodes with free ends, or one node. With one node the motion is
+//! the same at all R, as in a face without ends. Work and energy are per ∫R²dR. Elements are eliminated one by one,
+//! from the held surface up to the root cone.
 
 use nalgebra::{DMatrix, Matrix3};
 
@@ -16,7 +19,7 @@ use crate::numeric::{asin, cos, sin, tan};
 
 /// Elements along φ.
 const ELEMENTS: usize = 5;
-/// Their lengths grow by this factor from the surface down.
+/// Factor by which the element lengths grow from the surface down.
 const GROWTH: f64 = 1.5;
 /// Depth, in decay lengths sin φ/n, at which harmonic n has decayed.
 const DECAYED: f64 = 9.0;
@@ -24,7 +27,7 @@ const DECAYED: f64 = 9.0;
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
-/// Where a body is held.
+/// Surface on which a body is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Held {
     /// On the cone of a polar angle [rad].
@@ -46,12 +49,12 @@ impl Held {
     }
 }
 
-/// The body of a gear between the root cone and where it is held.
+/// The body of a gear between the root cone and the surface on which it is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HollowCone {
     /// Polar angle of the loaded surface [rad].
     pub surface: f64,
-    /// Where it is held.
+    /// Surface on which the body is held.
     pub held: Held,
     /// Inner and outer cone distance [m].
     pub face: [f64; 2],
@@ -63,9 +66,9 @@ pub struct HollowCone {
 type Shape = [f64; 3];
 
 impl HollowCone {
-    /// Displacements (U, V, w) of the surface under unit loads (U, V, w) per ζ of harmonic `n` [1/Pa]. If the body `turns`, it
-    /// is not held along ζ; its mean rotation is 0. `across` nodes across the face: 3, or 1 for a face without ends. None for a
-    /// material that is not elastic.
+    /// Displacements (U, V, w) of the surface under unit loads (U, V, w) per ζ of harmonic `n` [1/Pa]. If the body
+    /// `turns`, it is not held along ζ, and its mean rotation is 0. The face has `across` nodes: 3, or 1 for a face
+    /// without ends. Returns `None` if the material is not elastic.
     pub fn compliance(&self, n: usize, turns: bool, across: usize) -> Option<Matrix3<f64>> {
         let total = (1.0 - GROWTH.powi(ELEMENTS as i32)) / (1.0 - GROWTH);
         let (mut below, mut from) = (None, 0.0);
@@ -77,7 +80,7 @@ impl HollowCone {
         }
         let mut stiffness = below?;
         if free {
-            // torsion stands alone
+            // torsion is decoupled from the other displacements
             for i in (2..3 * across).step_by(3) {
                 stiffness.fill_row(i, 0.0);
                 stiffness.fill_column(i, 0.0);
@@ -91,7 +94,8 @@ impl HollowCone {
         Some((loads.transpose() * moved).fixed_view::<3, 3>(0, 0).into_owned())
     }
 
-    /// The same for waves that are short against the body and its face: of a half-space under loads p cos kx, k = n/sin φ.
+    /// Compliance for waves that are short compared with the body and its face: that of a half-space under loads p cos
+    /// kx, k = n/sin φ.
     pub fn half_space(&self, n: usize) -> Matrix3<f64> {
         let Elasticity { young, poisson } = self.elasticity;
         let normal = 2.0 / (self.elasticity.plane_modulus() * n as f64);
@@ -100,7 +104,7 @@ impl HollowCone {
         Matrix3::new(along, 0.0, 0.0, 0.0, normal, across, 0.0, across, normal)
     }
 
-    /// Parts of a load like R² that act on the nodes across the face.
+    /// Shares of a load proportional to R² that act on the nodes across the face.
     fn shares(&self, across: usize) -> [f64; 3] {
         let mut shares = [0.0; 3];
         self.along_face(across, |_, weight, values, _| {
@@ -109,7 +113,8 @@ impl HollowCone {
         shares
     }
 
-    /// Calls `visit` with R, weight R²dR/∫R²dR, values and slopes (times R) of the nodes across the face at its Gauss points.
+    /// Calls `visit` at the Gauss points across the face with R, the weight R²dR/∫R²dR, and the nodes' values and
+    /// slopes (times R).
     fn along_face(&self, across: usize, mut visit: impl FnMut(f64, f64, [f64; 3], [f64; 3])) {
         let [inner, outer] = self.face;
         let (middle, half) = (0.5 * (inner + outer), 0.5 * (outer - inner));
@@ -121,8 +126,8 @@ impl HollowCone {
         }
     }
 
-    /// Stiffness seen at the upper end of an element between the parts `range` of the depth, whose lower end stands on the
-    /// stiffness `below`, or is held; if it `turns`, not along ζ.
+    /// Stiffness at the upper end of an element that covers the fractions `range` of the depth. The stiffness `below`
+    /// acts on its lower end; without one, the lower end is held, but not along ζ if the body `turns`.
     fn eliminated(
         &self,
         n: usize,
@@ -144,7 +149,7 @@ impl HollowCone {
         Some(top - side.transpose() * inner.cholesky()?.solve(&side))
     }
 
-    /// Stiffness of an element; its rows of nodes from the upper end down.
+    /// Stiffness of an element. Rows of nodes are ordered from the upper end down.
     fn element(&self, n: usize, range: [f64; 2], across: usize) -> DMatrix<f64> {
         let Elasticity { young, poisson } = self.elasticity;
         let shear = 0.5 * young / (1.0 + poisson);
@@ -170,7 +175,7 @@ impl HollowCone {
                         // rows from the upper end down
                         let slope = slopes[2 - row] / (half * depth) * values_r[column];
                         let value = values[2 - row] * values_r[column];
-                        // along R at the same φ, not at the same part of the depth
+                        // along R at the same φ, not at the same fraction of the depth
                         let along = values[2 - row] * slopes_r[column] - (1.0 - part) * bottom_slope * slope;
                         let node = 3 * (row * across + column);
                         strains[node..node + 3].copy_from_slice(&strains_of([value, slope, along], n as f64 / s, c));
@@ -184,7 +189,7 @@ impl HollowCone {
     }
 }
 
-/// Values and slopes at `x` of the quadratics that are 1 at −1, 0 and 1.
+/// Values and slopes at `x` of the three quadratic shape functions with nodes at −1, 0 and 1.
 fn quadratic(x: f64) -> ([f64; 3], [f64; 3]) {
     ([0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)], [x - 0.5, -2.0 * x, x + 0.5])
 }
@@ -198,7 +203,7 @@ fn strains_of([value, slope, along]: Shape, around: f64, cot: f64) -> [[f64; 6];
     ]
 }
 
-/// Adds `weight` times the stiffness of a point with Lamé's constants `lame` and `shear`, at and below the diagonal.
+/// Adds `weight` times the stiffness of a point with Lamé's constants `lame` and `shear`, on and below the diagonal.
 fn add(k: &mut DMatrix<f64>, strains: &[[f64; 6]], weight: f64, [lame, shear]: [f64; 2]) {
     let size = strains.len();
     for (b, strain) in strains.iter().enumerate() {

@@ -1,8 +1,9 @@
 //! Pairs of teeth of a mesh whose gears have elastic bodies.
-//!
-//! Loads ω_k of the pairs and their arcs p_k belong to each other by a symmetric compliance, p = C ω: q_k of each pair alone,
-//! teeth, roots and Hertz, and t_kl by which the load of one pair moves another, through both bodies. Teeth of neighbours
-//! stand a pitch apart; the pair nearer to the planet's tip stands against the load on the planet, and with it on the side gear.
+//! //!
+//! A symmetric compliance C relates the loads ω_k of the pairs to their arcs p_k: p = C ω. Its diagonal q_k is the
+//! compliance of a single pair: teeth, roots and Hertzian contact. Its other entries t_kl are couplings: the load of
+//! one pair moves another through both bodies. Neighbouring teeth are one pitch apart. The pair nearer to the planet's
+//! tip is behind in the direction of the load on the planet, and ahead in the direction of the load on the side gear.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -13,9 +14,9 @@ use crate::geometry::Pair;
 use crate::numeric::{TAU, sqrt};
 use crate::problem::Problem;
 
-/// Neighbours that are told apart: a pair, the next, the next but one.
+/// Number of neighbours with a separate compliance: the tooth itself, the next, and the next but one.
 const NEIGHBOURS: usize = 3;
-/// What problems with the supports name.
+/// Variables that errors about the supports name.
 const BORE: [&str; 2] = ["geometry.planet_bore", "geometry.side_bore"];
 
 /// A load on a pair as it acts on the numbered teeth of its gears.
@@ -24,13 +25,13 @@ pub(super) struct LoadedTooth {
     pub side: usize,
     /// Flank.
     pub flank: Flank,
-    /// Place on the path [rad].
+    /// Position on the path [rad].
     pub s: f64,
 }
 
 impl LoadedTooth {
-    /// Whether the load on gear `i` points to higher numbers of teeth, or to lower ones. The planet is pressed toward lower
-    /// numbers by the drive flank on the left, the side gear toward higher ones.
+    /// Returns 1 if the load on gear `i` points to higher tooth numbers, −1 if to lower ones. On the left side, the
+    /// drive flank presses the planet toward lower numbers and the side gear toward higher ones.
     fn sign(&self, i: usize) -> f64 {
         let forward = if self.flank == Flank::Drive { 1.0 } else { -1.0 };
         if i == 0 && self.side == 0 { -forward } else { forward }
@@ -44,23 +45,24 @@ pub struct MeshOnBodies {
     pub teeth: SectionPair,
     /// The gears' bodies: planet, side gear.
     pub bodies: [GearBody; 2],
-    /// By how much teeth give way more than those of a wide face.
+    /// Factors by which teeth bend more than those of a wide face.
     softening: [f64; 2],
-    /// Between a tooth and itself, the next tooth and the next but one, toward the planet's tip [1/Pa].
+    /// Compliances between a tooth and itself, the next tooth and the next but one, toward the planet's tip [1/Pa].
     between: [[[[f64; 3]; 3]; NEIGHBOURS]; 2],
-    /// Between a tooth and all others of its gear, toward higher numbers.
+    /// Compliances between a tooth and all teeth of its gear, toward higher numbers [1/Pa].
     around: [Vec<[[f64; 3]; 3]>; 2],
-    /// Angles between neighbouring teeth [rad].
+    /// Angular pitches of both gears [rad].
     pitches: [f64; 2],
-    /// Meshes of each gear that press alike, evenly around it: the planet's other mesh does not.
+    /// Number of equally loaded meshes, evenly spaced around each gear. The planet's other mesh does not count, because
+    /// its load may differ.
     presses: [u32; 2],
     outer_cone: f64,
     base_pitch: f64,
 }
 
 impl MeshOnBodies {
-    /// The mesh of `pair` with the sections `teeth`, its gears held by `supports`. Each of `planets` planets presses on the
-    /// side gear; all are taken to carry what this one does.
+    /// Returns the mesh of `pair` with the tooth sections `teeth` and gears held by `supports`. Each of `planets`
+    /// planets presses on the side gear; all are assumed to be loaded like this one.
     pub fn new(pair: &Pair, teeth: &SectionPair, supports: [Support; 2], planets: u32) -> Result<Self, Problem> {
         let softening = [0, 1].map(|i| softening(pair, i, teeth.elasticity.poisson));
         let body = |i: usize| {
@@ -84,7 +86,7 @@ impl MeshOnBodies {
             base_pitch,
         };
         mesh.between = [0, 1].map(|i| {
-            // toward the planet's tip is against the load on the planet
+            // the direction toward the planet's tip is against the load on the planet
             let toward = if i == 0 { -1.0 } else { 1.0 };
             std::array::from_fn(|k| mesh.between_teeth(i, toward * k as f64))
         });
@@ -92,8 +94,8 @@ impl MeshOnBodies {
         Ok(mesh)
     }
 
-    /// Compliance between the loads on a tooth of gear `i` and on those that stand for it under the other planets (column) and
-    /// the displacement of a tooth `pitches` further (row) [1/Pa].
+    /// Compliance between the loads on a tooth of gear `i` and on its counterparts under the other planets (column),
+    /// and the displacement of a tooth `pitches` further (row) [1/Pa].
     pub fn between_teeth(&self, i: usize, pitches: f64) -> [[f64; 3]; 3] {
         let mut sum = [[0.0; 3]; 3];
         for planet in 0..self.presses[i] {
@@ -111,8 +113,8 @@ impl MeshOnBodies {
         (TAU / self.pitches[i] + 0.5) as usize
     }
 
-    /// By how much loads on two pairs move each other whose teeth of planet and side gear stand `further` teeth apart, the first
-    /// at higher numbers [1/Pa]; pairs of different meshes share the planet alone.
+    /// Displacement of either of two pairs under a unit load on the other [1/Pa]. Tooth numbers of planet and side gear
+    /// differ by `further`, with `a` at the higher numbers. Pairs of different meshes share only the planet.
     pub(super) fn coupling_of(&self, further: [i64; 2], a: &LoadedTooth, b: &LoadedTooth) -> f64 {
         let shared = if a.side == b.side { 2 } else { 1 };
         (0..shared)
@@ -128,7 +130,7 @@ impl MeshOnBodies {
             .sum()
     }
 
-    /// Least compliance of a pair alone on `path` [rad], Hertz's part aside [1/Pa].
+    /// Smallest compliance of a single pair on `path` [rad] without the Hertzian part [1/Pa].
     pub(super) fn least_alone(&self, path: [f64; 2]) -> f64 {
         let alone = |k: u32| {
             let s = path[0] + (path[1] - path[0]) * f64::from(k) / 8.0;
@@ -138,19 +140,20 @@ impl MeshOnBodies {
         (0..=8).map(alone).fold(f64::INFINITY, f64::min)
     }
 
-    /// Load at the root of gear `i` of a unit load at roll length `roll` [m].
+    /// Load at the root of gear `i` under a unit load on the flank at roll length `roll` [m].
     fn root_load(&self, i: usize, roll: f64) -> RootLoad {
         self.bodies[i].root.load(self.teeth.sections[i].load(roll).angle)
     }
 
-    /// Compliance of a tooth of gear `i` and of its body under a load on it alone at roll length `roll` [m] [1/Pa].
+    /// Compliance of a tooth of gear `i` with its body, if only this tooth is loaded, at roll length `roll` [m] [1/Pa].
     pub fn gear(&self, i: usize, roll: f64) -> f64 {
         let root = self.root_load(i, roll);
         self.teeth.sections[i].beam_compliance(roll, &self.teeth.elasticity, self.softening[i])
             + GearBody::displacement(&self.between[i][0], &root, &root)
     }
 
-    /// Compliances of a pair alone at place `s` [rad] on the path under a line load per cone distance of `load` [N/m²].
+    /// Compliances of a single pair at position `s` [rad] on the path, under the line load per cone distance `load`
+    /// [N/m²].
     pub fn alone(&self, s: f64, load: f64) -> PairCompliance {
         let rolls = self.teeth.rolls(self.outer_cone * s);
         let line_load = self.outer_cone * load;
@@ -161,8 +164,8 @@ impl MeshOnBodies {
         }
     }
 
-    /// By how much a load on the pair at place `s` [rad] moves the pair that stands `further` pitches nearer to the planet's
-    /// tip, and the other way round [1/Pa]; 0 if more than two.
+    /// Coupling of the pair at position `s` [rad] with the pair `further` pitches nearer to the planet's tip [1/Pa]:
+    /// displacement of either under a unit load on the other. Zero if `further` is more than two.
     pub fn coupling(&self, s: f64, further: usize) -> f64 {
         let [here, there] = [s, s + further as f64 * self.base_pitch].map(|s| self.teeth.rolls(self.outer_cone * s));
         [0, 1]
@@ -178,8 +181,8 @@ impl MeshOnBodies {
             .sum()
     }
 
-    /// Stiffness of two pairs that share a rotation, at `s` [rad] and the next toward the planet's tip, each under the line
-    /// load per cone distance `load` [N/m²]; with and without what couples them [Pa].
+    /// Stiffness of two pairs that share a rotation [Pa], with and without their coupling. One pair is at `s` [rad],
+    /// the other is the next toward the planet's tip. Each is under the line load per cone distance `load` [N/m²].
     pub fn two_pairs(&self, s: f64, load: f64) -> [f64; 2] {
         let alone = [s, s + self.base_pitch].map(|s| self.alone(s, load).total());
         let coupling = self.coupling(s, 1);
@@ -191,9 +194,9 @@ impl MeshOnBodies {
     }
 }
 
-/// By how much bending of a tooth of gear `i` of `pair` exceeds that in plane strain. Teeth much wider than high are in plane
-/// strain; toward each end of the face it turns into plane stress over about half the tooth's height, as in Saint-Venant's
-/// principle. A tooth no wider than high is a thin plate.
+/// Ratio of the bending of a tooth of gear `i` of `pair` to its bending in plane strain. Teeth much wider than high are
+/// in plane strain. Toward each end of the face, plane strain changes to plane stress over about half the tooth's
+/// height, as in Saint-Venant's principle. A tooth no wider than high is a thin plate.
 fn softening(pair: &Pair, i: usize, poisson: f64) -> f64 {
     // the tooth's height shrinks toward the apex
     let height = (pair.gears[i].addendum + pair.gears[i].dedendum) * pair.mean_cone / pair.outer_cone;
@@ -208,8 +211,8 @@ mod tests {
     use crate::geometry::{AddendumSystem, GearSpec};
 
     #[test]
-    fn softening_hangs_on_the_shape_of_a_tooth_and_not_on_its_size() {
-        // heights in modules alone: Gleason's have a constant in mm
+    fn softening_depends_on_the_shape_of_a_tooth_and_not_on_its_size() {
+        // heights must be proportional to the module: Gleason's contain a constant in mm
         let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
         let larger = GearSpec {
             module: 10.0 * spec.module,

@@ -2,7 +2,8 @@
 
 use crate::numeric::{PI, cos};
 
-/// Degree of the polynomial. It meets couplings to 2e-6 of a pair's compliance from eight teeth on, and to 1e-3 for five teeth.
+/// Degree of the polynomial. Its error in a coupling is 2e-6 of a pair's compliance from eight teeth on, and 1e-3 for
+/// five teeth.
 const DEGREE: usize = 6;
 
 /// A polynomial in x = (u − middle)/half, constant beyond x = ±1.
@@ -14,12 +15,12 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// The interpolation of `f` at Chebyshev's points between `low` and `high`.
+    /// Interpolates `f` at the Chebyshev points between `low` and `high`.
     pub fn new([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> Self {
         let (middle, half, count) = (0.5 * (low + high), 0.5 * (high - low), DEGREE + 1);
         let angle = |j: usize| PI * (j as f64 + 0.5) / count as f64;
         let values: Vec<f64> = (0..count).map(|j| f(middle + half * cos(angle(j)))).collect();
-        // coefficients of Chebyshev's polynomials T_n−1 and T_n by powers of x
+        // monomial coefficients of the Chebyshev polynomials T_n−1 and T_n
         let (mut terms, mut last, mut this) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         this[0] = 1.0;
         for n in 0..count {
@@ -34,14 +35,14 @@ impl Polynomial {
         Self { middle, per_half: 1.0 / half, terms }
     }
 
-    /// The same value everywhere.
+    /// A constant function.
     pub fn constant(value: f64) -> Self {
         let mut terms = [0.0; DEGREE + 1];
         terms[0] = value;
         Self { middle: 0.0, per_half: 0.0, terms }
     }
 
-    /// Whether the value depends on the place.
+    /// True if the value depends on the position.
     pub fn varies(&self) -> bool {
         self.per_half > 0.0
     }
@@ -51,7 +52,7 @@ impl Polynomial {
         self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term)
     }
 
-    /// Value, slope and, where `TWICE`, curvature at `u`.
+    /// Value, slope and, if `TWICE`, curvature at `u`.
     #[inline(always)]
     pub fn at<const TWICE: bool>(&self, u: f64) -> [f64; 3] {
         let free = (u - self.middle) * self.per_half;

@@ -1,57 +1,60 @@
-//! Couplings of tooth pairs by the elastic bodies of their gears, while the gears turn.
-//!
-//! The bodies are linear elastic and the same at every tooth. A unit load on the pair at place s moves the pair at place s′ by
-//! the coupling t, and conversely. The coupling follows from s, s′ and the difference of the tooth numbers. Teeth of one gear
-//! keep their distance. So s − s′ is constant on the same flank of one mesh and on unlike flanks of a planet's two meshes. And
-//! s + s′ is constant on unlike flanks of one mesh and on like flanks of a planet's two meshes. Each coupling is therefore a
-//! smooth function of one variable, u = (s + s′)/2 or (s − s′)/2, and is kept as a polynomial.
+//! Couplings of tooth pairs through the elastic bodies of their gears, while the gears turn.
+//! //!
+//! The bodies are linear elastic and the same at every tooth. A unit load on the pair at position s moves the pair at
+//! position s′ by the coupling t, and conversely. The coupling depends on s, s′ and the difference of the tooth
+//! numbers. Teeth of one gear keep their distance. Therefore s − s′ is constant on the same flank of one mesh and on
+//! unlike flanks of a planet's two meshes. The sum s + s′ is constant on unlike flanks of one mesh and on like flanks
+//! of a planet's two meshes. Each coupling is therefore a smooth function of one variable, u = (s + s′)/2 or (s −
+//! s′)/2, and is stored as a polynomial.
 
 use super::mesh::{LoadedTooth, MeshOnBodies};
 use super::polynomial::Polynomial;
 use crate::contact::Flank;
 
-/// Largest number of pairs that pull at one pair at once.
+/// Largest number of pairs that pull at one pair at the same time.
 const PULLING: f64 = 3.0;
 /// Largest pull. It is below 1, because a pair yields less to a load on another pair than to its own.
-const MOST_PULL: f64 = 0.9;
+const MAX_PULL: f64 = 0.9;
 /// Distance past the ends of the path beyond which couplings are constant [base pitches].
 const PAST_END: f64 = 0.25;
-/// Number of next pairs on the same flank with a coupling of their own. Many small teeth on elastic bodies also touch past both
-/// ends of the path. Without the couplings among these pairs the common compliance would be indefinite, without an equilibrium.
+/// Number of next pairs on the same flank with a separate coupling. Many small teeth on elastic bodies also touch past
+/// both ends of the path. Without the couplings among these pairs the common compliance would be indefinite, and there
+/// would be no equilibrium.
 const SAME_FLANK_PAIRS: i64 = 16;
 /// Largest magnitude of the sum of the pair numbers on unlike flanks of a mesh.
-const MOST_FACING: i64 = 16;
-/// Places on each side of the middle at which the least value of a coupling is searched.
+const MAX_FACING: i64 = 16;
+/// Search points on each side of the middle for the minimum of a coupling.
 const SEARCH_PLACES: i32 = 8;
 
-/// Couplings by the elastic bodies of a planet and its side gears.
+/// Couplings through the elastic bodies of a planet and its side gears.
 #[derive(Clone, Debug)]
 pub struct PairCouplings {
-    /// On the same flank of a mesh, by the difference of the pair numbers less 1.
+    /// Couplings on the same flank of a mesh, indexed by the difference of the pair numbers minus 1.
     same_flank: Vec<Polynomial>,
-    /// On unlike flanks of a mesh, by the sum of the pair numbers plus `MOST_FACING`.
+    /// Couplings on unlike flanks of a mesh, indexed by the sum of the pair numbers plus `MAX_FACING`.
     opposite_flank: Vec<Polynomial>,
-    /// Between a planet's two meshes, by the flanks on the left and right and by the difference of the planet's tooth numbers.
+    /// Couplings between a planet's two meshes, indexed by the flanks on the left and right and the difference of the
+    /// planet's tooth numbers.
     other_mesh: [Vec<Polynomial>; 4],
     /// Bounds of the approach that loads on other pairs add to a pair.
     pub pull: Pull,
 }
 
-/// Bounds of the approach that loads on other pairs add to a pair, over the approach of the flanks that carry these loads. Each
-/// is −t over the least compliance of a single pair, times the number of pairs that pull at once.
+/// Bounds of the approach that loads on other pairs add to a pair, relative to the approach of the loaded flanks. Each
+/// is −t over the smallest compliance of a single pair, times the number of pairs that pull at the same time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pull {
-    /// By pairs on the same flank.
+    /// Bound for pairs on the same flank.
     pub same_flank: f64,
-    /// By pairs on the other flank of the mesh.
+    /// Bound for pairs on the other flank of the mesh.
     pub opposite_flank: f64,
-    /// By pairs on a like (0) or unlike (1) flank of the planet's other mesh.
+    /// Bounds for pairs on a like (0) or unlike (1) flank of the planet's other mesh.
     pub other_mesh: [f64; 2],
 }
 
 impl Pull {
-    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth` is the
-    /// approach of the flanks by side and flank [rad].
+    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth`
+    /// is the approach of the flanks by side and flank [rad].
     #[inline(always)]
     pub fn margin(&self, depth: &[[f64; 2]; 2], side: usize, flank: usize) -> f64 {
         let [own, other] = [side, 1 - side].map(|side| depth[side].map(|depth| depth.clamp(0.0, 1.0)));
@@ -71,9 +74,9 @@ pub struct PairPlace {
     pub flank: Flank,
     /// Number of the pair along the path.
     pub number: i64,
-    /// Number of the planet's tooth, counted on over whole turns.
+    /// Number of the planet's tooth, counted on beyond whole turns.
     pub tooth: i64,
-    /// Place on the path [rad].
+    /// Position on the path [rad].
     pub s: f64,
 }
 
@@ -82,15 +85,16 @@ pub struct PairPlace {
 pub struct Coupling {
     /// t [1/Pa].
     pub value: f64,
-    /// ∂t/∂s and ∂t/∂s′ of t as a function of u. They are right together, for the motion of the gears, not one by one.
+    /// ∂t/∂s and ∂t/∂s′ of t as a function of u. Only their combination along the motion of the gears is correct, not
+    /// each derivative.
     pub gradient: [f64; 2],
     /// ∂²t/∂s², ∂²t/∂s∂s′, ∂²t/∂s′².
     pub hessian: [f64; 3],
 }
 
-/// The coupling `t` as a polynomial of u about `middle` [rad]. `places` gives both places at u. Both lie between `low` and `high`
-/// on a range of u that is shorter by `apart`. If there is no such range, the polynomial is constant: `t` with the places at
-/// `middle` limited to `low` and `high`.
+/// Coupling `t` as a polynomial of u about `middle` [rad]. `places` returns both positions at u. The polynomial covers
+/// the range of u in which both positions are between `low` and `high`; this range is shorter by `apart`. If the range
+/// is empty, the polynomial is constant: `t` with the positions at `middle`, limited to `low` and `high`.
 fn polynomial_of(
     [low, high]: [f64; 2],
     (middle, apart): (f64, f64),
@@ -106,18 +110,19 @@ fn polynomial_of(
 }
 
 impl PairCouplings {
-    /// The couplings of `mesh`. `path` is the path of contact [rad], and `beams` the part of it on which both teeth are beams.
-    /// `centred` is the place of a pair whose tooth stands in the middle of its gap, `pitch` the base pitch [rad].
+    /// Computes the couplings of `mesh`. `path` is the path of contact [rad], and `beams` the range of the path on
+    /// which both teeth are beams. `centred` is the position of a pair whose tooth is in the middle of its gap, and
+    /// `pitch` is the base pitch [rad].
     pub fn new(mesh: &MeshOnBodies, [path, beams]: [[f64; 2]; 2], (centred, pitch): (f64, f64)) -> Self {
         let reach = [path[0] - PAST_END * pitch, path[1] + PAST_END * pitch];
         let middle = 0.5 * (reach[0] + reach[1]);
-        // the angle of a load follows the same formula where a tooth is no longer a beam
+        // the formula for the load angle is also used at positions at which a tooth is no longer a beam
         let tooth = |side, flank, s| LoadedTooth { side, flank, s };
-        // s − s′ = apart, both places move in the same direction
+        // s − s′ = apart: both positions move in the same direction
         let with = |apart: f64, t: &dyn Fn([f64; 2]) -> f64| {
             polynomial_of(reach, (middle, apart), |u| [u + 0.5 * apart, u - 0.5 * apart], t)
         };
-        // s + s′ = sum, both places move in opposite directions
+        // s + s′ = sum: both positions move in opposite directions
         let against = |sum: f64, t: &dyn Fn([f64; 2]) -> f64| {
             polynomial_of(reach, (0.0, sum - 2.0 * middle), |u| [0.5 * sum + u, 0.5 * sum - u], t)
         };
@@ -130,7 +135,7 @@ impl PairCouplings {
                 with(k as f64 * pitch, &at)
             })
             .collect();
-        let opposite_flank = (-MOST_FACING..=MOST_FACING)
+        let opposite_flank = (-MAX_FACING..=MAX_FACING)
             .map(|k| {
                 let at = |[a, b]: [f64; 2]| {
                     mesh.coupling_of([k, k + 1], &tooth(0, Flank::Drive, a), &tooth(0, Flank::Coast, b))
@@ -143,7 +148,7 @@ impl PairCouplings {
             let [left, right] = flanks_of(flanks);
             let forward = if left == Flank::Drive { 1.0 } else { -1.0 };
             let difference = |d: i64| {
-                // from the tooth opposite, the shortest way round
+                // distance from the opposite tooth, the shorter way round
                 let off = d as f64 - 0.5 * count as f64;
                 let off = forward * (off - count as f64 * libm::rint(off / count as f64)) * pitch;
                 let at = |[a, b]: [f64; 2]| mesh.coupling_of([d, 0], &tooth(0, left, a), &tooth(1, right, b));
@@ -154,11 +159,12 @@ impl PairCouplings {
         let mut couplings = Self { same_flank, opposite_flank, other_mesh, pull: Pull::default() };
         let least = mesh.least_alone(beams);
         let pull = |all: &[Polynomial]| {
-            // only couplings of pairs that can both be on the path; pairs further apart touch only where many more pairs touch
+            // only couplings of pairs that can both be on the path; more distant pairs touch only if many more pairs
+            // touch
             let most = all.iter().filter(|t| t.varies()).map(Polynomial::least).fold(0.0, f64::min);
             let pull = -PULLING * most / least;
-            // the loads that pull may themselves grow by the pull
-            if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
+            // the loads that cause the pull can themselves grow by the pull
+            if pull < 0.5 { (pull / (1.0 - pull)).min(MAX_PULL) } else { MAX_PULL }
         };
         couplings.pull = Pull {
             same_flank: pull(&couplings.same_flank),
@@ -177,7 +183,7 @@ impl PairCouplings {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };
             let all = &self.other_mesh
                 [2 * usize::from(left.flank == Flank::Coast) + usize::from(right.flank == Flank::Coast)];
-            // the difference without whole turns of the planet
+            // the difference of tooth numbers, without whole turns of the planet
             let mut difference = left.tooth.wrapping_sub(right.tooth);
             if difference as u64 >= all.len() as u64 {
                 difference = difference.rem_euclid(all.len() as i64);
@@ -186,10 +192,10 @@ impl PairCouplings {
         } else if alike {
             (self.same_flank.get(a.number.wrapping_sub(b.number).unsigned_abs().wrapping_sub(1) as usize), true)
         } else {
-            (self.opposite_flank.get(a.number.wrapping_add(b.number).wrapping_add(MOST_FACING) as usize), false)
+            (self.opposite_flank.get(a.number.wrapping_add(b.number).wrapping_add(MAX_FACING) as usize), false)
         };
         let Some(polynomial) = polynomial else { return Coupling::default() };
-        // with u = (s − s′)/2, s is the place on the left mesh, or on the drive flank
+        // for u = (s − s′)/2, s is the position in the left mesh, or on the drive flank
         let turned = !with && if alike { a.side == 1 } else { a.flank == Flank::Coast };
         let [own, other] = if with {
             [0.5, 0.5]
@@ -204,13 +210,13 @@ impl PairCouplings {
     }
 }
 
-/// Flanks on the left and right, by their index in `other_mesh`.
+/// Flanks on the left and right for an index of `other_mesh`.
 fn flanks_of(number: usize) -> [Flank; 2] {
     [number / 2, number % 2].map(|coast| if coast == 1 { Flank::Coast } else { Flank::Drive })
 }
 
 impl Polynomial {
-    /// The least value at evenly spaced places.
+    /// Smallest value at evenly spaced positions.
     fn least(&self) -> f64 {
         (-SEARCH_PLACES..=SEARCH_PLACES)
             .map(|j| self.at_share(f64::from(j) / f64::from(SEARCH_PLACES)))

@@ -1,4 +1,4 @@
-//! Where the body of a gear is held.
+//! Support of a gear's body.
 
 use super::cone::Held;
 use crate::geometry::Pair;
@@ -7,28 +7,28 @@ use crate::problem::Problem;
 
 /// A body without a bore is held this many modules below its root.
 const DEPTH: f64 = 2.0;
-/// Least thickness of the rim between bore and root [modules].
+/// Smallest rim thickness between bore and root [modules].
 const THINNEST: f64 = 0.25;
 
-/// How the body of a gear is held.
+/// Support of a gear's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Support {
     /// On the cone two modules below its root.
     NearRoot,
-    /// On a bore of a diameter [m]; a solid body, 0, near its root.
+    /// In a bore of this diameter [m]. A solid body, with diameter 0, is held near its root.
     Bore(f64),
-    /// The same, but the bore takes no torque: the body turns with the mean of its root.
+    /// In a bore of this diameter [m] that transmits no torque: the body turns with the mean rotation of its root.
     FreeBore(f64),
 }
 
 impl Support {
-    /// Diameter that a bore of gear `i` of `pair` must stay below [m].
+    /// Upper limit of the bore diameter of gear `i` of `pair`; the bore must be smaller [m].
     pub fn widest(pair: &Pair, i: usize) -> f64 {
         let rim = THINNEST * pair.module * pair.inner_cone / pair.outer_cone;
         2.0 * (pair.inner_cone * sin(pair.gears[i].root) - rim)
     }
 
-    /// Where gear `i` of `pair` is held; `name` is what a problem names.
+    /// Returns the surface on which gear `i` of `pair` is held. Errors name the variable `name`.
     pub fn held(self, pair: &Pair, i: usize, name: &'static str) -> Result<Held, Problem> {
         let root = pair.gears[i].root;
         let diameter = match self {
@@ -41,7 +41,7 @@ impl Support {
         if !(diameter > 0.0 && diameter < thickest) {
             return Err(problem!(
                 name,
-                "a bore of {:.3} mm leaves no body below the teeth: it must be within 0 and {:.3} mm",
+                "a bore of {:.3} mm leaves no body below the teeth; it must be between 0 and {:.3} mm",
                 diameter * 1e3,
                 thickest * 1e3
             ));
@@ -49,7 +49,7 @@ impl Support {
         Ok(Held::Cylinder(0.5 * diameter))
     }
 
-    /// Whether it leaves the body free to turn.
+    /// True if the support leaves the body free to turn.
     pub fn turns(self) -> bool {
         matches!(self, Self::FreeBore(_))
     }

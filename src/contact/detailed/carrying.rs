@@ -1,51 +1,53 @@
-//! The part of a face that carries: its ends in closed form, and how they move with the load.
-//!
-//! R p = a R − E − bend R² with a the approach less the turn and bend ≥ 0: positive on one interval.
+//! The loaded part of a face: its ends in closed form, and how the ends move with the load.
+//! //!
+//! The arc p at cone distance R satisfies R p = a R − E − bend R², with the approach minus the turn a and bend ≥ 0. It
+//! is therefore positive on one interval.
 
 use crate::numeric::sqrt;
 
-/// What carries of a face.
+/// Loaded part of a face.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// Its ends [m].
+    /// Ends [m].
     pub ends: [f64; 2],
-    /// By how much they move with the approach, ∂R/∂A [m/rad]; 0 at an edge.
+    /// Motion of the ends with the approach, ∂R/∂A [m/rad]; 0 at an edge of the face.
     pub by_arc: [f64; 2],
 }
 
-/// How the points of a part move with its ends, by the approach A and the opening E of the pair.
+/// Motion of the points of a loaded part with its ends, as functions of the pair's approach A and opening E.
 ///
-/// At an end that the load moves p(R; A, E) = 0, so that it moves by dR = −(dA − dE/R)/p′.
+/// At an end that moves with the load, p(R; A, E) = 0. The end therefore moves by dR = −(dA − dE/R)/p′.
 #[derive(Clone, Copy, Debug)]
 pub struct Moves {
     from: f64,
     per_length: f64,
     /// ∂R/∂A and ∂R/∂E of both ends.
     ends: [[f64; 2]; 2],
-    /// By how much the part stretches, by its length.
-    integration: [f64; 2],
+    /// Relative growth of the part's length by A and by E.
+    stretch: [f64; 2],
 }
 
 impl Moves {
-    /// Of the points of `span`.
+    /// Returns the motion of the points of `span`.
     pub fn new(span: &Span) -> Self {
         let [from, to] = span.ends;
         let per_length = 1.0 / (to - from);
         let [low, high] = [0, 1].map(|i| [span.by_arc[i], -span.by_arc[i] / span.ends[i]]);
-        let integration = [0, 1].map(|by| (high[by] - low[by]) * per_length);
-        Self { from, per_length, ends: [low, high], integration }
+        let stretch = [0, 1].map(|by| (high[by] - low[by]) * per_length);
+        Self { from, per_length, ends: [low, high], stretch }
     }
 
-    /// By A and by E: how far the point at `cone` moves, and by how much the width that it stands for grows.
+    /// Derivatives with respect to A and to E of the position of the point at `cone`, and of the logarithm of the width
+    /// that the point represents.
     #[inline(always)]
     pub fn at(&self, cone: f64) -> [[f64; 2]; 2] {
         let along = (cone - self.from) * self.per_length;
         let [low, high] = self.ends;
-        [0, 1].map(|by| [low[by] + along * (high[by] - low[by]), self.integration[by]])
+        [0, 1].map(|by| [low[by] + along * (high[by] - low[by]), self.stretch[by]])
     }
 }
 
-/// Whether the face carries at the cone distance `r`.
+/// True if the face is loaded at the cone distance `r`.
 #[inline(always)]
 pub fn carries(a: f64, even: f64, bend: f64, r: f64) -> bool {
     a * r - even - bend * r * r > 0.0
@@ -60,15 +62,15 @@ pub fn carrying(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<Sp
     }
 }
 
-/// The same where not all of it carries.
+/// Part of [from, to] that is loaded, if at least one end is not.
 #[inline(never)]
 fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) -> Option<Span> {
     let square = a * a - 4.0 * bend * even;
-    // between the ends it carries where the parabola's top is
+    // if neither end is loaded, the face can be loaded only around the top of the parabola
     if carries == [false; 2] && !(square > 0.0 && a > 2.0 * bend * from && a < 2.0 * bend * to) {
         return None;
     }
-    // roots without cancellation; where there is but one, the other is not asked for
+    // roots without cancellation; if there is only one root, the other is not used
     let root = sqrt(square.max(0.0));
     let larger = 0.5 * (a.abs() + root);
     let [low, high] = if a > 0.0 { [even / larger, larger / bend] } else { [f64::NEG_INFINITY, -even / larger] };

@@ -1,10 +1,10 @@
-//! Directions of the normal of a tooth pair, and how its flanks slide on each other.
+//! Directions of the normal of a tooth pair, and the arms of its flanks' sliding.
 
 use crate::contact::{Engagement, Spot};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin, sin_cos, sqrt};
 
-/// Constants of the line of action, from which directions of the normal follow.
+/// Constants of the line of action, from which the directions of the normal are computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Directions {
     /// sin and cos of the arcs ψ from the tangent points of planet and side gear to the pitch point.
@@ -15,41 +15,43 @@ pub struct Directions {
     cos_base: [f64; 2],
 }
 
-/// Direction of a unit normal: parts along the axes of planet and side gear, away from the apex, and along the rotation.
+/// Direction of a unit normal: components along the axes of planet and side gear, away from the apex, and along the
+/// rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalParts {
-    /// The parts.
+    /// Components.
     pub parts: [f64; 3],
-    /// Their slopes, by the place on the path or by the arc Δ past its end.
+    /// Their slopes with respect to the position on the path, or to the arc Δ past its end.
     pub slopes: [f64; 3],
 }
 
-/// sin and cos of the arcs ψ from both tangent points to the place of contact.
+/// sin and cos of the arcs ψ from both tangent points to the point of contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Arcs([[f64; 2]; 2]);
 
 impl Arcs {
-    /// For callers that need no arcs.
+    /// Placeholder for callers that need no arcs.
     pub const NONE: Self = Self([[0.0; 2]; 2]);
 }
 
-/// What makes the flanks slide: arms cotδ_b sinψ of both gears, and ρ = 1/(cotψ_p + cotψ_s), with their slopes by s.
+/// Geometry of sliding: arms cotδ_b sinψ of both gears, and ρ = 1/(cotψ_p + cotψ_s), with their slopes with respect to
+/// s.
 #[derive(Clone, Copy, Debug)]
 pub struct Arms {
     /// Arms.
     pub arm: [f64; 2],
-    /// Their slopes.
+    /// Slopes of the arms.
     pub arm_slope: [f64; 2],
     /// Relative radius of curvature over the cone distance.
     pub radius: f64,
-    /// Its slope.
+    /// Slope of the relative radius.
     pub radius_slope: f64,
 }
 
-/// Smallest tanψ in the curvature of a flank; at its base circle the radius would vanish.
-const LEAST_TANGENT: f64 = 1e-6;
+/// Smallest tanψ in the curvature of a flank. At its base circle the radius would vanish.
+const MIN_TANGENT: f64 = 1e-6;
 
-/// √x where it is safely positive, and half its reciprocal.
+/// √x and half its reciprocal, or zeros if x is not safely positive.
 fn root(x: f64) -> [f64; 2] {
     if x > 1e-30 {
         let root = sqrt(x);
@@ -66,7 +68,7 @@ impl Directions {
         Self { pitch_arc: pair.pitch_arc.map(|psi| [sin(psi), cos(psi)]), sin_base, cos_base }
     }
 
-    /// The arcs at place `s` [rad].
+    /// Arcs at position `s` [rad].
     #[inline(always)]
     pub fn arcs(&self, s: f64) -> Arcs {
         let (sin, cos) = sin_cos(s);
@@ -74,7 +76,8 @@ impl Directions {
         Arcs([[cos * sp + sin * cp, cos * cp - sin * sp], [cos * ss - sin * cs, cos * cs + sin * ss]])
     }
 
-    /// Part ν of the normal along the side gear's axis, for its axial displacement, with the slope by s; ν″ = −ν.
+    /// Component ν of the normal along the side gear's axis, for the gear's axial displacement, with its slope with
+    /// respect to s; ν″ = −ν.
     #[inline(always)]
     pub fn axial(&self, arcs: &Arcs) -> [f64; 2] {
         let [_, [sin, cos]] = arcs.0;
@@ -90,11 +93,11 @@ impl Directions {
             let [sin, cos] = arcs.0[i];
             let ratio = self.cos_base[i] / self.sin_base[i];
             (arms.arm[i], arms.arm_slope[i]) = (sin * ratio, way * cos * ratio);
-            if sin > LEAST_TANGENT * cos {
+            if sin > MIN_TANGENT * cos {
                 cot += cos / sin;
                 cot_slope -= way / (sin * sin);
             } else {
-                cot += 1.0 / LEAST_TANGENT;
+                cot += 1.0 / MIN_TANGENT;
             }
         }
         arms.radius = 1.0 / cot;
@@ -102,7 +105,7 @@ impl Directions {
         arms
     }
 
-    /// Direction of the normal of a pair at `spot`, `delta` past the end of the path if it is a corner.
+    /// Direction of the normal of a pair at `spot`. At a corner, `delta` is the arc past the end of the path.
     #[inline(always)]
     pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> NormalParts {
         let (parts, slopes) = match spot {
@@ -114,15 +117,16 @@ impl Directions {
             Spot::PlanetTip => self.at_corner(engagement, 0, delta),
             Spot::SideTip => self.at_corner(engagement, 1, delta),
         };
-        // the axes of a differential are perpendicular; the rest is along the rotation
+        // the axes of a differential are perpendicular; the remaining component is along the rotation
         let [forward, half] = root(1.0 - parts[0] * parts[0] - parts[1] * parts[1]);
         let forward_slope = -2.0 * half * (parts[0] * slopes[0] + parts[1] * slopes[1]);
         NormalParts { parts: [parts[0], parts[1], forward], slopes: [slopes[0], slopes[1], forward_slope] }
     }
 
-    /// Parts along both axes of the tip corner of gear `i`, with their slopes by Δ.
+    /// Components of the normal along both axes at the tip corner of gear `i`, with their slopes with respect to Δ.
     ///
-    /// A force with the lever arm ℓ about an axis has the part √(sin²φ − ℓ²) along it at the polar angle φ.
+    /// At the polar angle φ, a force with the lever arm ℓ about an axis has the component √(sin²φ − ℓ²) along this
+    /// axis.
     fn at_corner(&self, engagement: &Engagement, i: usize, delta: f64) -> ([f64; 2], [f64; 2]) {
         let corner = &engagement.corner[i];
         let g = corner.at(delta);

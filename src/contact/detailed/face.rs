@@ -1,22 +1,22 @@
-//! The face of a tooth pair as its load has it: the part that carries, and the points over which loads are summed.
-//!
+//! The face of a tooth pair under load: its loaded part, and the points over which loads are summed.
+//! //!
 //! A slice at cone distance R penetrates by the arc p = A − e(R, s)/R with the opening e = E + turn R + bend R² of the
-//! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so that the part of the face that
-//! carries is one interval, on each side of a broken tooth's edge. Its ends follow in closed form.
-//!
-//! Under a linear law the energy is a polynomial of fourth degree in R, for which four of Gauss's points on that interval are
-//! exact: the load grows and falls as smoothly as flanks come together, and force and energy belong to each other to the last
-//! digit.
-//!
-//! Under any other law eight points serve where the load is far from zero and twelve that crowd at the ends elsewhere
-//! (`points`). The ends of a part move with the load and take its points along; a sum's derivative contains how they do
-//! (`carrying`).
+//! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so the loaded part of the face
+//! is one interval on each side of a broken tooth's edge. Its ends follow in closed form.
+//! //!
+//! Under a linear law, the energy is a polynomial of fourth degree in R, and four Gauss points on that interval are
+//! exact. The load therefore grows and falls smoothly, and force and energy are consistent to the last digit.
+//! //!
+//! Any other law uses eight points if the load is far from zero, and otherwise twelve points clustered at the ends
+//! (`points`). The ends of a loaded part move with the load, and its points move with them. The derivative of a sum
+//! includes this motion (`carrying`).
 
 use super::carrying::{Moves, Span, carries as carries_at, carrying};
-use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST_NODES, POINTS, nodes};
+use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MAX_NODES, POINTS, nodes};
 use super::{Node, Opening, Slice};
 
-/// How far past the ends of a face its load is still not zero where eight points serve, by the face's length.
+/// Distance past the ends of a face, relative to its length, at which the load must not yet be zero if eight points are
+/// used.
 const CLEAR: f64 = 0.25;
 
 /// The face of a tooth pair.
@@ -24,39 +24,40 @@ const CLEAR: f64 = 0.25;
 pub enum Face {
     /// A law with one resultant for the face.
     Whole(Node),
-    /// A linear law that holds at every cone distance between two ends [m]; its points where all of it carries.
+    /// A linear law that is valid at every cone distance between two ends [m], with the points of a fully loaded face.
     Cut([f64; 2], [Node; POINTS]),
-    /// Any law that holds at every cone distance between two ends [m]; its points where all of it carries by far.
+    /// Any law that is valid at every cone distance between two ends [m], with the points of a face loaded well past
+    /// both ends.
     Sliced([f64; 2], [Node; EIGHT]),
 }
 
 impl Face {
-    /// A face between cone distances `inner` and `outer` [m] under a linear law.
+    /// Returns a face between cone distances `inner` and `outer` [m] under a linear law.
     pub fn cut(inner: f64, outer: f64) -> Self {
         Self::Cut([inner, outer], nodes(&GAUSS, [inner, outer]))
     }
 
-    /// A face between cone distances `inner` and `outer` [m] under any law.
+    /// Returns a face between cone distances `inner` and `outer` [m] under any law.
     pub fn sliced(inner: f64, outer: f64) -> Self {
         Self::Sliced([inner, outer], Self::gauss_points([inner, outer]))
     }
 
-    /// Eight of Gauss's points over a whole face between two cone distances [m].
+    /// Eight Gauss points over a whole face between two cone distances [m].
     pub fn gauss_points(ends: [f64; 2]) -> [Node; EIGHT] {
         nodes(&GAUSS_EIGHT, ends)
     }
 
-    /// A face whose law has its resultant at one slice.
+    /// Returns a face whose law has its resultant at one slice.
     pub fn whole(slice: Slice) -> Self {
         Self::Whole(slice.into())
     }
 
-    /// Whether loads differ over it.
+    /// True if loads differ over the face.
     pub fn is_cut(&self) -> bool {
         self.ends().is_some()
     }
 
-    /// Its ends [m], where loads differ over it.
+    /// Ends of the face [m], or `None` if loads do not differ over it.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match self {
             Self::Whole(_) => None,
@@ -64,7 +65,7 @@ impl Face {
         }
     }
 
-    /// Its points where all of it is loaded.
+    /// Points of the fully loaded face.
     pub fn nodes(&self) -> &[Node] {
         match self {
             Self::Whole(node) => std::slice::from_ref(node),
@@ -73,16 +74,16 @@ impl Face {
         }
     }
 
-    /// Most points of a sum over it.
+    /// Maximum number of points of a sum over the face.
     pub fn points(&self) -> usize {
         match self {
             Self::Whole(_) => 1,
             Self::Cut(..) => POINTS,
-            Self::Sliced(..) => MOST_NODES,
+            Self::Sliced(..) => MAX_NODES,
         }
     }
 
-    /// Its innermost cone distance that carries [m].
+    /// Smallest cone distance that can be loaded [m].
     pub fn inner(&self) -> f64 {
         match self {
             Self::Whole(node) => node.cone,
@@ -90,7 +91,7 @@ impl Face {
         }
     }
 
-    /// Sum of all weights, and the cone distance of the resultant of error-free teeth [m].
+    /// Sum of all weights, and cone distance of the resultant of error-free teeth [m].
     pub fn moment(&self) -> (f64, f64) {
         match self {
             Self::Whole(node) => (node.weight, node.cone),
@@ -105,14 +106,14 @@ impl Face {
     pub fn width(&self) -> f64 {
         match self {
             Self::Whole(node) => node.width,
-            // a load ωR has the line load ω R_F at the resultant
+            // a load ωR is the line load ω R_F at the resultant
             Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _) => {
                 0.5 * (outer * outer - inner * inner) / self.moment().1
             }
         }
     }
 
-    /// True if a part of the face carries at the approach `arc` [rad].
+    /// True if a part of the face is loaded at the approach `arc` [rad].
     #[inline(always)]
     pub fn is_loaded(&self, arc: f64, opening: &Opening) -> bool {
         let (a, even) = (arc - opening.turn, opening.even.v);
@@ -130,7 +131,8 @@ impl Face {
         }
     }
 
-    /// The parts that carry at the approach `arc` [rad]: sound, and broken. `cut` is room for the points of what is cut.
+    /// The loaded parts at the approach `arc` [rad]: sound and broken. `cut` is storage for the points of partly loaded
+    /// faces.
     #[inline(always)]
     pub fn loaded<'a>(&'a self, arc: f64, opening: &Opening, cut: &'a mut Cut) -> [Part<'a>; 2] {
         let a = arc - opening.turn;
@@ -146,7 +148,7 @@ impl Face {
             }
             Self::Cut(ends, all) => parts(*ends, opening, a, &mut cut.exact, |even, span, room| match span {
                 Some(span) if span.ends == *ends => Part { nodes: all, even, moves: None },
-                // the sums are exact wherever their points are
+                // the sums are exact for any position of their points
                 Some(span) => Part { nodes: room.insert(nodes(&GAUSS, span.ends)), even, moves: None },
                 None => Part::NONE,
             }),
@@ -164,8 +166,8 @@ impl Face {
     }
 }
 
-/// The sound and the broken part of a face between `ends` at the approach `a` less the turn, each as `part` makes it of E,
-/// what carries, and its room.
+/// The sound and the broken part of a face between `ends` at the approach minus the turn `a`. `part` builds each from
+/// E, its loaded span, and its storage.
 #[inline(always)]
 fn parts<'a, R>(
     ends: [f64; 2],
@@ -185,35 +187,35 @@ fn parts<'a, R>(
     [part(even, sound, first), part(beyond, broken, second)]
 }
 
-/// Room for points of parts that are cut.
+/// Storage for the points of partly loaded faces.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cut {
     exact: [Option<[Node; POINTS]>; 2],
-    crowded: [Option<[Node; MOST_NODES]>; 2],
+    crowded: [Option<[Node; MAX_NODES]>; 2],
 }
 
-/// A part of the face that carries.
+/// A loaded part of the face.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
-    /// Its points.
+    /// Points of the part.
     pub nodes: &'a [Node],
-    /// E there [m].
+    /// Value of E on the part [m].
     pub even: f64,
-    /// How they move, where sums over them are not exact.
+    /// Motion of the points, if sums over them are not exact.
     pub moves: Option<Moves>,
 }
 
 impl<'a> Part<'a> {
-    /// Nothing.
+    /// An empty part.
     pub const NONE: Self = Self { nodes: &[], even: 0.0, moves: None };
 
-    /// All of it in one point.
+    /// Returns a part that consists of one point.
     #[inline(always)]
     pub fn of(node: &'a Node) -> Self {
         Self { nodes: std::slice::from_ref(node), even: 0.0, moves: None }
     }
 
-    /// Whether nothing carries.
+    /// True if the part is not loaded.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -231,7 +233,7 @@ mod tests {
         Opening { even: Jet::constant(even), turn, bend, edge }
     }
 
-    /// ∫R² max(p, 0)^n dR by many middles.
+    /// ∫R² max(p, 0)^n dR by the midpoint rule with many points.
     fn fine(a: f64, o: &Opening, n: i32) -> f64 {
         let count = 200_000;
         let width = (FACE[1] - FACE[0]) / f64::from(count);
@@ -245,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn torque_and_energy_of_linear_teeth_are_those_of_a_fine_sum_wherever_the_face_carries() {
+    fn torque_and_energy_of_linear_teeth_match_a_fine_sum_for_any_loaded_part() {
         let face = Face::cut(FACE[0], FACE[1]);
         let mut parts = [0; 3];
         for a in [-4e-4, 2e-4, 6e-4, 1e-3] {

@@ -1,12 +1,13 @@
-//! How evenly a pair's load is spread over its face.
-//!
-//! A load per width w = ωR is what aligned teeth carry, ω the same at every R. Where errors or displacements open the flanks
-//! by e(R), ω follows the law of a slice at the arc A − e(R)/R. The face load factor is the largest ω of the face over its
-//! mean with the weight R², which is that of the torque:
-//!
-//!   K_Hβ = ω_max ∫R² dR / ∫ω R² dR
-//!
-//! e/R = E/R + turn + bend R is least at an end of the face, at the edge of a broken tooth, or at R² = E/bend.
+//! Face load factor: how unevenly a pair's load is distributed over its face.
+//! //!
+//! The load per width of aligned teeth is w = ωR, with the same ω at every R. If errors or displacements open the
+//! flanks by e(R), ω follows the law of a slice at the arc A − e(R)/R. The face load factor is the largest ω of the
+//! face over its mean. The mean has the weight R², like the torque:
+//! //!
+//! K_Hβ = ω_max ∫R² dR / ∫ω R² dR
+//! //!
+//! The smallest value of e/R = E/R + turn + bend R is at an end of the face, at the edge of a broken tooth, or at R² =
+//! E/bend.
 
 use super::face::Cut;
 use super::sums::Approach;
@@ -22,23 +23,24 @@ pub struct KnownSlice {
     pub cone: f64,
     /// Penetration arc [rad].
     pub arc: f64,
-    /// Place on the path [rad].
+    /// Position on the path [rad].
     pub s: f64,
 }
 
 impl Detailed {
-    /// Moment ∫R² dR of the face, by which ω is the torque of a pair [m³].
+    /// Moment ∫R² dR of the face [m³]: ratio of a pair's torque to ω.
     pub fn moment_of_face(&self) -> f64 {
         self.moment
     }
 
-    /// Load per width [N/m] of the pair of `slice` at the cone distance `cone` [m], on a slice or between them.
+    /// Load per width [N/m] of the pair of `slice` at the cone distance `cone` [m], which need not be the slice's own.
     pub fn line_load(&self, slice: &SliceLoad, cone: f64) -> f64 {
         let arc = slice.approach.arc - slice.opening.at(cone) / cone;
         self.line_load_at(&self.spring.place(slice.s), &slice.approach, arc, cone)
     }
 
-    /// Load per width [N/m] at the `place` of a spring and the cone distance `cone` [m], where the flanks penetrate by `arc` [rad].
+    /// Load per width [N/m] at the `place` of a spring and the cone distance `cone` [m], if the flanks penetrate by
+    /// `arc` [rad].
     pub fn line_load_at(&self, place: &<AnySpring as Spring>::Place, approach: &Approach, arc: f64, cone: f64) -> f64 {
         if arc <= 0.0 {
             return 0.0;
@@ -48,8 +50,8 @@ impl Detailed {
         cone * self.damping.apply(elastic.torque, elastic.stiffness, arc, rate).total
     }
 
-    /// K_Hβ of the pair of which `known` is a loaded slice, by the elastic part of its load: damping is spread with it.
-    /// 1 where a law has one resultant for the whole face.
+    /// Returns K_Hβ of the pair with the loaded slice `known`. It uses the elastic load; the damping force is
+    /// distributed in the same way. K_Hβ is 1 if a law has one resultant for the whole face.
     pub fn face_load_factor(&self, known: &KnownSlice, opening: &Opening) -> f64 {
         let Some(ends) = self.face.ends() else { return 1.0 };
         let approach = known.arc + opening.at(known.cone) / known.cone;
@@ -68,7 +70,7 @@ impl Detailed {
     }
 }
 
-/// The least arc e(R)/R [rad] between the cone distances `inner` and `outer` [m].
+/// Smallest arc e(R)/R [rad] between the cone distances `inner` and `outer` [m].
 fn least_arc(opening: &Opening, [inner, outer]: [f64; 2]) -> f64 {
     let (edge, depth) = opening.edge.unwrap_or((outer, 0.0));
     let edge = edge.clamp(inner, outer);
@@ -76,7 +78,7 @@ fn least_arc(opening: &Opening, [inner, outer]: [f64; 2]) -> f64 {
         let at = |r: f64| even / r + opening.turn + opening.bend * r;
         let inside = sqrt(even / opening.bend);
         let ends = at(from).min(at(to));
-        // the comparisons fail where there is no such place
+        // the comparisons are false if there is no such position
         if inside > from && inside < to { ends.min(at(inside)) } else { ends }
     };
     let sound = if edge > inner { least(opening.even.v, [inner, edge]) } else { f64::INFINITY };
@@ -92,7 +94,7 @@ mod tests {
     const FACE: [f64; 2] = [22.4e-3, 42.4e-3];
 
     #[test]
-    fn the_least_arc_is_that_of_a_fine_search() {
+    fn the_least_arc_matches_a_fine_search() {
         for even in [-3e-5, 0.0, 2e-5, 6e-5] {
             for turn in [-2e-3, 0.0, 1e-3] {
                 for bend in [0.0, 0.01, 0.06, 0.6] {

@@ -1,4 +1,4 @@
-//! States of a mesh in full detail, its loads, and the slices and gaps that they are made of.
+//! States of a mesh in full detail, its loads, and the loaded slices and openings of its pairs.
 
 use super::sums::Approach;
 use crate::contact::{Flank, Sliding, Spot, ToothPair};
@@ -9,9 +9,9 @@ use crate::numeric::{Jet, Scalar};
 pub struct DetailedState {
     /// q, x [rad] and w [m].
     pub position: [f64; 3],
-    /// Their rates.
+    /// Rates of the position.
     pub rate: [f64; 3],
-    /// Tooth pairs by which the planet's position was wrapped, positive with x.
+    /// Number of tooth pairs by which the planet's position was wrapped, positive in the direction of x.
     pub wrapped: i64,
 }
 
@@ -20,8 +20,8 @@ pub struct DetailedState {
 pub struct DetailedLoad<T> {
     /// Forces conjugate to q, x [N·m] and w [N].
     pub force: [T; 3],
-    /// Thrust on the planet along its axis away from the apex [N]; it and the two below are summed only where something rubs
-    /// under them.
+    /// Thrust on the planet along its axis, away from the apex [N]. This and the next two forces are summed only if
+    /// something rubs under them.
     pub planet_axial: T,
     /// Thrust on the side gear along its axis away from the apex [N].
     pub side_axial: T,
@@ -29,12 +29,12 @@ pub struct DetailedLoad<T> {
     pub tangential: T,
     /// Heat of contact damping and of tooth friction [W].
     pub heat: [f64; 2],
-    /// Elastic energy [J]; it is summed where derivatives are.
+    /// Elastic energy [J], summed only together with derivatives.
     pub energy: f64,
 }
 
 impl<T> DetailedLoad<T> {
-    /// The same in other numbers.
+    /// Converts the forces with `f`, for example to another number type.
     #[inline(always)]
     pub fn map<U>(self, f: impl Fn(T) -> U) -> DetailedLoad<U> {
         DetailedLoad {
@@ -56,14 +56,14 @@ impl<T: Scalar> DetailedLoad<T> {
     }
 }
 
-/// One loaded slice of one tooth pair, for outputs of single loads.
+/// One loaded slice of one tooth pair, for outputs of individual loads.
 #[derive(Clone, Copy, Debug)]
 pub struct SliceLoad<'a> {
     /// The pair.
     pub pair: &'a ToothPair,
-    /// Kind of contact, and the arc Δ past the end of the path or the place on it [rad].
+    /// Kind of contact.
     pub spot: Spot,
-    /// See `spot`.
+    /// Arc Δ past the end of the path, or the position on the path if the pair is on it [rad].
     pub place: f64,
     /// Cone distance [m].
     pub cone: f64,
@@ -71,13 +71,13 @@ pub struct SliceLoad<'a> {
     pub share: f64,
     /// Normal force per width [N/m].
     pub line_load: f64,
-    /// Its penetration arc [rad].
+    /// Penetration arc of the slice [rad].
     pub arc: f64,
-    /// Place on the path [rad].
+    /// Position on the path [rad].
     pub s: f64,
     /// Elastic energy [J].
     pub energy: f64,
-    /// Teeth in contact, of the unrolled sequence.
+    /// Teeth in contact, numbered in the unrolled sequence.
     pub name: PairName,
     /// Normal force [N].
     pub normal: f64,
@@ -85,15 +85,16 @@ pub struct SliceLoad<'a> {
     pub friction: f64,
     /// Sliding of the flanks, if friction is modelled.
     pub sliding: Option<Sliding<f64>>,
-    /// Direction parts of the normal: along the planet's axis, along the side gear's axis, along the rotation.
+    /// Components of the unit normal: along the planet's axis, along the side gear's axis, along the rotation.
     pub parts: [f64; 3],
-    /// How near the flanks of its pair are and how they move,
+    /// Approach of the pair's flanks and its rates.
     pub approach: Approach,
-    /// and by how much they do not fit.
+    /// Gap or excess material between the pair's flanks.
     pub opening: &'a Opening,
 }
 
-/// What looks at loaded slices, if anything does: asked at run time, so that sums that look are those that do not.
+/// Optional callback for each loaded slice. It is a run-time option, so observed and unobserved sums share the same
+/// code.
 pub type Look<'a> = Option<&'a mut dyn FnMut(&SliceLoad)>;
 
 /// A slice of the face.
@@ -101,19 +102,19 @@ pub type Look<'a> = Option<&'a mut dyn FnMut(&SliceLoad)>;
 pub struct Slice {
     /// Cone distance R_j [m].
     pub cone: f64,
-    /// J_j, its share of ∫R² dR [m³] (of the whole where the law is one for the face).
+    /// J_j, the slice's share of ∫R² dR [m³], or a share of 1 if the law has one resultant for the face.
     pub weight: f64,
-    /// Width over which its force is spread [m].
+    /// Width over which the slice's force is spread [m].
     pub width: f64,
 }
 
-/// Opening of the flanks of a pair at its place s: e(R, s) = E(s) + turn R + bend R² [m], and more of it beyond the edge of a
-/// broken tooth.
+/// Opening of the flanks of a pair at its position s: e(R, s) = E(s) + turn R + bend R² [m], with additional depth
+/// beyond the edge of a broken tooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
-    /// E [m] with its slopes by s.
+    /// E [m] with its slopes with respect to s.
     pub even: Jet,
-    /// A turn of one flank against the other about the apex [rad].
+    /// Rotation of one flank against the other about the apex [rad].
     pub turn: f64,
     /// Half the curvature over the face, not negative [1/m].
     pub bend: f64,
@@ -125,7 +126,7 @@ impl Opening {
     /// Flanks that fit.
     pub const NONE: Self = Self { even: Jet { v: 0.0, d: 0.0, dd: 0.0 }, turn: 0.0, bend: 0.0, edge: None };
 
-    /// Adds what a displacement `w` [m] of the side gear along its axis opens, given ν and ∂ν/∂s.
+    /// Adds the opening caused by an axial displacement `w` [m] of the side gear, given ν and ∂ν/∂s.
     #[inline(always)]
     pub fn displace(&mut self, w: f64, [nu, nu_slope]: [f64; 2]) {
         self.even.v += w * nu;
@@ -140,7 +141,7 @@ impl Opening {
     }
 }
 
-/// Which teeth, of the unrolled sequence, meet in which mesh.
+/// Identity of a tooth pair: its mesh, flank and tooth in the unrolled sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PairName {
     /// Planet.
@@ -149,13 +150,13 @@ pub struct PairName {
     pub side: usize,
     /// Flank.
     pub flank: Flank,
-    /// Number of the planet's tooth, counted from the mesh's own line at the start and in the sense of x.
+    /// Number of the planet's tooth, counted from the mesh's own line at the start and in the direction of x.
     pub tooth: i64,
 }
 
 impl PairName {
-    /// The pair `number` of `flank` of the mesh of `planet` with side gear `side`, of a planet whose position was wrapped by `wrapped`
-    /// pairs, in the sense of x.
+    /// Returns the name of pair `number` of `flank` in the mesh of `planet` with side gear `side`. The planet's
+    /// position was wrapped by `wrapped` pairs in the direction of x.
     #[inline(always)]
     pub fn new((planet, side): (usize, usize), flank: Flank, number: i64, wrapped: i64) -> Self {
         let tooth = if flank == Flank::Drive {

@@ -1,4 +1,4 @@
-//! The mesh itself: constants, and the sum of loads over tooth pairs.
+//! The detailed mesh: its constants, and the sum of loads over its tooth pairs.
 
 use super::super::spring::with_spring;
 use super::directions::{Arcs, Directions};
@@ -13,40 +13,41 @@ use crate::numeric::Dual;
 /// Constants of a detailed mesh.
 #[derive(Clone, Debug)]
 pub struct Detailed {
-    /// Specific elastic law.
+    /// Elastic law per unit of the face's weights.
     pub spring: AnySpring,
-    /// Damping, of the whole face in one state; every slice has its share of it.
+    /// Damping of the whole face in one state; every slice has its share of it.
     pub(super) damping: Damping,
     /// The face.
     pub face: Face,
-    /// The face under a law that is valid at every cone distance, also if `face` is one point because flanks fit. Friction differs
-    /// over it even then.
+    /// The face under a law that is valid at every cone distance. It is also set if `face` is one point because flanks
+    /// fit: friction then still differs over the face.
     pub(super) rubbed: Option<Face>,
-    /// One spring per mesh instead of tooth pairs.
+    /// True if the mesh has one spring instead of tooth pairs.
     pub is_single: bool,
     /// Friction along the flanks.
     pub friction: Option<ToothFriction>,
-    /// Whether anything rubs under thrust and bearing force of the gears.
+    /// True if any friction depends on thrust and bearing force of the gears.
     pub needs_thrust: bool,
-    /// Whether side gears move along their axes.
+    /// True if side gears move along their axes.
     pub has_seats: bool,
     pub(super) directions: Directions,
-    /// Sum of the face's weights: ∫R² dR, or 1 where the law is one for the face.
+    /// Sum of the face's weights: ∫R² dR, or 1 if the law has one resultant for the face.
     pub(super) moment: f64,
     /// Cone distance of the resultant of teeth that fit [m].
     resultant: f64,
-    /// The face of teeth that fit, in one point.
+    /// The face of teeth that fit, as one point.
     whole: Node,
 }
 
-/// Teeth of a mesh as they are now: their openings, their oil, and which planet and side gear they are of.
+/// Teeth of a mesh in their present state: tooth pairs, errors, oil viscosity, planet and side gear.
 #[derive(Clone, Copy)]
 pub struct MeshTeeth<'a> {
     /// Tooth pairs.
     pub engagement: &'a Engagement,
     /// Errors of the teeth.
     pub gaps: Option<&'a FlankGaps>,
-    /// Viscosity of the oil at its temperature [Pa·s], for a law of friction that takes it from the oil; none: that of the law.
+    /// Viscosity of the oil at its temperature [Pa·s], for a friction law that takes it from the oil. `None` keeps the
+    /// law's own value.
     pub viscosity: Option<f64>,
     /// Planet.
     pub planet: usize,
@@ -55,7 +56,7 @@ pub struct MeshTeeth<'a> {
 }
 
 impl MeshTeeth<'_> {
-    /// The pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
+    /// Name of pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
     #[inline(always)]
     fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
         PairName::new((self.planet, self.side), flank, number, wrapped)
@@ -63,7 +64,7 @@ impl MeshTeeth<'_> {
 }
 
 impl Detailed {
-    /// A detailed mesh of `pair` with the damping `damping` of a force at the resultant of the face.
+    /// Returns a detailed mesh of `pair`. `damping` applies to a force at the resultant of the face.
     pub fn new(
         pair: &Pair,
         spring: AnySpring,
@@ -92,12 +93,12 @@ impl Detailed {
         }
     }
 
-    /// True if the law is valid at every cone distance, so that the load of aligned teeth grows with it.
+    /// True if the law is valid at every cone distance, so that the load of aligned teeth grows with the cone distance.
     pub fn is_over_face(&self) -> bool {
         self.rubbed.is_some()
     }
 
-    /// Lets flanks that fit rub at every point of the face `rubbed`, over which the law is valid.
+    /// Sums the friction of flanks that fit over every point of the face `rubbed`, over which the law is valid.
     pub fn rub_over(&mut self, rubbed: Face) {
         self.rubbed = Some(rubbed);
     }
@@ -114,14 +115,14 @@ impl Detailed {
         totals.load()
     }
 
-    /// Loads at `state` with their exact derivatives by q, x, w and their rates.
+    /// Loads at `state` with their exact derivatives with respect to q, x, w and their rates.
     pub fn linearise(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
         let mut totals = Totals::<SUMS, LOCAL>::default();
         with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
         totals.linearised()
     }
 
-    /// Loads at `state`; calls `look` with each loaded slice. Compiled once for all laws and whoever looks.
+    /// Loads at `state`; calls `look` with each loaded slice. It is compiled once for all laws and callers.
     pub fn look(
         &self,
         teeth: &MeshTeeth,
@@ -133,13 +134,13 @@ impl Detailed {
         totals.load()
     }
 
-    /// Whether there may be gaps or excess material between the flanks of pairs.
+    /// True if there may be gaps or excess material between the flanks of pairs.
     pub(super) fn is_open(&self, teeth: &MeshTeeth) -> bool {
         self.has_seats || teeth.gaps.is_some()
     }
 
-    /// By how much the flanks of pair `number` of `flank` at place `s` [rad] do not fit at cone distance `cone` [m], as an
-    /// arc [rad].
+    /// Opening of the flanks of pair `number` of `flank` at position `s` [rad] and cone distance `cone` [m], as an arc
+    /// [rad].
     pub fn opened(
         &self,
         teeth: &MeshTeeth,
@@ -203,8 +204,8 @@ impl Detailed {
         energy
     }
 
-    /// Calls `visit` with each pair that may touch, or is at most a margin [rad] from touching: `margin` of drive flanks and of
-    /// coast flanks.
+    /// Calls `visit` with each pair that touches or is within `margin` [rad] of touching. `margin` has one value for
+    /// drive flanks and one for coast flanks.
     #[inline(always)]
     pub(super) fn each(
         &self,
@@ -214,7 +215,7 @@ impl Detailed {
         mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
         let [q, x, w] = state.position;
-        // errors and axial displacement bring flanks nearer than error-free ones by so much at most [m], then [rad]
+        // upper bound by which errors and axial displacement bring flanks nearer than error-free ones [m], then [rad]
         let slack = teeth.gaps.map_or(0.0, |g| -g.least) + (-w).max(0.0);
         let slack = slack / self.face.inner();
         for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
@@ -237,7 +238,8 @@ impl Detailed {
         teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
-    /// What opens the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs where seats need them.
+    /// Opening of the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs, which are
+    /// computed only with axial seats.
     #[inline(always)]
     pub(super) fn opened_pair(&self, teeth: &MeshTeeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
         let mut opening = self.opening(teeth, name, s);
@@ -250,7 +252,8 @@ impl Detailed {
         (opening, axial, arcs)
     }
 
-    /// The parts of the face that carry where the flanks approach by `depth` [rad]; `cut` is room for the points of what is cut.
+    /// The loaded parts of the face if the flanks approach by `depth` [rad]. `cut` is storage for the points of partly
+    /// loaded faces.
     #[inline(always)]
     pub(super) fn loaded_parts<'a, const OPEN: bool>(
         &'a self,
@@ -283,7 +286,7 @@ impl Detailed {
             (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
         }
         let parts = self.loaded_parts::<OPEN>(pair.depth, &opening, &mut cut);
-        // most pairs that are near do not touch
+        // most nearby pairs do not touch
         if parts.iter().all(Part::is_empty) {
             return;
         }
@@ -294,8 +297,8 @@ impl Detailed {
 }
 
 impl Spot {
-    /// Slopes by q and x of what the normal's direction depends on: the place on the path, or the arc past its end.
-    /// `sign` is ∂a/∂q, `s_slope` ∂s/∂x.
+    /// Slopes with respect to q and x of the position on the path, or of the arc past its end: the normal's direction
+    /// depends on it. `sign` is ∂a/∂q, `s_slope` is ∂s/∂x.
     pub(super) fn moves(self, sign: f64, s_slope: f64) -> [f64; 2] {
         match self {
             Spot::Path | Spot::PlanetTip => [0.0, s_slope],

@@ -1,14 +1,14 @@
-//! Detailed mesh: tooth errors over the face, friction along the flanks, axially displaced gears, and bearing loads, with
-//! exact derivatives.
+//! Detailed mesh: tooth errors over the face, friction along the flanks, axially displaced gears, and bearing loads,
+//! with exact derivatives.
 //!
-//! A slice at cone distance R_j penetrates by d_j = R_j (a − g) − e(R_j, s) − w ν(s): w is the side gear's
-//! displacement away from the apex, ν = cosδ_bs sin(ψ_s − s) the axial component of the flank's normal. V = Σ_k Σ_j J_j Φ(d_j/R_j, s)
-//! over tooth pairs k and points j of the face (`face`). Friction μ F along the flank has the moment arms R cosδ_b sinψ about
-//! both axes and opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the speeds of both
-//! flanks along the line of action.
-//!
-//! What belongs to a pair is found once per pair (`directions`, `pair`); `sums` go over the face by the pair's own
-//! coordinates, and `totals` take them to those of the mesh.
+//! A slice at cone distance R_j penetrates by d_j = R_j (a − g) − e(R_j, s) − w ν(s). w is the side gear's displacement
+//! away from the apex, and ν = cosδ_bs sin(ψ_s − s) is the axial component of the flank's normal. The potential is V =
+//! Σ_k Σ_j J_j Φ(d_j/R_j, s) over tooth pairs k and points j of the face (`face`). Friction μ F along the flank has the
+//! moment arms R cosδ_b sinψ about both axes. It opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs
+//! sinψ_s), where u are the speeds of both flanks along the line of action.
+//! //!
+//! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
+//! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 
 mod carrying;
 mod directions;
@@ -37,5 +37,5 @@ pub use totals::Totals;
 
 /// Variables of a mesh: q, x, w and their rates.
 pub const LOCAL: usize = 6;
-/// The same, and q, x, w of the planet's other mesh.
+/// Variables of a mesh on shared elastic bodies: those of [`LOCAL`], then q, x, w of the planet's other mesh.
 pub const WITH_OTHER: usize = LOCAL + 3;

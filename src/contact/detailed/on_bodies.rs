@@ -1,7 +1,7 @@
 //! Both meshes of a planet whose gears have elastic bodies (`contact::shared`).
 //!
-//! The own arc of a pair takes the place of its arc in every slice: bodies move a tooth as a whole. The load on other pairs follows
-//! from the elastic torque over the face, ω = M/J.
+//! Bodies move a tooth as a whole, so the own arc of a pair replaces the pair's arc in every slice. The load that acts
+//! on other pairs is computed from the elastic torque over the face, ω = M/J.
 
 use super::super::bodies::{PairCouplings, PairPlace};
 use super::super::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
@@ -18,14 +18,15 @@ use crate::contact::spring::with_teeth;
 use crate::contact::{Damping, Flank, Spring, ToothPair};
 use crate::numeric::Dual;
 
-/// Teeth of both meshes of a planet on bodies that they share.
+/// Teeth of both meshes of a planet on shared elastic bodies.
 #[derive(Clone, Copy)]
 pub struct SharedTeeth<'a> {
     /// Teeth, left and right.
     pub teeth: [MeshTeeth<'a>; 2],
-    /// The bodies.
+    /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
-    /// Number of the planet's tooth that stands at the right mesh's line as tooth 0 does at the left one's.
+    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// mesh.
     pub opposite: i64,
 }
 
@@ -41,10 +42,10 @@ struct Near<P> {
     place: P,
 }
 
-/// Called with each pair, the approach of its flanks [rad], and its share of the load.
+/// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
-/// Load of the elastic part of a face at an own arc, over J, with its derivatives.
+/// Elastic load of a face at an own arc, divided by J, with its derivatives.
 #[derive(Clone, Copy, Default)]
 struct Carried {
     load: f64,
@@ -55,11 +56,11 @@ struct Carried {
 }
 
 impl Detailed {
-    /// Load of the elastic part of a pair at its own arc `arc` [rad].
+    /// Elastic load of a pair at its own arc `arc` [rad].
     #[inline(always)]
     fn carried<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> Carried {
         if !OPEN {
-            // one point has the load of a face whose flanks fit
+            // one point represents the load of a face whose flanks fit
             if arc <= 0.0 {
                 return Carried::default();
             }
@@ -77,15 +78,15 @@ impl Detailed {
         Carried { load, by_arc, by_opening, by_place, energy }
     }
 
-    /// Load and its slope by the arc, for the iterations that find own arcs.
+    /// Load and its slope with respect to the arc, for the iterations that solve for the own arcs.
     #[inline(never)]
     fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> [f64; 2] {
         let Carried { load, by_arc, .. } = self.carried::<S, OPEN>(spring, near, arc);
         [load, by_arc]
     }
 
-    /// Gathers the pairs of both meshes that are pressed, that others may pull together, or that are within `lookout` of the deepest
-    /// approach of flanks. They are written to where they stay, because they are large.
+    /// Gathers the pairs of both meshes that are pressed, that others may pull into contact, or that are within
+    /// `lookout` times the deepest approach of touching. Pairs are written in place, because they are large.
     fn gather<S: Spring, const OPEN: bool>(
         &self,
         spring: &S,
@@ -94,7 +95,7 @@ impl Detailed {
         lookout: f64,
         pairs: &mut Pairs<Near<S::Place>>,
     ) {
-        // excess material presses before flanks that fit do
+        // excess material presses before flanks without errors would touch
         let excess = [0, 1].map(|side| {
             let gaps = shared.teeth[side].gaps.map_or(0.0, |gaps| -gaps.least);
             (gaps + (-states[side].position[2]).max(0.0)) / self.face.inner()
@@ -129,7 +130,8 @@ impl Detailed {
         }
     }
 
-    /// Calls `see` with each pair that may touch, the approach of its flanks and its share of the load; with `SLOPES` of the share.
+    /// Calls `see` with each pair that may touch, the approach of its flanks and its share of the load. With `SLOPES`,
+    /// the share includes its slopes.
     fn share<S: Spring, const OPEN: bool, const SLOPES: bool>(
         &self,
         spring: &S,
@@ -141,7 +143,7 @@ impl Detailed {
         let mut pairs = Pairs::none();
         self.gather::<S, OPEN>(spring, shared, states, lookout, &mut pairs);
         let near_of = |k: usize| pairs.get(k);
-        // flanks that excess material presses carry at arcs below 0, so that every arc is asked
+        // flanks pressed by excess material are loaded even at negative arcs, so the law is evaluated at every arc
         let law = |k: usize, arc: f64| near_of(k).map_or([0.0; 2], |near| self.load_of::<S, OPEN>(spring, near, arc));
         let changes = |k: usize, own: f64| {
             let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
@@ -165,7 +167,7 @@ impl Detailed {
         });
     }
 
-    /// [`Self::share`] without slopes, for flanks that may not fit and for those that do.
+    /// Calls [`Self::share`] without slopes, in the variant for flanks that may open or for flanks that fit.
     #[inline(never)]
     fn share_at<S: Spring>(
         &self,
@@ -207,7 +209,8 @@ impl Detailed {
         totals.map(|totals| totals.load())
     }
 
-    /// Loads of both meshes with their exact derivatives: by q, x, w and their rates of the own mesh, and by q, x, w of the other.
+    /// Loads of both meshes with their exact derivatives with respect to q, x, w and their rates of the own mesh, and
+    /// to q, x, w of the other mesh.
     pub fn linearise_shared(
         &self,
         shared: &SharedTeeth,
@@ -246,7 +249,7 @@ impl Detailed {
         sum
     }
 
-    /// By how much pairs that touch or are about to are moved by others.
+    /// Displacements that other pairs cause at pairs that touch or are about to touch.
     pub fn opening_by_others(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> OpeningByOthers {
         let mut opening_by_others = OpeningByOthers::default();
         let lookout = OpeningByOthers::LOOKOUT;

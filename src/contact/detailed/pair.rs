@@ -1,13 +1,14 @@
-//! A tooth pair as it moves with q, x, w: from derivatives by its approach, opening and place to those by the mesh.
+//! Motion of a tooth pair with q, x, w: converts derivatives with respect to approach, opening and position to mesh
+//! coordinates.
 
 use super::sums::{Approach, By};
 use super::{Arms, DetailedState, LOCAL, Opening};
 use crate::contact::ToothPair;
 
-/// Motion of a pair; `OPEN` where its flanks may not fit, `SHARED` where others move it.
+/// Motion of a pair. `OPEN`: its flanks may not fit. `SHARED`: other pairs move it.
 #[derive(Clone, Copy, Debug)]
 pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
-    /// Where it is and how it moves.
+    /// Approach of the flanks and its rates.
     pub approach: Approach,
     /// ∂a/∂q.
     pub sign: f64,
@@ -25,12 +26,13 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     rate_slope: [f64; 2],
     opening_rate_slope: [f64; 2],
     rate: [f64; 2],
-    /// ∂a of the own arc by q, x, w of its mesh and of the planet's other one, where others move it.
+    /// Derivatives of the own arc with respect to q, x, w of the pair's mesh and of the planet's other mesh, if other
+    /// pairs move the pair.
     pub own: [[f64; 3]; 2],
 }
 
 impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
-    /// Motion of `pair` with its `opening`, `axial` being ν and ∂ν/∂s.
+    /// Returns the motion of `pair` with its `opening`. `axial` contains ν and ∂ν/∂s.
     #[inline(always)]
     pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
         let [dq, dx, dw] = state.rate;
@@ -57,7 +59,8 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
         }
     }
 
-    /// Derivatives by q, x, w and their rates, then by q, x, w of the other mesh, of what depends on A, E, s, Ȧ, Ė as `by`.
+    /// Derivatives with respect to q, x, w, their rates, and then q, x, w of the other mesh. The argument holds the
+    /// derivatives with respect to A, E, s, Ȧ, Ė.
     #[inline(always)]
     pub fn slopes<const WIDE: usize>(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; WIDE] {
         let ([q, x], [ex, ew]) = (self.slope, self.opening);
@@ -104,7 +107,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
         [planet * p - side * s, planet * p + side * s]
     }
 
-    /// Derivatives of both by x, and by the rates of q and x.
+    /// Derivatives of both speeds with respect to x, and to the rates of q and x.
     #[inline(always)]
     pub fn speed_slopes(&self, arms: &Arms) -> [[f64; 3]; 2] {
         let ([p, s], [planet, side], [dp, ds]) = (self.travel_rates(), arms.arm, arms.arm_slope);

@@ -1,10 +1,10 @@
 //! Search over the loaded face of a rubbing tooth pair for the largest value of a quantity.
-//!
-//! Sliding speed, sum of speeds and radius grow with the cone distance R. The load per width is R ω, where ω follows the law of
-//! a slice at its arc. The points by which loads are summed do not reach the ends of the face, and aligned teeth have a single
-//! one. The search therefore evaluates the laws at any R: at both ends of each part that is loaded, at points between them, and
-//! around each point that exceeds its neighbours. Its result does not depend on how the loads were summed, so it is continuous
-//! in every error.
+//! //!
+//! Sliding speed, sum of speeds and radius are proportional to the cone distance R. The load per width is R ω, where ω
+//! follows the law of a slice at its arc. The points over which loads are summed do not include the ends of the face,
+//! and aligned teeth have only one point. The search therefore evaluates the laws at any R: at both ends of each loaded
+//! part, at points between them, and around each point that exceeds its neighbours. Its result does not depend on how
+//! the loads were summed, so it is continuous in every error.
 
 use super::carrying::{Span, carrying};
 use super::{Detailed, Face, SliceLoad};
@@ -12,7 +12,8 @@ use crate::contact::{Sliding, Spring, ToothFriction};
 
 /// Number of intervals of a part before refinement.
 const INTERVALS: usize = 16;
-/// Number of golden sections around a point that exceeds its neighbours: they shrink its interval to 1e-7 of its length.
+/// Number of golden-section steps around a point that exceeds its neighbours. They shrink its interval to 1e-7 of its
+/// length.
 const SECTIONS: usize = 34;
 /// Ratio of the golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -22,15 +23,15 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub struct RubbedPlace {
     /// Cone distance [m].
     pub cone: f64,
-    /// Sliding, with the load per width there.
+    /// Sliding, with the load per width at this cone distance.
     pub sliding: Sliding<f64>,
     /// Coefficient of friction with the sign of the sliding speed.
     pub coefficient: f64,
 }
 
 impl Detailed {
-    /// Largest `value` over the loaded face of the pair of `slice`, under the friction `law`; at least 0. A law with one
-    /// resultant for the face has only the place of that.
+    /// Largest `value`, at least 0, over the loaded face of the pair of `slice`, under the friction `law`. If a law has
+    /// one resultant for the face, only its cone distance is evaluated.
     pub fn largest_on_face(&self, slice: &SliceLoad, law: &ToothFriction, value: impl Fn(&RubbedPlace) -> f64) -> f64 {
         let Some(here) = &slice.sliding else { return 0.0 };
         let rubbed = |cone: f64, load: f64| {

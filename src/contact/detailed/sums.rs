@@ -1,15 +1,15 @@
-//! Sums over the face of one tooth pair: all that its forces and their derivatives are made of.
-//!
-//! The arc of a slice p = A − E/R − turn − bend R moves with the pair's approach A and opening E alone, so that forces are
-//! sums with the weights 1 and 1/R of the slices' torques T:
-//!
-//!   Q_A = −ΣT,   Q_E = ΣT/R,   Q_s = −ΣU_s
-//!
-//! and so are their derivatives. T/R is the normal force of a slice.
-//!
-//! Where the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part) and
-//! by f′(R) dR·(motion of the point). Both together are the error of the quadrature alone, as loads vanish at ends that move;
-//! with them derivatives are those of the sums to the last digit.
+//! Sums over the face of one tooth pair, from which its forces and their derivatives are computed.
+//! //!
+//! The arc of a slice p = A − E/R − turn − bend R depends only on the pair's approach A and opening E. The forces are
+//! therefore sums of the slices' torques T with the weights 1 and 1/R:
+//! //!
+//! Q_A = −ΣT, Q_E = ΣT/R, Q_s = −ΣU_s
+//! //!
+//! The same is true of their derivatives. T/R is the normal force of a slice.
+//! //!
+//! If the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part)
+//! and by f′(R) dR·(motion of the point). Loads vanish at moving ends, so both changes together equal the quadrature
+//! error. Including them makes the derivatives exact for the sums, to the last digit.
 
 use super::carrying::Moves;
 use super::face::Part;
@@ -17,7 +17,7 @@ use super::{Arms, Node, Opening};
 use crate::contact::{Damping, Elastic, Sliding, Spring, ToothFriction};
 use crate::numeric::Dual;
 
-/// How near a pair is and how it moves.
+/// Approach and opening rates of a pair.
 #[derive(Clone, Copy, Debug)]
 pub struct Approach {
     /// A [rad].
@@ -37,12 +37,12 @@ pub struct Rubbing<'a> {
     pub arms: Arms,
     /// Sliding speed over R, and sum of both flanks' speeds over R [rad/s].
     pub speeds: [f64; 2],
-    /// Points of the whole face where one point has its load: sliding, and with it the coefficient of friction, differs over a
-    /// face whose load per arc does not.
+    /// Points of the whole face, if one point represents its load. Sliding, and with it the coefficient of friction,
+    /// differs over a face whose load per arc is uniform.
     pub whole: Option<&'a [Node]>,
 }
 
-/// Derivatives of a sum by A, E, s, Ȧ, Ė.
+/// Derivatives of a sum with respect to A, E, s, Ȧ, Ė.
 pub type By = [f64; 5];
 
 /// The sums of one pair.
@@ -58,11 +58,11 @@ pub struct Sums {
     pub rubbed: f64,
     /// Heat of contact damping [W].
     pub heat: f64,
-    /// Elastic energy [J], summed with derivatives.
+    /// Elastic energy [J], summed only together with derivatives.
     pub energy: f64,
-    /// Derivatives of torque, normal, by_place and rubbed.
+    /// Derivatives of `torque`, `normal`, `by_place` and `rubbed`.
     pub by: [By; 4],
-    /// Derivatives of rubbed by both speeds and by the relative radius of curvature over R.
+    /// Derivatives of `rubbed` with respect to both speeds and to the relative radius of curvature over R.
     pub rubbed_by: [f64; 3],
 }
 
@@ -70,18 +70,19 @@ pub struct Sums {
 pub struct LoadedNode<'a> {
     /// The point.
     pub node: &'a Node,
-    /// Its arc [rad].
+    /// Arc of the point [rad].
     pub arc: f64,
-    /// Its elastic response, per unit of weight.
+    /// Elastic response of the point per unit of weight.
     pub elastic: Elastic,
-    /// Torque over weight, damping included.
+    /// Torque per unit of weight, including damping.
     pub torque: f64,
-    /// Signed coefficient of friction, a mean with the weight of the torque if the point is a whole face, and how the flanks slide.
+    /// Signed coefficient of friction and sliding of the flanks. If the point represents a whole face, the coefficient
+    /// is a mean weighted by the torque.
     pub friction: Option<(f64, Sliding<f64>)>,
 }
 
 impl Sums {
-    /// Adds what `part` of the face carries; calls `look` with each loaded point.
+    /// Adds the loads of `part` of the face; calls `look` with each loaded point.
     #[inline(always)]
     pub fn add<S: Spring, const SLOPES: bool, const OPEN: bool>(
         &mut self,
@@ -95,7 +96,7 @@ impl Sums {
         for node in part.nodes {
             let opened = opening.turn + part.even * node.per_cone + opening.bend * node.cone;
             let arc = if OPEN { at.arc - opened } else { at.arc };
-            // rounding at an end of the part that carries
+            // the arc can be rounded to zero at an end of the loaded part
             if arc <= 0.0 {
                 continue;
             }
@@ -111,7 +112,7 @@ impl Sums {
             let mut by = [0.0; 3];
             if SLOPES {
                 self.energy += weight * elastic.energy;
-                // damping either adds to the elastic torque or scales it
+                // damping is either added to the elastic torque or scales it
                 let by_place = match *damping {
                     _ if damped.total <= 0.0 => 0.0,
                     Damping::Step { .. } => elastic.torque_by_place,
@@ -122,7 +123,7 @@ impl Sums {
                 add::<OPEN>(&mut self.by[1], weight * per_cone, per_cone, by);
                 add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
             }
-            // where points move: what comes to theirs along the face
+            // derivatives along the face, for points that move
             let moving = if SLOPES && !S::LINEAR { part.moves.as_ref() } else { None };
             let along = moving.map(|moves| {
                 let closing = (part.even * per_cone) * per_cone - opening.bend;
@@ -149,7 +150,7 @@ impl Sums {
                         self.rubbed_by[1] += lever * by_sum_speed;
                         self.rubbed_by[2] += lever * by_radius;
                         if let Some((moves, [along, load])) = along {
-                            // sliding, rolling and radius grow with R, the load per width as R T
+                            // sliding, rolling and radius are proportional to R, the load per width to R T
                             let turning = by_sliding * rubbing.speeds[0] + by_sum_speed * rubbing.speeds[1];
                             let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
                             let by_motion = weight * along * h.v + torque * h_along;
@@ -170,7 +171,8 @@ impl Sums {
     }
 }
 
-/// Adds `weight` times what depends on p, s and ṗ as `by` to derivatives by A, E, s, Ȧ, Ė.
+/// Adds to derivatives with respect to A, E, s, Ȧ, Ė: `weight` times a quantity's derivatives with respect to p, s and
+/// ṗ.
 #[inline(always)]
 fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_place, by_rate]: [f64; 3]) {
     let (arc, rate) = (weight * by_arc, weight * by_rate);
@@ -183,8 +185,8 @@ fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_pl
     to[3] += rate;
 }
 
-/// Adds what the motion of `node` adds to derivatives by A and E of a sum to which it adds `value`, which changes by `along`
-/// along the face.
+/// Adds the effect of the motion of `node` to a sum's derivatives with respect to A and E. The node contributes `value`
+/// to the sum, and `along` is the derivative of this contribution along the face.
 #[inline(always)]
 fn move_with(to: &mut By, moves: &Moves, node: &Node, value: f64, along: f64) {
     let [by_arc, by_even] = moves.at(node.cone);
@@ -193,7 +195,7 @@ fn move_with(to: &mut By, moves: &Moves, node: &Node, value: f64, along: f64) {
 }
 
 impl Rubbing<'_> {
-    /// How the flanks slide at a point that carries the torque `torque` per unit of weight.
+    /// Sliding of the flanks at a point with the torque `torque` per unit of weight.
     #[inline(always)]
     fn at(&self, node: &Node, torque: f64) -> Sliding<f64> {
         Sliding {
@@ -206,7 +208,7 @@ impl Rubbing<'_> {
 }
 
 impl Sliding<f64> {
-    /// The same with each quantity as a variable of its own.
+    /// Returns dual numbers in which each quantity is a separate variable.
     #[inline(always)]
     fn with_slopes(&self) -> Sliding<Dual<4>> {
         Sliding {

@@ -1,4 +1,4 @@
-//! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
+//! Loads of a mesh, summed over its pairs, with derivatives if requested.
 
 use super::directions::NormalParts;
 use super::sums::{Rubbing, Sums};
@@ -6,7 +6,7 @@ use super::{DetailedLoad, LOCAL, PairMotion};
 use crate::contact::Spot;
 use crate::numeric::Dual;
 
-/// Places of the sums: forces conjugate to q, x and w, then those under which gears rub.
+/// Indices of the sums: forces conjugate to q, x and w, then the forces under which gears rub.
 const Q: usize = 0;
 const X: usize = 1;
 const W: usize = 2;
@@ -16,7 +16,7 @@ const TANGENTIAL: usize = 5;
 /// Number of sums.
 pub const SUMS: usize = 6;
 
-/// Sums over tooth pairs; `ROWS` of them have derivatives by `WIDE` variables, all or none.
+/// Sums over tooth pairs. `ROWS` of them have derivatives with respect to `WIDE` variables: all or none.
 #[derive(Clone, Copy, Debug)]
 pub struct Totals<const ROWS: usize, const WIDE: usize> {
     value: [f64; SUMS],
@@ -40,7 +40,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         }
     }
 
-    /// Adds elastic and damping forces of a pair.
+    /// Adds the elastic and damping forces of a pair.
     #[inline(always)]
     pub fn add_teeth<const OPEN: bool, const SHARED: bool>(&mut self, motion: &PairMotion<OPEN, SHARED>, sums: &Sums) {
         let (torque, normal) = (sums.torque, sums.normal);
@@ -106,7 +106,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         self.slopes[X][1] -= sign * (side_slope - planet_slope) * sums.rubbed;
     }
 
-    /// Adds the parts of a pair's normal force along the axes and the rotation.
+    /// Adds the components of a pair's normal force along the axes and the rotation.
     #[inline(always)]
     pub fn add_thrust<const OPEN: bool, const SHARED: bool>(
         &mut self,
@@ -135,8 +135,8 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         }
     }
 
-    /// Adds what a pair's place does to how it moves others: a force along x with its derivatives by the positions of the own
-    /// mesh and of the other, and energy.
+    /// Adds the effect of a pair's position on its couplings with other pairs: a force along x, its derivatives with
+    /// respect to the positions of its own mesh and the other mesh, and an energy.
     #[inline(always)]
     pub fn add_moving(&mut self, force: f64, [own, other]: [[f64; 3]; 2], energy: f64) {
         self.value[X] += force;
@@ -149,7 +149,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         }
     }
 
-    /// The loads without derivatives.
+    /// Returns the loads without derivatives.
     pub fn load(&self) -> DetailedLoad<f64> {
         self.of(|i| self.value[i])
     }
@@ -168,7 +168,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
 }
 
 impl<const WIDE: usize> Totals<SUMS, WIDE> {
-    /// The loads with their derivatives.
+    /// Returns the loads with their derivatives.
     pub fn linearised(&self) -> DetailedLoad<Dual<WIDE>> {
         self.of(|i| Dual { v: self.value[i], d: self.slopes[i] })
     }

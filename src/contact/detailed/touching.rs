@@ -1,4 +1,4 @@
-//! A tooth pair that touches: all that its face carries, added to the loads of its mesh.
+//! A touching tooth pair: adds the loads of its face to the loads of its mesh.
 
 use super::directions::Arcs;
 use super::face::Part;
@@ -6,26 +6,26 @@ use super::sums::{LoadedNode, Rubbing, Sums};
 use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
 use crate::contact::{Spring, ToothPair};
 
-/// A pair that touches.
+/// A touching pair.
 pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
-    /// Which teeth.
+    /// Identity of the teeth.
     pub name: &'a PairName,
-    /// The pair; where elastic gear bodies move it, its depth is its own arc (`contact::shared`).
+    /// The pair. If elastic gear bodies move it, its depth is its own arc (`contact::shared`).
     pub pair: &'a ToothPair,
-    /// Its place as the law sees it, if it is known already.
+    /// Place of the pair in the elastic law, if known already.
     pub place: Option<P>,
-    /// What opens its flanks.
+    /// Opening of the flanks.
     pub opening: &'a Opening,
-    /// Its arcs, where the axial seats need them.
+    /// Arcs of the pair, if the axial seats need them.
     pub arcs: Arcs,
-    /// The parts of the face that carry.
+    /// Loaded parts of the face.
     pub parts: [Part<'a>; 2],
-    /// How it moves.
+    /// Motion of the pair.
     pub motion: PairMotion<OPEN, SHARED>,
 }
 
 impl Detailed {
-    /// Adds the loads of a pair that touches.
+    /// Adds the loads of a touching pair.
     #[inline(always)]
     pub(super) fn add_touching<
         S: Spring,

@@ -1,4 +1,4 @@
-//! All errors together: the gap of a pair is their sum.
+//! All tooth errors of a differential: the gap of a pair is their sum.
 
 use super::crowning::Crowning;
 use super::misalignment::Misalignment;
@@ -26,7 +26,8 @@ pub struct ToothErrors {
 }
 
 impl ToothErrors {
-    /// Errors after `spec` on the gears of `pair`, for `planets` equally spaced planets; or a validation error.
+    /// Returns the errors defined by `spec` on the gears of `pair`, for `planets` equally spaced planets. Fails if the
+    /// specification is invalid.
     pub fn new(spec: &ToothErrorSpec, pair: &Pair, planets: usize) -> Result<Self, Problem> {
         spec.check()?;
         if planets == 0 {
@@ -51,14 +52,14 @@ impl ToothErrors {
         })
     }
 
-    /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of contact
-    /// or past its ends: the sum of all errors.
+    /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of
+    /// contact or past its ends: the sum of all errors.
     pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64, s: f64) -> f64 {
         let (mesh, pair) = self.in_range(mesh, pair);
         self.opening(mesh, pair, s).at(r)
     }
 
-    /// The gap of tooth pair `pair` in `mesh`, their indices in range, at position `s` [rad], all over the face.
+    /// Opening of tooth pair `pair` in `mesh` at position `s` [rad], over the whole face. The indices must be in range.
     #[inline]
     pub fn opening(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {
         let mut opening = Opening::NONE;
@@ -94,15 +95,15 @@ impl ToothErrors {
             + self.misalignment.as_ref().map_or(0.0, |misalignment| misalignment.most_excess(outer))
     }
 
-    /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth from the centre
-    /// of tooth 0 in the direction in which teeth are numbered [rad].
+    /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth [rad]. The
+    /// azimuth is measured from the centre of tooth 0 in the direction of the tooth count.
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         let gear = gear % 2;
         let gears = [self.planets, 2][gear];
         self.runout.as_ref().map_or([0.0; 2], |runout| runout.eccentricity(gear, index % gears))
     }
 
-    /// Whether e/R is the same all over the face, as a penetration arc of perfect teeth is: slices then are alike.
+    /// True if e/R is uniform over the face, like the penetration arc of perfect teeth. All slices are then identical.
     pub fn is_uniform_over_face(&self) -> bool {
         self.runout.is_none()
             && self.relief.is_none()
@@ -110,12 +111,12 @@ impl ToothErrors {
             && self.misalignment.as_ref().is_none_or(Misalignment::is_rotation)
     }
 
-    /// Whether the teeth of a gear are alike, so that all repeats from pitch to pitch.
+    /// True if all teeth of each gear are identical, so that the gaps repeat with every pitch.
     pub fn is_alike_all_round(&self) -> bool {
         self.pitch.is_none() && self.runout.is_none()
     }
 
-    /// Whether planets differ in teeth or position, so that none may represent another.
+    /// True if planets differ in teeth or position, so that no planet may represent another.
     pub fn is_individual(&self) -> bool {
         self.pitch.is_some()
             || self.runout.is_some()

@@ -1,8 +1,8 @@
-//! Broken tooth: where material is missing the gap is the removed depth, and nothing touches.
-//!
-//! Under the laws that integrate over the face the piece covers the slices beyond R_e − f b, f its fraction of the face
-//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece
-//! breaks off instantly and permanently, on both flanks and in every mesh of the tooth.
+//! Broken tooth: if material is missing, the gap is the removed depth, and nothing touches.
+//! //!
+//! Under laws that integrate over the face, the piece covers the slices beyond R_e − f b. f is the piece's fraction of
+//! the face width b, measured from the heel. The law that acts only at R_m is affected only if the piece reaches the
+//! middle, f > ½. The piece breaks off instantly and permanently, on both flanks and in every mesh of the tooth.
 
 use super::{FaultyGear, MeshId, PairId, ToothFaultSpec};
 use crate::geometry::Pair;
@@ -20,12 +20,12 @@ pub struct Chip {
 }
 
 impl Chip {
-    /// The tooth that `spec` breaks on the gears of `pair` with `planets` planets, if any.
+    /// Returns the tooth that `spec` breaks on the gears of `pair` with `planets` planets, or `None`.
     pub fn new(spec: &ToothFaultSpec, pair: &Pair, planets: usize) -> Result<Option<Self>, Problem> {
         spec.check(pair.gears.map(|g| g.teeth), planets)?;
         let on_planet = spec.gear == FaultyGear::Planet;
         let face_width = pair.outer_cone - pair.inner_cone;
-        // all of it passed the check above
+        // all values passed the check above
         let whole = |i: i32| usize::try_from(i).unwrap_or(0);
         Ok((spec.gear != FaultyGear::None).then(|| Self {
             on_planet,
@@ -36,7 +36,7 @@ impl Chip {
         }))
     }
 
-    /// Whether the broken tooth is in the pair.
+    /// True if the broken tooth is in the pair.
     #[inline(always)]
     fn is_in(&self, mesh: MeshId, pair: PairId) -> bool {
         let (index, tooth) =
@@ -44,7 +44,8 @@ impl Chip {
         index == self.index && tooth == self.tooth
     }
 
-    /// Cone distance beyond which material is missing on the pair, its indices in range, and its depth [m], if it is.
+    /// Cone distance beyond which material is missing on the pair, and the missing depth [m], or `None`. The indices
+    /// must be in range.
     #[inline(always)]
     pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<(f64, f64)> {
         self.is_in(mesh, pair).then_some((self.from, self.depth))

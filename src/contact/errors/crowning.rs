@@ -2,7 +2,7 @@
 //!
 //!   e(R) = C_β ((R − R_m) / (b/2))²
 //!
-//! the parabola of ISO 21771 for symmetric crowning, here for both flanks of a pair together.
+//! This is the parabola of ISO 21771 for symmetric crowning, here the sum for both flanks of a pair.
 
 use super::ToothErrorSpec;
 use crate::geometry::Pair;
@@ -17,7 +17,7 @@ pub struct Crowning {
 }
 
 impl Crowning {
-    /// Crowning after `spec` over the face of `pair`, if there is any.
+    /// Returns the crowning defined by `spec` over the face of `pair`, or `None`.
     pub fn new(spec: &ToothErrorSpec, pair: &Pair) -> Option<Self> {
         (spec.crowning != 0.0).then(|| Self {
             amount: spec.crowning,

@@ -1,4 +1,4 @@
-//! What distinguishes the teeth of a gear from each other: drawn from a seed, or given, as they were measured.
+//! Individual teeth: the pitch and runout data that differ from tooth to tooth and gear to gear, random or measured.
 
 use super::ToothErrors;
 use crate::problem::Problem;
@@ -6,8 +6,9 @@ use crate::problem::Problem;
 /// The teeth of one gear, counted as in [`super::PairId`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GearTeeth {
-    /// Positions of the flanks along the line of action at R_m [m], tooth by tooth: of those that face the direction in
-    /// which teeth are counted, and of the others. Empty without pitch deviations.
+    /// Positions of the flanks along the line of action at R_m [m], tooth by tooth. The first list contains the flanks
+    /// that face the direction in which teeth are counted, the second the others. Both are empty without pitch
+    /// deviations.
     pub positions: [Vec<f64>; 2],
     /// Azimuth of the eccentricity from the centre of tooth 0, in the direction in which teeth are counted [rad].
     pub azimuth: f64,
@@ -24,12 +25,13 @@ impl ToothErrors {
             .collect()
     }
 
-    /// The same errors with other teeth of all gears, in the order of [`Self::teeth`]; what is not modelled has no effect.
+    /// Replaces the teeth of all gears by `gears`, in the order of [`Self::teeth`]. Data of effects that are not
+    /// modelled are ignored.
     pub fn with_teeth(mut self, gears: &[GearTeeth]) -> Result<Self, Problem> {
         if gears.len() != 2 + self.planets {
             return Err(problem!(
                 "tooth_errors.accuracy_grade",
-                "teeth of {} gears are given; there are {}",
+                "the number of gears with given teeth is {}, but it must be {}",
                 gears.len(),
                 2 + self.planets
             ));

@@ -1,17 +1,18 @@
-//! Gap that small rigid displacements of the gears open, to first order.
-//!
-//! A displacement w(x) = δ + φ × x of the planet moves its flank along the normal T by T·w, of the side gear likewise
-//! with the opposite sense: e = −T·w_p + T·w_s at x = R C(s) (T, C and the directions as in `normals`). That gives
-//!
-//!   planet outward along its axis by ε_p        e = ε_p (sinα sinδ_p cos s + cosδ_p sin s)
-//!   side gear outward along its axis by ε_s     e = ε_s (sinα sinδ_s cos s − cosδ_s sin s)
-//!   planet along t by ε_t (hypoid offset)       e = ∓ε_t cosα cos s  (− drive, + coast)
-//!   planet turned about the apex, Σ → Σ + δΣ    e = R sinα δΣ
-//!
-//! the factors of ε_p and ε_s being the axial forces per normal force, as they must by virtual work. The last one comes
-//! from w = δΣ [(x·Q₀) P₀ − (x·P₀) Q₀], T·w = −R δΣ sinα (sin²s + cos²s): the same all along the path. A rotation about
-//! the apex grows with R like the approach itself and leaves the load's distribution along the face unchanged;
-//! offsets shift it. Contact itself moves on the flanks, but that is of second order in the displacement.
+//! Gap opened by small rigid displacements of the gears, to first order.
+//! //!
+//! A displacement w(x) = δ + φ × x of the planet moves its flank along the normal T by T·w. For the side gear, the sign
+//! is opposite: e = −T·w_p + T·w_s at x = R C(s) (T, C and the directions as in `normals`). The result is
+//! //!
+//! planet outward along its axis by ε_p e = ε_p (sinα sinδ_p cos s + cosδ_p sin s)
+//! side gear outward along its axis by ε_s e = ε_s (sinα sinδ_s cos s − cosδ_s sin s)
+//! planet along t by ε_t (hypoid offset) e = ∓ε_t cosα cos s (− drive, + coast)
+//! planet turned about the apex, Σ → Σ + δΣ e = R sinα δΣ
+//! //!
+//! The factors of ε_p and ε_s are the axial forces per normal force, as virtual work requires. The last gap follows
+//! from w = δΣ [(x·Q₀) P₀ − (x·P₀) Q₀], T·w = −R δΣ sinα (sin²s + cos²s). It is the same along the whole path. A
+//! rotation about the apex grows with R like the approach itself and leaves the load distribution along the face
+//! unchanged; offsets shift it. The point of contact also moves on the flanks, but this effect is of second order in
+//! the displacement.
 
 use super::{ContactNormals, MeshId, Normal, ToothErrorSpec};
 use crate::numeric::{Jet, TAU, cos, sin};
@@ -19,16 +20,16 @@ use crate::numeric::{Jet, TAU, cos, sin};
 /// Displacements of all meshes.
 #[derive(Clone, Debug)]
 pub struct Misalignment {
-    /// Each planet's displacement along its axis, outward, and along its t [m].
+    /// Displacement of each planet along its axis, outward, and along its t [m].
     planet: Box<[[f64; 2]]>,
-    /// Each side gear's displacement along its axis, outward [m].
+    /// Displacement of each side gear along its axis, outward [m].
     side_axial: f64,
-    /// sinα δΣ of the left meshes; the right ones have its negative.
+    /// sinα δΣ of the left meshes; the right meshes have the opposite sign.
     tilt: f64,
 }
 
 impl Misalignment {
-    /// Displacements after `spec` of `planets` equally spaced planets, if there are any.
+    /// Returns the displacements defined by `spec` for `planets` equally spaced planets, or `None` if all are zero.
     pub fn new(spec: &ToothErrorSpec, normals: &ContactNormals, planets: usize) -> Option<Self> {
         let values = [spec.shaft_angle_error, spec.planet_axial_offset, spec.side_axial_offset, spec.axis_offset];
         (values != [0.0; 4]).then(|| {
@@ -45,7 +46,7 @@ impl Misalignment {
         })
     }
 
-    /// Gap [m] of `mesh`, its indices in range, that displacements open where the normal is `n`: the same at every R.
+    /// Gap [m] of `mesh` opened by displacements at the normal `n`, the same at every R. The indices must be in range.
     #[inline]
     pub fn offset(&self, mesh: MeshId, n: &Normal) -> Jet {
         let [axial, across] = self.planet[mesh.planet];
@@ -58,19 +59,19 @@ impl Misalignment {
         if mesh.side == 0 { self.tilt } else { -self.tilt }
     }
 
-    /// Most excess material that displacements bring at cone distances up to `outer` [m].
+    /// Upper bound of the excess material caused by displacements at cone distances up to `outer` [m].
     pub fn most_excess(&self, outer: f64) -> f64 {
-        // no part of a normal is longer than 1
+        // no component of a normal is longer than 1
         let moved = self.planet.iter().map(|[axial, across]| axial.abs() + across.abs()).fold(0.0, f64::max);
         moved + self.side_axial.abs() + outer * self.tilt.abs()
     }
 
-    /// Whether planets stand differently in their meshes.
+    /// True if planets are positioned differently in their meshes.
     pub fn is_individual(&self) -> bool {
         self.planet.iter().any(|p| *p != self.planet[0])
     }
 
-    /// Whether the gap is proportional to R.
+    /// True if the gap is proportional to R.
     pub fn is_rotation(&self) -> bool {
         self.side_axial == 0.0 && self.planet.iter().all(|p| *p == [0.0; 2])
     }

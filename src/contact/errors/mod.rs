@@ -1,9 +1,9 @@
-//! Tooth errors: the gap e(R, s), material that each tooth pair lacks along the line of action.
-//!
-//! A pair of error-free teeth penetrates at cone distance R by R (a − g); with errors by d = R (a − g) − e(R, s), e ≥ 0
-//! being missing material. To first order errors add up, one file each: pitch deviations (`pitch`), runout (`runout`), tip
-//! relief (`relief`), lengthwise crowning (`crowning`), and misalignment (`misalignment`). A broken tooth (`chip`) is
-//! separate, because it appears during a run.
+//! Tooth errors: the gap e(R, s), which is the material that a tooth pair lacks along the line of action.
+//! //!
+//! A pair of error-free teeth penetrates by R (a − g) at cone distance R. With errors, it penetrates by d = R (a − g) −
+//! e(R, s), where e ≥ 0 means missing material. To first order, errors add up. Each has its own file: pitch deviations
+//! (`pitch`), runout (`runout`), tip relief (`relief`), lengthwise crowning (`crowning`), and misalignment
+//! (`misalignment`). A broken tooth (`chip`) is separate, because it appears during a run.
 
 mod all;
 mod chip;
@@ -37,10 +37,11 @@ pub struct MeshId {
 
 /// A tooth pair of a mesh.
 ///
-/// Planet teeth are numbered in the direction of positive spin (about the axis pointing to the apex), side gear teeth in
-/// the direction of forward rotation (about +x̂), both from any tooth of the gear; numbers may exceed a revolution.
-/// At the left mesh both counts run along t, the way a planet is carried forward; at the right mesh that of the planet
-/// runs against it. While a gear turns forward, teeth of falling number come into its mesh.
+/// Planet teeth are numbered in the direction of positive spin (about the axis pointing to the apex). Side gear teeth
+/// are numbered in the direction of forward rotation (about +x̂). Both counts start at any tooth of the gear, and
+/// numbers may exceed a revolution. At the left mesh, both counts run along t, the direction in which a planet is
+/// carried forward. At the right mesh, the planet's count runs against t. While a gear turns forward, teeth with
+/// decreasing numbers enter its mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PairId {
     /// Number of the planet's tooth.

@@ -1,13 +1,14 @@
-//! Normal and place of contact in the directions of a mesh, onto which displacements of the gears are projected.
-//!
+//! Contact normal and point of contact in the directions of a mesh. Displacements of the gears are projected onto them.
+//! //!
 //! Directions of a mesh: a_p, a_s along the axes of planet and side gear from apex to heel; u ⟂ a_p and v ⟂ a_s in the
-//! plane of both axes, each toward the other axis; t = x̂ × r̂ across it, the way a planet is carried by a carrier that
-//! turns forward. With P₀ along the pitch line and Q₀ ⟂ P₀ in the plane of the axes, toward the planet's tip,
+//! plane of both axes, each toward the other axis; t = x̂ × r̂ across this plane, the direction in which a planet is
+//! carried if the carrier turns forward. P₀ is along the pitch line, and Q₀ ⟂ P₀ is in the plane of the axes, toward
+//! the planet's tip. With
 //!
 //!   T₀ = sinα Q₀ ± cosα t  (+ drive, − coast),   C(s) = cos s P₀ + sin s T₀,   T(s) = dC/ds = cos s T₀ − sin s P₀
 //!
-//! are the place of contact on the unit sphere and the normal there, pointing from the planet into the side gear.
-//! Left and right mesh are mirror images, so that the components below hold for both.
+//! C is the point of contact on the unit sphere and T the normal at this point, pointing from the planet into the side
+//! gear. Left and right mesh are mirror images, so the components below are valid for both.
 
 use crate::contact::Flank;
 use crate::geometry::Pair;
@@ -23,7 +24,7 @@ pub struct ContactNormals {
     cos_pitch: [f64; 2],
 }
 
-/// Components of the contact normal T(s) with their slopes by s.
+/// Components of the contact normal T(s) with their slopes with respect to s.
 #[derive(Clone, Copy, Debug)]
 pub struct Normal {
     /// Along the axes of planet and side gear: T·a_p, T·a_s.
@@ -81,12 +82,12 @@ mod tests {
         for flank in [Flank::Drive, Flank::Coast] {
             for s in [-0.2, 0.0, 0.15] {
                 let n = normals.normal(flank, s);
-                // C(s) is T a quarter turn back
+                // C is T at s minus a quarter turn
                 let c = normals.normal(flank, s - std::f64::consts::FRAC_PI_2);
                 for i in 0..2 {
                     let length = n.axial[i].v.powi(2) + n.radial[i].v.powi(2) + n.across.v.powi(2);
                     assert!((length - 1.0).abs() < 1e-14);
-                    // (C × T)·a of each gear: the lever arm sinδ_b of physics and theory
+                    // (C × T)·a of each gear must be the lever arm sinδ_b
                     let lever = c.radial[i].v * n.across.v - c.across.v * n.radial[i].v;
                     assert!((lever - push(flank) * pair.sin_base()[i]).abs() < 1e-14, "{i} {lever}");
                 }

@@ -1,4 +1,4 @@
-//! Pitch deviations: tolerances of an accuracy grade, and teeth that just meet them.
+//! Pitch deviations: tolerances of an accuracy grade, and random teeth that just meet them.
 //!
 //! ISO 17485:2006, 5.4, for grade B = 2 to 11, with tolerance diameter d_T and mean normal module m_mn in mm, in µm:
 //!
@@ -6,12 +6,12 @@
 //!   cumulative pitch  F_pT  = (0.025 d_T + 0.3 m_mn + 19) (√2)^(B−4)
 //!   runout            F_rT  = 0.8 F_pT
 //!
-//! d_T is the diameter of the gear at the mean cone distance in the middle of the working depth.
+//! d_T is the diameter of the gear in the middle of the working depth at the mean cone distance.
 //!
-//! The positions of the teeth are drawn independently. They are scaled until the largest difference of neighbours, the
-//! single pitch deviation, is f_ptT: the gear just meets its grade. Positions have zero mean, and pitch deviations add up
-//! to zero over the revolution. Slow variation over the revolution belongs to `runout`.
-//! An error of position is a rotation of the flank about the gear's axis, so the normal gap grows with R.
+//! The positions of the teeth are drawn independently. They are scaled until the largest difference between neighbours,
+//! the single pitch deviation, is f_ptT, so the gear just meets its grade. Positions have zero mean, and pitch
+//! deviations add up to zero over the revolution. Slow variation over the revolution belongs to `runout`. A position
+//! error is a rotation of the flank about the gear's axis, so the normal gap grows with R.
 
 use super::{GearTeeth, MeshId, PairId, Random};
 use crate::contact::Flank;
@@ -30,7 +30,7 @@ pub struct Tolerances {
     pub runout: f64,
 }
 
-/// Largest number of draws of a flank's positions. A draw beyond F_pT is repeated; few are.
+/// Maximum number of draws of a flank's positions. A draw beyond F_pT is repeated, which is rare.
 const DRAWS: usize = 32;
 
 impl Tolerances {
@@ -47,7 +47,7 @@ impl Tolerances {
         Self::iso_17485(grade, tolerance_diameter(pair, i), mean_module(pair))
     }
 
-    /// Whether gear `i` of `pair` lies in the ranges of the standard's formulas.
+    /// True if gear `i` of `pair` is within the ranges of the standard's formulas.
     pub fn covers(pair: &Pair, i: usize) -> bool {
         (1e-3..=50e-3).contains(&mean_module(pair))
             && (5e-3..=2.5).contains(&tolerance_diameter(pair, i))
@@ -60,14 +60,15 @@ pub fn mean_module(pair: &Pair) -> f64 {
     pair.module * pair.mean_cone / pair.outer_cone
 }
 
-/// Tolerance diameter d_T of gear `i` [m]: pitch diameter at R_m, moved to the middle of the working depth there.
+/// Tolerance diameter d_T of gear `i` [m]: pitch diameter at R_m, moved to the middle of the working depth.
 pub fn tolerance_diameter(pair: &Pair, i: usize) -> f64 {
     let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
     let at_mean = pair.mean_cone / pair.outer_cone;
     at_mean * (pair.outer_pitch_diameter(i) + (own.addendum - mate.addendum) * cos(own.pitch))
 }
 
-/// Random positions of the teeth of one flank [m]: zero mean, and the largest difference of neighbours equal to f_ptT.
+/// Random positions of the teeth of one flank [m], with zero mean. The largest difference between neighbours equals
+/// f_ptT.
 pub fn positions(teeth: usize, tolerances: &Tolerances, random: &mut Random) -> Box<[f64]> {
     let mut drawn = vec![0.0; teeth];
     let mut scale = 0.0;
@@ -81,20 +82,20 @@ pub fn positions(teeth: usize, tolerances: &Tolerances, random: &mut Random) -> 
         if scale <= allowed {
             break;
         }
-        // if no draw succeeds, F_pT is met and f_ptT not reached
+        // if no draw succeeds, F_pT is met but f_ptT is not reached
         scale = allowed;
     }
     drawn.iter_mut().for_each(|p| *p *= scale);
     drawn.into()
 }
 
-/// Single pitch deviations of teeth at `positions`: each tooth against the one before it.
+/// Single pitch deviations of teeth at `positions`: the position of each tooth minus that of the tooth before it.
 pub fn single_pitches(positions: &[f64]) -> impl Iterator<Item = f64> + '_ {
     let before = positions.iter().cycle().skip(positions.len().saturating_sub(1));
     positions.iter().zip(before).map(|(here, before)| here - before)
 }
 
-/// Total cumulative pitch deviation of teeth at `positions`: largest less smallest.
+/// Total cumulative pitch deviation of teeth at `positions`: the largest position minus the smallest.
 pub fn range(positions: &[f64]) -> f64 {
     let (low, high) = positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
     (high - low).max(0.0)
@@ -103,23 +104,24 @@ pub fn range(positions: &[f64]) -> f64 {
 /// Deviations of all flanks of a differential.
 #[derive(Clone, Debug)]
 pub struct PitchDeviations {
-    /// Positions along the line of action at R_m [m], positive in the direction of the tooth count. Side gears, then planets;
-    /// of each gear the flanks that face in the direction of the tooth count, then the others.
+    /// Positions along the line of action at R_m [m], positive in the direction of the tooth count. Side gears come
+    /// first, then planets. Each gear has the flanks that face in the direction of the tooth count, then the others.
     gears: Box<[[Box<[f64]>; 2]]>,
-    /// Missing material of every flank [m]: by gear, by facing direction, by tooth.
+    /// Missing material of every flank [m], ordered by gear, facing direction and tooth.
     missing: Box<[f64]>,
     /// Largest number of teeth of a gear: the length of a row of `missing`.
     most: usize,
 }
 
 impl PitchDeviations {
-    /// Deviations of gears of accuracy grade `grade`, drawn from `seed`; none for grade 0.
+    /// Returns the deviations of gears of accuracy grade `grade`, drawn from `seed`, or `None` for grade 0.
     pub fn new(grade: i32, seed: i32, pair: &Pair, planets: usize) -> Option<Self> {
         (grade != 0).then(|| {
             let gear = |number: usize| {
                 let i = usize::from(number < 2);
                 let tolerances = Tolerances::of_gear(grade, pair, i);
-                // per radian the tolerance circle moves by d_T/2, the line of action by R_m sinδ_b
+                // per radian, the tolerance circle moves by d_T/2, and the flank moves along the line of action by R_m
+                // sinδ_b
                 let along_action = 2.0 * pair.mean_cone * pair.sin_base()[i] / tolerance_diameter(pair, i);
                 [1, 2].map(|stream| {
                     let mut random = Random::new(seed, number, stream);
@@ -138,7 +140,7 @@ impl PitchDeviations {
         for (flank, row) in gears.iter().flatten().zip(missing.chunks_mut(most.max(1))) {
             row[..flank.len()].copy_from_slice(flank);
         }
-        // a flank that faces forward and stands ahead has more material
+        // a forward-facing flank that is ahead has more material
         for row in missing.chunks_mut(most.max(1)).step_by(2) {
             row.iter_mut().for_each(|position| *position = -*position);
         }
@@ -150,14 +152,14 @@ impl PitchDeviations {
         self.gears[number].clone().map(Vec::from)
     }
 
-    /// Replaces the positions by those of `gears`, one entry per gear. Refuses a wrong number of teeth and values that are not
-    /// finite.
+    /// Replaces the positions by those of `gears`, one entry per gear. Fails if the number of teeth is wrong or a value
+    /// is not finite.
     pub fn replace(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         for (own, given) in self.gears.iter_mut().zip(gears) {
             for (own, given) in own.iter_mut().zip(&given.positions) {
                 if own.len() != given.len() || !given.iter().all(|position| position.is_finite()) {
                     let what =
-                        format!("{} positions of teeth are given; {} finite ones are needed", given.len(), own.len());
+                        format!("{} tooth positions are given; {} finite values are needed", given.len(), own.len());
                     return Err(Problem::new("tooth_errors.accuracy_grade", what));
                 }
                 own.copy_from_slice(given);
@@ -179,8 +181,9 @@ impl PitchDeviations {
     /// Gap of a pair at R_m [m]. The indices of mesh and pair must be in range.
     #[inline(always)]
     pub fn gap(&self, mesh: MeshId, pair: PairId) -> f64 {
-        // a planet's drive flank faces along t: in the direction of the planet's tooth count at the left mesh, against it at
-        // the right one; a side gear's drive flank faces against t, and so against the side gear's tooth count
+        // a planet's drive flank faces along t: in the direction of the planet's tooth count at the left mesh, against
+        // it at the right mesh; a side gear's drive flank faces against t, and therefore against the side gear's tooth
+        // count
         let planet_forward = (pair.flank == Flank::Drive) == (mesh.side == 0);
         let side_forward = pair.flank == Flank::Coast;
         let missing = |gear: usize, forward: bool, tooth: usize| {
@@ -196,7 +199,7 @@ mod tests {
     use crate::geometry::GearSpec;
 
     #[test]
-    fn tolerances_are_those_of_the_formulas() {
+    fn tolerances_match_the_formulas() {
         let t = Tolerances::iso_17485(4, 0.1, 5e-3);
         assert!((t.single_pitch - 6.8e-6).abs() < 1e-18);
         assert!((t.cumulative_pitch - 23e-6).abs() < 1e-18);
@@ -255,17 +258,18 @@ mod tests {
     }
 
     #[test]
-    fn a_tooth_out_of_place_misses_material_on_one_flank_and_has_more_of_it_on_the_other() {
+    fn a_displaced_tooth_lacks_material_on_one_flank_and_has_more_of_it_on_the_other() {
         let pair = Pair::new(&GearSpec::default());
         let mut all = PitchDeviations::new(6, 3, &pair, 2).unwrap();
         for gear in all.gears.iter_mut() {
             gear.iter_mut().for_each(|flank| flank.fill(0.0));
         }
-        // tooth 3 of planet 1 stands ahead by the same amount on both flanks
+        // tooth 3 of planet 1 is ahead by the same amount on both flanks
         (all.gears[3][0][3], all.gears[3][1][3]) = (1e-6, 1e-6);
         let all = PitchDeviations::of_gears(all.gears);
         let gap = |side, flank| all.gap(MeshId { planet: 1, side }, PairId { planet_tooth: 3, side_tooth: 0, flank });
-        // spin carries the tooth along t at the left mesh: the drive flank is early there, and late at the right mesh
+        // spin moves the tooth along t at the left mesh: the drive flank is early at the left mesh and late at the
+        // right mesh
         assert_eq!([gap(0, Flank::Drive), gap(0, Flank::Coast)], [-1e-6, 1e-6]);
         assert_eq!([gap(1, Flank::Drive), gap(1, Flank::Coast)], [1e-6, -1e-6]);
     }

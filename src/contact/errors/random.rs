@@ -8,7 +8,7 @@ pub struct Random(u64);
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Random {
-    /// Stream number `stream` of gear number `gear` under `seed`.
+    /// Returns stream number `stream` of gear number `gear` under `seed`.
     pub fn new(seed: i32, gear: usize, stream: usize) -> Self {
         let mut it = Self(u64::from(seed.cast_unsigned()));
         for word in [gear, stream] {
@@ -25,7 +25,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in [0, 1), in steps of 2⁻⁵³.
+    /// Uniform random number in [0, 1), in steps of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }

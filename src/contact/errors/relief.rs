@@ -1,13 +1,13 @@
-//! Tip relief: material taken off toward the tips, so that a bent pair enters and leaves the mesh softly.
-//!
-//! The relief of a gear begins `length` before its tip's end of the path and reaches its amount C_a there:
-//!
-//!   e(s) = C_a h(ξ),   ξ = (s − s_hi)/length + 1 (planet) or (s_lo − s)/length + 1 (side gear)
-//!
-//! with h = 0 below ξ = 0 and 1 beyond ξ = 1, where only the relieved corner itself can touch. Between, h is the
-//! polynomial of least degree that joins both with two continuous derivatives, 10ξ³ − 15ξ⁴ + 6ξ⁵: neither onset nor tip
-//! disturbs the integrator. A linear or parabolic relief, as it is ground, would put a kink into the force
-//! at the tip or at the onset.
+//! Tip relief: material removed toward the tips, so that a bent pair enters and leaves the mesh softly.
+//! //!
+//! The relief of a gear begins `length` before the end of the path at its tip and reaches its amount C_a at that end:
+//! //!
+//! e(s) = C_a h(ξ), ξ = (s − s_hi)/length + 1 (planet) or (s_lo − s)/length + 1 (side gear)
+//! //!
+//! with h = 0 for ξ < 0 and h = 1 for ξ > 1, where only the relieved corner itself can touch. Between them, h is the
+//! polynomial of least degree with two continuous derivatives at both joints, 10ξ³ − 15ξ⁴ + 6ξ⁵. Neither onset nor tip
+//! therefore disturbs the integrator. A linear or parabolic relief, as ground in practice, would cause a kink of the
+//! force at the tip or at the onset.
 
 use super::ToothErrorSpec;
 use crate::geometry::Pair;
@@ -23,7 +23,7 @@ pub struct TipRelief {
     per_length: f64,
 }
 
-/// h(ξ), 0 below 0 and 1 above 1, with its first two derivatives.
+/// h(ξ), which is 0 for ξ < 0 and 1 for ξ > 1, with its first two derivatives.
 #[inline]
 fn ramp(x: f64) -> [f64; 3] {
     if x <= 0.0 {
@@ -37,7 +37,7 @@ fn ramp(x: f64) -> [f64; 3] {
 }
 
 impl TipRelief {
-    /// Relief after `spec` on the teeth of `pair`, if there is any.
+    /// Returns the relief defined by `spec` on the teeth of `pair`, or `None`.
     pub fn new(spec: &ToothErrorSpec, pair: &Pair) -> Option<Self> {
         let amount = [spec.planet_tip_relief, spec.side_tip_relief];
         (amount != [0.0; 2]).then(|| Self {
@@ -47,7 +47,7 @@ impl TipRelief {
         })
     }
 
-    /// Gap [m] at `s` [rad] with its slopes.
+    /// Gap [m] at `s` [rad] with its slopes with respect to s.
     #[inline]
     pub fn gap(&self, s: f64) -> Jet {
         let mut gap = Jet::constant(0.0);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn relief_is_nothing_before_its_onset_half_in_the_middle_and_whole_at_and_beyond_the_tip() {
+    fn relief_is_zero_before_its_onset_half_in_the_middle_and_full_at_and_beyond_the_tip() {
         let (pair, relief, length) = relief();
         let [low, high] = [pair.path.low, pair.path.high];
         for (s, e) in [

@@ -1,17 +1,19 @@
 //! Runout: the teeth of a gear are eccentric to its axis of rotation.
 //!
-//! The radial runout F_r is the peak-to-peak reading of a radial probe over one revolution. It is twice the eccentricity ε
-//! (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂ a, fixed to the
-//! gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
+//! The radial runout F_r is the peak-to-peak reading of a radial probe over one revolution. It is twice the
+//! eccentricity ε (ISO/TR 10064-2, runout of an eccentric gear). The teeth are displaced by ε along the direction ê ⟂
+//! a, fixed to the gear. Any displacement ε ê opens the gap e = −T·ε ê on the planet and +T·ε ê on the side gear:
 //!
 //!   e = ∓ε (cosχ T·u + sinχ T·t)
 //!
 //! with v instead of u for the side gear, and the azimuth χ of ê from the plane of the axes. The gap has one period per
-//! revolution and the amplitude ε √(1 − (T·a)²) on both flanks. The flanks differ in phase as their normals do.
-//!
-//! The place of contact s of a tooth gives the position of its gear. The centre of the tooth is at the azimuth
-//! ±(s/sinδ_bp − γ_p) on the planet and ±(s/sinδ_bs + γ_s) on the side gear (+ drive, − coast), and ê is at a fixed angle
-//! from the tooth. Two pairs in contact at once thus have nearly the same e, as a displacement of the whole gear demands.
+//! revolution and the amplitude ε √(1 − (T·a)²) on both flanks. The phase difference between the flanks is that between
+//! their normals.
+//! //!
+//! The contact position s of a tooth determines the position of its gear. The centre of the tooth is at the azimuth
+//! ±(s/sinδ_bp − γ_p) on the planet and ±(s/sinδ_bs + γ_s) on the side gear (+ drive, − coast). ê is at a fixed angle
+//! from the tooth. Two pairs that touch at the same time therefore have nearly the same e, as a displacement of the
+//! whole gear requires.
 
 use super::normals::push;
 use super::{GearTeeth, MeshId, Normal, PairId, Random};
@@ -32,8 +34,8 @@ pub struct Runout {
 }
 
 impl Runout {
-    /// Gears with the peak-to-peak runouts `runout` of planets and side gears [m], with phases drawn from `seed`. None if both
-    /// runouts are 0.
+    /// Returns gears with the peak-to-peak runouts `runout` of planets and side gears [m], with phases drawn from
+    /// `seed`, or `None` if both runouts are 0.
     pub fn new(runout: [f64; 2], seed: i32, pair: &Pair, planets: usize) -> Option<Self> {
         (runout != [0.0; 2]).then(|| {
             let phase = |gear: usize| TAU * Random::new(seed, gear, 0).unit();
@@ -47,8 +49,8 @@ impl Runout {
         })
     }
 
-    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, and the azimuth of ê from tooth 0 in the
-    /// direction of the tooth count [rad]. `index` must be in range.
+    /// Eccentricity [m] of planet (`gear` = 0) or side gear (1) number `index`, and the azimuth of ê from tooth 0 in
+    /// the direction of the tooth count [rad]. `index` must be in range.
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         [self.eccentricity[gear], self.direction[gear][index]]
     }
@@ -63,7 +65,7 @@ impl Runout {
         if number < 2 { self.direction[1][number] } else { self.direction[0][number - 2] }
     }
 
-    /// Replaces the azimuths by those of `gears`, one entry per gear. Refuses values that are not finite.
+    /// Replaces the azimuths by those of `gears`, one entry per gear. Fails if a value is not finite.
     pub fn set_azimuths(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
         let [planets, sides] = &mut self.direction;
         for (number, (azimuth, gear)) in sides.iter_mut().chain(planets.iter_mut()).zip(gears).enumerate() {
@@ -76,10 +78,10 @@ impl Runout {
         Ok(())
     }
 
-    /// Gap of a pair [m] at the place `s` with the normal `n`. The indices of mesh and pair must be in range.
+    /// Gap of a pair [m] at the position `s` with the normal `n`. The indices of mesh and pair must be in range.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId, s: Jet, n: &Normal) -> Jet {
-        // planet teeth are counted in the direction of spin: along t at the left mesh, against t at the right one
+        // planet teeth are counted in the direction of spin: along t at the left mesh, against t at the right mesh
         let sense = if mesh.side == 0 { 1.0 } else { -1.0 };
         let from_tooth =
             |gear: usize, index: usize, tooth: usize| self.direction[gear][index] - self.pitch[gear] * tooth as f64;

@@ -2,10 +2,10 @@
 
 use crate::problem::Problem;
 
-/// Largest deviation or modification of a flank [m]: first-order formulas do not hold beyond.
-const MOST: f64 = 1e-3;
-/// Largest error of the shaft angle [rad], for the same reason.
-const MOST_ANGLE: f64 = 0.02;
+/// Largest deviation or modification of a flank [m]. First-order formulas are not valid beyond it.
+const MAX_DEVIATION: f64 = 1e-3;
+/// Largest error of the shaft angle [rad]. First-order formulas are not valid beyond it.
+const MAX_ANGLE: f64 = 0.02;
 
 spec! {
     /// Deviations and modifications of all teeth; the default is error-free teeth.
@@ -14,11 +14,13 @@ spec! {
         pub accuracy_grade: i32 = 0,
         /// Seed of the individual pitch deviations and of the phases of runout.
         pub seed: i32 = 0,
-        /// Radial runout F_r of each planet [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
+        /// Radial runout F_r of each planet [m], peak to peak over a revolution: its teeth are eccentric to its axis by
+        /// F_r/2.
         pub planet_runout: f64 = 0.0,
-        /// Radial runout F_r of each side gear [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
+        /// Radial runout F_r of each side gear [m], peak to peak over a revolution: its teeth are eccentric to its axis
+        /// by F_r/2.
         pub side_runout: f64 = 0.0,
-        /// Runout of all gears is the tolerance F_rT of the accuracy grade instead of the two values above.
+        /// True if the runout of all gears is the tolerance F_rT of the accuracy grade instead of the two values above.
         pub runout_by_grade: bool = false,
         /// Tip relief of the planet: material missing at its tip, along the line of action [m].
         pub planet_tip_relief: f64 = 0.0,
@@ -34,9 +36,10 @@ spec! {
         pub planet_axial_offset: f64 = 0.0,
         /// Displacement of each side gear along its own axis, away from the planets' axes [m].
         pub side_axial_offset: f64 = 0.0,
-        /// Displacement of the planets' pins as one body against the side gears' axis [m], in the direction in which
-        /// planet 0 is carried when the carrier turns forward: for planet 0 the hypoid offset, for a planet opposite to it
-        /// the negative of that, for planets between a part of it and a displacement along their own axes.
+        /// Displacement of all planet pins, as one rigid body, from the side gears' axis [m], in the direction in which
+        /// the forward-turning carrier moves planet 0. For planet 0 it is the hypoid offset, and for an opposite planet
+        /// the negative hypoid offset. For planets between them, it is partly a hypoid offset and partly a displacement
+        /// along their own axes.
         pub axis_offset: f64 = 0.0,
     }
 }
@@ -55,13 +58,14 @@ spec! {
     pub struct ToothFaultSpec {
         /// Kind of gear with the broken tooth.
         pub gear: FaultyGear = FaultyGear::None,
-        /// Which planet (0 to N − 1), or which side gear (0 left, 1 right).
+        /// Index of the planet (0 to N − 1) or side gear (0 left, 1 right).
         pub index: i32 = 0,
         /// Number of the tooth, from 0, counted as in [`super::PairId`].
         pub tooth: i32 = 0,
-        /// Missing part of the face width, from the heel inward: 0 to 1.
+        /// Missing fraction of the face width, from the heel inward: 0 to 1.
         pub missing_fraction: f64 = 0.5,
-        /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
+        /// Depth removed along the line of action [m]. If it exceeds the approach of loaded teeth, nothing touches
+        /// there.
         pub depth: f64 = 1e-3,
         /// True if the piece breaks off at `onset`. Otherwise only the trigger breaks it off.
         pub at_onset: bool = false,
@@ -71,7 +75,7 @@ spec! {
 }
 
 impl ToothErrorSpec {
-    /// The first value that cannot be used, if any.
+    /// Fails with the first invalid value.
     pub fn check(&self) -> Result<(), Problem> {
         let grade = self.accuracy_grade;
         if grade != 0 && !(2..=11).contains(&grade) {
@@ -92,20 +96,20 @@ impl ToothErrorSpec {
             ("tooth_errors.planet_tip_relief", self.planet_tip_relief, 0.0),
             ("tooth_errors.side_tip_relief", self.side_tip_relief, 0.0),
             ("tooth_errors.crowning", self.crowning, 0.0),
-            ("tooth_errors.planet_axial_offset", self.planet_axial_offset, -MOST),
-            ("tooth_errors.side_axial_offset", self.side_axial_offset, -MOST),
-            ("tooth_errors.axis_offset", self.axis_offset, -MOST),
+            ("tooth_errors.planet_axial_offset", self.planet_axial_offset, -MAX_DEVIATION),
+            ("tooth_errors.side_axial_offset", self.side_axial_offset, -MAX_DEVIATION),
+            ("tooth_errors.axis_offset", self.axis_offset, -MAX_DEVIATION),
         ];
         for (variable, value, least) in metres {
-            within(variable, value, [least, MOST], "m")?;
+            within(variable, value, [least, MAX_DEVIATION], "m")?;
         }
-        within("tooth_errors.shaft_angle_error", self.shaft_angle_error, [-MOST_ANGLE, MOST_ANGLE], "rad")?;
+        within("tooth_errors.shaft_angle_error", self.shaft_angle_error, [-MAX_ANGLE, MAX_ANGLE], "rad")?;
         within("tooth_errors.relief_length", self.relief_length, [0.01, 2.0], "base pitches")
     }
 }
 
 impl ToothFaultSpec {
-    /// The first value that cannot be used with gears of `teeth` (planet, side gear) and `planets` planets, if any.
+    /// Fails with the first value that is invalid for gears of `teeth` (planet, side gear) and `planets` planets.
     pub fn check(&self, teeth: [i32; 2], planets: usize) -> Result<(), Problem> {
         let (gears, teeth) = match self.gear {
             FaultyGear::None => return Ok(()),
@@ -127,7 +131,7 @@ impl ToothFaultSpec {
         within("tooth_fault.onset", self.onset, [f64::MIN, f64::MAX], "s")
     }
 
-    /// Time at which the piece breaks off without a trigger [s], if it does.
+    /// Time at which the piece breaks off without a trigger [s], or `None`.
     pub fn time(&self) -> Option<f64> {
         self.at_onset.then_some(self.onset)
     }

@@ -1,4 +1,5 @@
-//! Flanks summed over the face, because they do not fit, rub, or press the seats of their gears: on rigid and on elastic bodies.
+//! Planet contact summed over the face, for flanks that do not fit, that rub, or that press their gears' seats. The
+//! gear bodies are rigid or elastic.
 
 use super::{Contact, PlanetContact, PlanetState, Visit, Visitor, first};
 use crate::contact::bodies::PairCouplings;
@@ -10,28 +11,28 @@ use crate::contact::{Flank, FlankGaps, ToothLoad};
 use crate::geometry::Pair;
 use crate::numeric::{Dual, cos, sin};
 
-/// A planet on rigid bodies.
+/// A planet with rigid gear bodies.
 #[derive(Clone, Copy)]
 pub struct InDetail<'a> {
     /// Constants.
     pub contact: &'a Contact,
-    /// Gaps of the teeth as they are now.
+    /// Present gaps of the teeth.
     pub gaps: Option<&'a FlankGaps>,
-    /// Viscosity of the oil [Pa·s], where friction follows it.
+    /// Viscosity of the oil [Pa·s], if friction depends on the oil.
     pub viscosity: Option<f64>,
 }
 
-/// A planet on elastic bodies.
+/// A planet with elastic gear bodies.
 #[derive(Clone, Copy)]
 pub struct InDetailOnBodies<'a> {
-    /// The teeth, as on rigid bodies.
+    /// The teeth, as with rigid bodies.
     pub teeth: InDetail<'a>,
-    /// The bodies.
+    /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
 }
 
 impl<'a> InDetail<'a> {
-    /// Teeth of the mesh of side `side` of planet `planet`.
+    /// Teeth of the mesh of planet `planet` with side gear `side`.
     #[inline(always)]
     fn mesh_teeth(&self, planet: usize, side: usize) -> MeshTeeth<'a> {
         MeshTeeth {
@@ -43,7 +44,8 @@ impl<'a> InDetail<'a> {
         }
     }
 
-    /// Where the force of the mesh of side `s` has its first kink, with pairs that others move apart by `moved`.
+    /// Fraction of a step of `h` [s] at which the force of the mesh of side `s` has its first kink. `moved` is the
+    /// opening of each pair by other pairs.
     #[inline(never)]
     fn kink_of(
         &self,
@@ -65,7 +67,7 @@ impl<'a> InDetail<'a> {
         mesh.kink(&at.mesh(s), h)
     }
 
-    /// Load of a slice of a pair of side `s`.
+    /// Converts a slice of a pair into a tooth load.
     fn load(&self, at: &PlanetState, slice: &SliceLoad) -> ToothLoad {
         let (side, flank) = (slice.name.side, slice.pair.flank);
         ToothLoad {

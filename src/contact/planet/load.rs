@@ -1,34 +1,35 @@
-//! Loads of a mesh of any kind, as the equations of motion ask for them.
+//! Loads of a mesh of any kind, in the form that the equations of motion need.
 
 use super::{COORDINATES, Q, W, X};
 use crate::contact::detailed::{DetailedLoad, LOCAL, WITH_OTHER};
 use crate::contact::mesh::{MeshForce, MeshJacobian};
 use crate::numeric::{Dual, Scalar};
 
-/// A block of derivatives of the forces of a mesh by its coordinates.
+/// A block of derivatives of a mesh's forces with respect to its coordinates.
 pub type Block = [[f64; COORDINATES]; COORDINATES];
 
-/// Loads under which gears rub on their seats [N].
+/// Loads that press the gears on their seats, where they rub [N].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pressing {
-    /// Along the planet's axis, away from the apex.
+    /// Load along the planet's axis, away from the apex.
     pub planet_axial: f64,
-    /// Along the side gear's axis, away from the apex.
+    /// Load along the side gear's axis, away from the apex.
     pub side_axial: f64,
-    /// On the side gear along the carrier's direction of rotation.
+    /// Load on the side gear along the carrier's direction of rotation.
     pub tangential: f64,
 }
 
-/// Their derivatives by the coordinates of the mesh, their rates, and the coordinates of the planet's other mesh.
+/// Derivatives of [`Pressing`] with respect to the coordinates of the mesh, their rates, and the coordinates of the
+/// planet's other mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct PressingSlopes {
-    /// Of [`Pressing::planet_axial`].
+    /// Derivatives of [`Pressing::planet_axial`].
     pub planet_axial: [f64; WITH_OTHER],
-    /// Of [`Pressing::side_axial`].
+    /// Derivatives of [`Pressing::side_axial`].
     pub side_axial: [f64; WITH_OTHER],
-    /// Of [`Pressing::tangential`].
+    /// Derivatives of [`Pressing::tangential`].
     pub tangential: [f64; WITH_OTHER],
-    /// Of the force along q.
+    /// Derivatives of the force along q.
     pub force: [f64; WITH_OTHER],
 }
 
@@ -41,7 +42,7 @@ impl PressingSlopes {
 
 /// Load of a mesh.
 pub trait MeshLoad: Copy {
-    /// True if the kind of contact gives the loads under which gears rub.
+    /// True if the kind of contact computes the loads under which gears rub.
     const PRESSES: bool;
     /// No load.
     fn none() -> Self;
@@ -75,7 +76,7 @@ pub trait LinearisedLoad: MeshLoad {
     }
 }
 
-/// Derivatives of a mesh whose side gear stays where it is.
+/// Derivatives of a mesh whose side gear has no axial displacement.
 #[inline(always)]
 pub fn without_displacement(&[[qq, qx], [xq, xx]]: &[[f64; 2]; 2]) -> Block {
     [[qq, qx, 0.0], [xq, xx, 0.0], [0.0; COORDINATES]]
@@ -138,9 +139,9 @@ impl LinearisedLoad for LinearisedForce {
     }
 }
 
-/// Numbers with derivatives by the variables of one mesh, or by those of both.
+/// Numbers with derivatives with respect to the variables of one mesh or of both meshes.
 pub trait Slopes: Scalar {
-    /// True for numbers with derivatives by the coordinates of the planet's other mesh.
+    /// True for numbers with derivatives with respect to the coordinates of the planet's other mesh.
     const COUPLED: bool;
     /// All derivatives.
     fn slopes(&self) -> [f64; WITH_OTHER];
@@ -187,7 +188,7 @@ impl<T: Scalar> MeshLoad for DetailedLoad<T> {
     }
 }
 
-/// The part of all derivatives from `part` on.
+/// Block of the derivatives of the forces that starts at variable `part`.
 #[inline(always)]
 fn block<T: Slopes>(force: &[T; 3], part: usize) -> Block {
     force.map(|force| {

@@ -1,8 +1,9 @@
-//! Contact of one planet with both side gears: the unit of contact, since the planet's body couples its two meshes.
-//!
-//! Every kind of contact implements [`PlanetContact`]: forces, derivatives, energy, kinks, and a visitor over loads. The equations of
-//! motion know no more of it. The coordinates of a mesh are q, x and the displacements of its gears (`Q`, `X`, `W`); a kind in which
-//! gears stay on their axes gives no force along w.
+//! Contact of one planet with both side gears. It is the unit of contact, because the planet's body couples its two
+//! meshes.
+//! //!
+//! Every kind of contact implements [`PlanetContact`]: forces, derivatives, energy, kinks, and a visitor over loads.
+//! The equations of motion use only this trait. The coordinates of a mesh are q, x and the displacement of its side
+//! gear (`Q`, `X`, `W`). A kind of contact in which gears stay on their axes has no force along w.
 
 mod in_detail;
 mod load;
@@ -43,14 +44,14 @@ pub struct PlanetState {
     pub planet: usize,
     /// Coordinates of both meshes, left and right.
     pub position: [[f64; COORDINATES]; 2],
-    /// Their rates.
+    /// Rates of the coordinates.
     pub rate: [[f64; COORDINATES]; 2],
-    /// Pairs by which the planet's position was wrapped, in the sense of x of each mesh.
+    /// Number of pairs by which the planet's position was wrapped, positive in the direction of x of each mesh.
     pub wrapped: [i64; 2],
 }
 
 impl PlanetState {
-    /// State of the mesh of side `s` whose side gear stays where it is.
+    /// State of the mesh of side `s`, without the displacement of its side gear.
     #[inline(always)]
     pub fn mesh(&self, s: usize) -> MeshState {
         let [[q, x, _], [dq, dx, _]] = [self.position[s], self.rate[s]];
@@ -63,22 +64,23 @@ impl PlanetState {
         DetailedState { position: self.position[s], rate: self.rate[s], wrapped: self.wrapped[s] }
     }
 
-    /// Name of the pair `number` of `flank` of side `s`.
+    /// Name of pair `number` of `flank` on side `s`.
     fn name(&self, s: usize, flank: Flank, number: i64) -> PairName {
         PairName::new((self.planet, s), flank, number, self.wrapped[s])
     }
 }
 
-/// Which loads to visit, and what to find out about them.
+/// Selection of the loads to visit, and of the optional data to compute.
 #[derive(Clone, Debug)]
 pub struct Visit<'a> {
     /// Sides, 0 left and 1 right.
     pub sides: Range<usize>,
-    /// Geometry from which the direction of a normal follows; without it, directions that cost extra are zero.
+    /// Geometry from which the directions of normals are computed. Without it, directions that need extra work are
+    /// zero.
     pub directions: Option<&'a Pair>,
 }
 
-/// Called with each load, and with the slice of the face that it is where loads differ over the face.
+/// Callback for each load. If loads differ over the face, it also receives the slice of the face.
 pub type Visitor<'a> = dyn FnMut(&ToothLoad, Option<&SliceLoad>) + 'a;
 
 /// Contact of one planet with both side gears.
@@ -88,7 +90,7 @@ pub trait PlanetContact {
     /// Load of a mesh with its derivatives.
     type Linearised: LinearisedLoad;
 
-    /// Writes the loads of both meshes to where they stay.
+    /// Writes the loads of both meshes in place.
     fn write(&self, at: &PlanetState, to: &mut [Self::Load; 2]);
 
     /// Writes the loads of both meshes with their exact derivatives.
@@ -102,19 +104,19 @@ pub trait PlanetContact {
         self.energy(to) - self.energy(from)
     }
 
-    /// The fraction of a step of `h` [s] after which a force has its first kink, as far as that can be seen from `at`.
+    /// Fraction of a step of `h` [s] at which a force has its first kink, predicted from the state `at`, or `None`.
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64>;
 
     /// Calls `see` with each loaded tooth pair, or with each loaded slice of it.
     fn visit(&self, at: &PlanetState, visit: &Visit, see: &mut Visitor);
 
-    /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
+    /// K_Hβ of the pair with the loaded slice `slice`. It is 1 if a law has one resultant for the whole face.
     fn face_load_factor(&self, _at: &PlanetState, _slice: &ToothLoad, _pair: &Pair) -> f64 {
         1.0
     }
 }
 
-/// The smaller of two fractions of a step, as far as there are any.
+/// The smaller of two optional fractions of a step.
 #[inline(always)]
 fn first(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     match (a, b) {
@@ -138,8 +140,8 @@ pub enum AnyContact<'a> {
     InDetailOnBodies(InDetailOnBodies<'a>),
 }
 
-/// Evaluates an expression with `contact` bound to the contact in use. Where no effects act (`MAY_ACT`), only flanks that fit and solid
-/// teeth are compiled.
+/// Evaluates an expression with `contact` bound to the contact in use. Without effects (`MAY_ACT` false), only flanks
+/// that fit and solid teeth are compiled.
 macro_rules! with_contact {
     ($may_act:expr, $of:expr, $contact:ident => $body:expr) => {
         match $of {
@@ -148,14 +150,14 @@ macro_rules! with_contact {
             $crate::contact::planet::AnyContact::OnBodies($contact) if $may_act => $body,
             $crate::contact::planet::AnyContact::InDetail($contact) if $may_act => $body,
             $crate::contact::planet::AnyContact::InDetailOnBodies($contact) if $may_act => $body,
-            // [`Contact::without_effects`] gives none of these
+            // [`Contact::without_effects`] returns none of these
             _ => unreachable!(),
         }
     };
 }
 pub(crate) use with_contact;
 
-/// Constants of the contact, alike for all planets and both sides.
+/// Constants of the contact, identical for all planets and both sides.
 #[derive(Clone, Debug)]
 pub struct Contact {
     /// The mesh of flanks that fit.
@@ -164,24 +166,24 @@ pub struct Contact {
     pub solid: Option<Box<SolidMesh>>,
     /// Elastic bodies that couple tooth pairs.
     pub bodies: Option<Arc<PairCouplings>>,
-    /// The mesh in detail, summed over the face.
+    /// The detailed mesh, summed over the face.
     pub detailed: Detailed,
     /// Gaps of the tooth pairs before and after a tooth breaks.
     pub gaps: [Option<Arc<FlankGaps>>; 2],
-    /// Teeth without errors, which give each tooth its number.
+    /// Teeth without errors, used to number the teeth.
     pub perfect: FlankGaps,
     /// True if an effect needs sums over the face even while no tooth is broken.
     pub in_detail: bool,
 }
 
-/// Work of a section of solid teeth in meshes of plain teeth: by facet of a flank, and the least.
+/// Work of a section of solid teeth, relative to a mesh of plain teeth: per facet of a flank, and the minimum.
 const SOLID_PER_FACET: usize = 2;
-const LEAST_SOLID: usize = 40;
-/// Work of the meshes of a planet on elastic gear bodies at most, where a dozen pairs move each other.
+const MIN_SOLID: usize = 40;
+/// Maximum work of a planet's meshes on elastic gear bodies, if a dozen pairs move each other.
 const ON_BODIES: usize = 16;
 
 impl Contact {
-    /// Present contact. `viscosity` is the viscosity of the oil [Pa·s], if friction follows it.
+    /// Returns the present contact. `viscosity` is the viscosity of the oil [Pa·s], if friction depends on it.
     #[inline]
     pub fn now(&self, is_tooth_broken: bool, viscosity: Option<f64>, is_part_of_steps: bool) -> AnyContact<'_> {
         let contact = self;
@@ -198,7 +200,7 @@ impl Contact {
         }
     }
 
-    /// Contact on which no effect acts.
+    /// Returns the contact without any effects.
     #[inline]
     pub fn without_effects(&self, is_part_of_steps: bool) -> AnyContact<'_> {
         match &self.solid {
@@ -221,17 +223,19 @@ impl Contact {
         self.gaps[usize::from(is_tooth_broken)].as_deref()
     }
 
-    /// Friction along the flanks with the viscosity `viscosity` of the oil [Pa·s], where it follows the temperature.
+    /// Friction along the flanks. `viscosity` is the viscosity of the oil [Pa·s], if friction depends on its
+    /// temperature.
     pub fn friction(&self, viscosity: Option<f64>) -> Option<ToothFriction> {
         let friction = self.detailed.friction?;
         Some(viscosity.map_or(friction, |viscosity| friction.with_viscosity(viscosity)))
     }
 
-    /// Work of all meshes of `groups` planets in that of a plain mesh, at least 1. `facets` is the number of facets of a solid flank.
+    /// Work of all meshes of `groups` planets relative to a plain mesh, at least 1. `facets` is the number of facets of
+    /// a solid flank.
     pub fn work(&self, facets: usize, groups: usize) -> usize {
-        // few facets have many neighbours, many facets are many
+        // with few facets, each has many neighbours; with many facets, their number dominates
         if let Some(solid) = &self.solid {
-            return solid.section_count() * (SOLID_PER_FACET * facets).max(LEAST_SOLID);
+            return solid.section_count() * (SOLID_PER_FACET * facets).max(MIN_SOLID);
         }
         let in_detail = if self.in_detail { self.detailed.face.points() } else { 0 };
         let on_bodies = if self.bodies.is_some() { ON_BODIES } else { 0 };

@@ -8,16 +8,16 @@ use crate::contact::mesh::{MeshForce, MeshJacobian};
 use crate::contact::shared::{OpeningByOthers, SharedForce, SharedMeshes};
 use crate::contact::spring::with_teeth;
 
-/// A planet on elastic bodies.
+/// A planet with elastic gear bodies.
 #[derive(Clone, Copy)]
 pub struct OnBodies<'a> {
     /// Constants.
     pub contact: &'a Contact,
-    /// The bodies.
+    /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
 }
 
-/// Load of a mesh with its derivatives, those by the planet's other mesh among them.
+/// Load of a mesh with its derivatives, including those with respect to the planet's other mesh.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CoupledForce {
     own: LinearisedForce,
@@ -80,7 +80,7 @@ impl PlanetContact for OnBodies<'_> {
         let both =
             with_teeth!(self.spring(), spring => self.meshes(at).linearise(spring, states), SharedForce::default());
         for s in 0..2 {
-            // the energy of both meshes is theirs together
+            // the energy belongs to both meshes together and is counted once
             let energy = if s == 0 { both.energy } else { 0.0 };
             let by = MeshJacobian { by_position: both.by_position[s][s], by_rate: both.by_rate[s], energy };
             let own = LinearisedForce { force: both.force[s], by };

@@ -1,8 +1,9 @@
-//! Flanks that fit, on rigid gear bodies: both meshes by themselves, a tooth pair with one resultant.
-//!
-//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm
-//! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
-//! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
+//! Flanks that fit, on rigid gear bodies: the meshes are independent, and each tooth pair has one resultant.
+//! //!
+//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm R
+//! ℓ. Its component along the axis is therefore F √(sin²φ − ℓ²) at the polar angle φ. On the path ℓ = sinδ_b, and the
+//! component is F cosδ_b sinψ. At s = 0 it equals the textbook's F sinα sinδ. The remaining component is tangential to
+//! the carrier's rotation.
 
 use super::load::LinearisedForce;
 use super::{Contact, PlanetContact, PlanetState, Visit, Visitor, first};
@@ -17,7 +18,7 @@ use crate::numeric::{cos, sin, sqrt};
 pub struct Plain<'a> {
     /// Constants.
     pub contact: &'a Contact,
-    /// True if forces are compiled as part of the steps; otherwise one function serves all callers.
+    /// True if forces are inlined into the steps. Otherwise, all callers share one function.
     pub is_part_of_steps: bool,
 }
 
@@ -32,7 +33,7 @@ impl PlanetContact for Plain<'_> {
             if self.is_part_of_steps {
                 mesh.write_force(state, to);
             } else {
-                mesh.write_force_apart(state, to);
+                mesh.write_force_not_inlined(state, to);
             }
         }
     }
@@ -41,8 +42,11 @@ impl PlanetContact for Plain<'_> {
     fn linearise(&self, at: &PlanetState, to: &mut [LinearisedForce; 2]) {
         let mesh = &self.contact.mesh;
         for s in 0..2 {
-            let (force, by) =
-                if self.is_part_of_steps { mesh.linearise(&at.mesh(s)) } else { mesh.linearise_apart(&at.mesh(s)) };
+            let (force, by) = if self.is_part_of_steps {
+                mesh.linearise(&at.mesh(s))
+            } else {
+                mesh.linearise_not_inlined(&at.mesh(s))
+            };
             to[s] = LinearisedForce { force, by };
         }
     }
@@ -52,7 +56,7 @@ impl PlanetContact for Plain<'_> {
         mesh.energy(&at.mesh(0)) + mesh.energy(&at.mesh(1))
     }
 
-    /// Mesh by mesh, so that a mesh that does not move gains nothing to the last bit.
+    /// Sums the differences mesh by mesh, so that a mesh that does not move gains exactly nothing.
     fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
         let mesh = &self.contact.mesh;
         let gained = |s: usize| mesh.energy(&to.mesh(s)) - mesh.energy(&from.mesh(s));
@@ -74,7 +78,7 @@ impl PlanetContact for Plain<'_> {
     }
 }
 
-/// Load of the `pair` of side `s` under its `force`.
+/// Load of `pair` on side `s` under its `force`.
 pub(super) fn load(
     contact: &Contact,
     (at, s): (&PlanetState, usize),
@@ -101,7 +105,7 @@ pub(super) fn load(
     }
 }
 
-/// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
+/// Components of the unit normal of a pair: along the planet's axis, along the side gear's axis, along the rotation.
 pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     let [lever_p, lever_s] = pair.sin_base();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));

@@ -1,4 +1,4 @@
-//! Solid teeth: both meshes by themselves, a tooth pair by the overlap of its solids.
+//! Solid teeth: the meshes are independent, and the force of a tooth pair follows from the overlap of its solids.
 
 use super::load::LinearisedForce;
 use super::{Contact, PlanetContact, PlanetState, Visit, Visitor};
@@ -7,7 +7,7 @@ use crate::contact::solid::mesh::SolidMesh;
 use crate::contact::{ToothLoad, Touch};
 use crate::geometry::Pair;
 
-/// A planet of solid teeth.
+/// A planet with solid teeth.
 #[derive(Clone, Copy)]
 pub struct Solid<'a> {
     /// Constants.
@@ -46,7 +46,7 @@ impl PlanetContact for Solid<'_> {
         gained(0) + gained(1)
     }
 
-    /// None: the force of solid teeth is smooth enough between facets.
+    /// Returns `None`: the force of solid teeth is smooth enough between facets.
     fn kink(&self, _: &PlanetState, _: f64) -> Option<f64> {
         None
     }

@@ -1,20 +1,20 @@
-//! Own arcs a_k and loads ω_k of pairs that move each other: solution of a_k + Σ t_kl ω_l(a_l) = A_k.
+//! Own arcs a_k and loads ω_k of pairs that move each other: solves a_k + Σ t_kl ω_l(a_l) = A_k.
 
 use super::Couplings;
 
-/// Newton steps at most; usually a few suffice.
+/// Maximum number of Newton steps; usually a few suffice.
 const STEPS: usize = 40;
-/// Residual of a solved equation, relative to the largest arc; it grows with the number of loads beyond `FEW`.
+/// Residual of a solved equation, relative to the largest arc. Beyond `FEW` loads it grows with their number.
 const SOLVED: f64 = 4e-15;
 const FEW: usize = 8;
-/// Consecutive Newton steps that may raise the residual.
+/// Consecutive Newton steps that may increase the residual.
 const VAIN: i32 = 3;
-/// Gauss-Seidel rounds that follow them.
+/// Number of Gauss-Seidel rounds after such steps.
 const ROUNDS: usize = 50;
-/// Residual accepted where rounding hinders convergence, relative to the largest arc.
+/// Accepted residual if rounding prevents convergence, relative to the largest arc.
 const ROUNDED: f64 = 1e-13;
-/// Smallest arc that a residual is relative to [rad]: that of a light load.
-const LEAST: f64 = 1e-4;
+/// Smallest arc to which a residual is relative [rad]; it is the arc under a light load.
+const SMALLEST_ARC: f64 = 1e-4;
 
 /// Own arcs of pairs with their loads.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub struct OwnArcs<const K: usize> {
 }
 
 impl<const K: usize> OwnArcs<K> {
-    /// The same for a law that is linear at positive arcs: if all pairs carry, one linear system gives the solution.
+    /// Solves for a law that is linear at positive arcs: if all pairs are loaded, one linear system gives the solution.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
@@ -47,17 +47,18 @@ impl<const K: usize> OwnArcs<K> {
         if carry { own } else { Self::new(couplings, arcs, law) }
     }
 
-    /// Those of pairs whose arcs A_k are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
+    /// Solves for pairs whose arcs A_k are `arcs`. `law` returns the load of pair `k` at its own arc, and the slope of
+    /// the load.
     ///
     /// The loads minimise ΣΦ*(ω_k) + ½Σt_kl ω_k ω_l − ΣA_k ω_k with the complementary energy Φ* of a pair. Elastic
-    /// bodies make the sum convex. Newton's method converges quickly unless pairs gain and lose contact in turn. Gauss-Seidel
-    /// rounds always descend.
+    /// bodies make the sum convex. Newton's method converges quickly unless pairs alternately gain and lose contact.
+    /// Gauss-Seidel rounds always descend.
     #[inline(always)]
     pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
-        // the residual contains the rounding of the openings of flanks, too
-        let scale = arcs[..n].iter().fold(LEAST, |most, arc| most.max(arc.abs()));
+        // the residual also contains the rounding of the flanks' openings
+        let scale = arcs[..n].iter().fold(SMALLEST_ARC, |most, arc| most.max(arc.abs()));
         let solved = SOLVED * scale * n.div_ceil(FEW) as f64;
         let (mut last, mut part, mut vain) = (f64::INFINITY, 1.0, 0);
         for step in 0..STEPS {
@@ -73,7 +74,7 @@ impl<const K: usize> OwnArcs<K> {
             if most <= solved || n < 2 || step == STEPS - 1 {
                 break;
             }
-            // pairs gain and lose contact in turn: halve the step
+            // if pairs alternately gain and lose contact, the step is halved
             (part, vain) = if most < last { (1.0, 0) } else { (0.5 * part, vain + 1) };
             last = most;
             if vain > VAIN {
@@ -92,7 +93,7 @@ impl<const K: usize> OwnArcs<K> {
         own
     }
 
-    /// Gauss-Seidel: sets the arc and load of each pair in turn by the loads of the others.
+    /// Gauss-Seidel iteration: updates the arc and load of each pair in turn from the loads of the others.
     #[cold]
     fn go_round(&mut self, couplings: &Couplings<K>, arcs: &[f64; K], law: &dyn Fn(usize, f64) -> [f64; 2]) {
         for _ in 0..ROUNDS {
@@ -104,8 +105,8 @@ impl<const K: usize> OwnArcs<K> {
         }
     }
 
-    /// Solves (1 + t diag(∂ω/∂a)) x = `right`. The product is positive definite but for a factor at each column, so that
-    /// elimination needs no pivoting.
+    /// Solves (1 + t diag(∂ω/∂a)) x = `right`. Apart from a positive factor of each column, the matrix is positive
+    /// definite, so elimination needs no pivoting.
     #[inline(always)]
     pub fn solve<const R: usize>(&self, couplings: &Couplings<K>, right: &mut [[f64; R]; K]) {
         let n = couplings.count;

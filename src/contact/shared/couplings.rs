@@ -1,12 +1,14 @@
-//! Couplings of all pairs that may carry.
+//! Couplings of all pairs that can be loaded.
 
 use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
 
-/// Pairs of a planet's two meshes that may carry at once. Flanks that approach by half a base pitch, the limit, have four in a
-/// mesh of a dozen teeth and up to eighteen of two hundred; at a tenth of it, six. Of more than these the deepest count.
+/// Maximum number of pairs of a planet's two meshes that can be loaded at the same time. Flanks approach by at most
+/// half a base pitch. At this limit, a mesh with a dozen teeth has four such pairs, and a mesh with two hundred teeth
+/// has up to eighteen; at a tenth of the limit, it has six. If there are more pairs, only the deepest count.
 pub const MOST_PAIRS: usize = 16;
 
-/// Room for the pairs of a planet's two meshes, each with the approach of its flanks. It is large, and filled where it stays.
+/// Storage for the pairs of a planet's two meshes, each with the approach of its flanks. It is large, so it is filled
+/// in place.
 pub struct Pairs<T> {
     pairs: [Option<T>; MOST_PAIRS],
     arc: [f64; MOST_PAIRS],
@@ -20,8 +22,8 @@ impl<T> Pairs<T> {
         Self { pairs: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 }
     }
 
-    /// Adds a pair whose flanks approach by `arc` [rad]: next to the others, or where there is no room in place of the shallowest, if
-    /// that is not as deep.
+    /// Adds a pair whose flanks approach by `arc` [rad]. If the storage is full, the pair replaces the shallowest pair,
+    /// or is dropped if none is shallower.
     #[inline(always)]
     pub fn add(&mut self, arc: f64, pair: impl FnOnce() -> T) {
         let mut place = self.count;
@@ -49,7 +51,7 @@ impl<T> Pairs<T> {
     }
 }
 
-/// Couplings t_kl of up to `K` pairs, with their derivatives by the places.
+/// Couplings t_kl of up to `K` pairs, with their derivatives with respect to the positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Couplings<const K: usize> {
     /// Number of pairs.
@@ -60,7 +62,7 @@ pub struct Couplings<const K: usize> {
     pub by_own: [[f64; K]; K],
 }
 
-/// Second derivatives of the same.
+/// Second derivatives of the couplings t_kl.
 #[derive(Clone, Copy, Debug)]
 pub struct CouplingCurvatures<const K: usize> {
     /// ∂²t_kl/∂s_k².
@@ -70,10 +72,10 @@ pub struct CouplingCurvatures<const K: usize> {
 }
 
 impl<const K: usize> Couplings<K> {
-    /// Those of no pairs.
+    /// Couplings of an empty set of pairs.
     const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Couplings of the first `count` pairs at their `places`.
+    /// Returns the couplings of the first `count` pairs at their `places`.
     #[inline(always)]
     pub fn new(bodies: &PairCouplings, count: usize, places: &[Option<&PairPlace>; K]) -> Self {
         let mut all = Self { count, ..Self::NONE };
@@ -81,7 +83,7 @@ impl<const K: usize> Couplings<K> {
         all
     }
 
-    /// The same with second derivatives.
+    /// Returns the couplings of the first `count` pairs at their `places`, with second derivatives.
     #[inline(always)]
     pub fn with_curvatures(
         bodies: &PairCouplings,
@@ -109,7 +111,7 @@ impl<const K: usize> Couplings<K> {
     #[inline(always)]
     pub fn moved(&self, load: &[f64; K]) -> [f64; K] {
         let mut product = [0.0; K];
-        // t is symmetric: whole rows fill vectors, and entries beyond the pairs are zero
+        // t is symmetric, so whole rows can be summed as vectors; entries beyond the pairs are zero
         for (row, load) in self.value.iter().zip(load).take(self.count) {
             for (sum, t) in product.iter_mut().zip(row) {
                 *sum += t * load;
@@ -131,7 +133,7 @@ impl<const K: usize> Couplings<K> {
     }
 }
 
-/// Calls `visit` with each two of the pairs at `places` and their coupling; with second derivatives if `TWICE`.
+/// Calls `visit` with every two of the pairs at `places` and their coupling, with second derivatives if `TWICE`.
 #[inline(always)]
 fn for_each_two<const TWICE: bool>(
     bodies: &PairCouplings,

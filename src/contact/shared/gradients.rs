@@ -1,17 +1,17 @@
-//! How own arcs, loads and forces along the path change with the coordinates of both meshes.
+//! Gradients of own arcs, loads and forces along the path with respect to the coordinates of both meshes.
 
 use super::{CouplingCurvatures, Couplings, OwnArcs};
 
-/// How a pair changes directly: with the coordinate that moves its place, and with one that opens its flanks.
+/// Direct changes of a pair with the coordinate that moves its position, and with a coordinate that opens its flanks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Change {
-    /// Number of the coordinate, ∂s, and ∂ω at the same own arc.
+    /// Index of the coordinate, ∂s, and ∂ω at a constant own arc.
     pub place: (usize, f64, f64),
-    /// Number of the coordinate, and ∂ω at the same own arc.
+    /// Index of the coordinate, and ∂ω at a constant own arc.
     pub opening: (usize, f64),
 }
 
-/// How arcs and forces along the path change with `Z` coordinates.
+/// Gradients of own arcs and forces along the path with respect to `Z` coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Gradients<const K: usize, const Z: usize> {
     /// ∂a_k.
@@ -21,7 +21,8 @@ pub struct Gradients<const K: usize, const Z: usize> {
 }
 
 impl<const K: usize, const Z: usize> Gradients<K, Z> {
-    /// Gradients of pairs that are `own`, where `along` is τ_k, from those of their arcs, `arc`, and what else changes.
+    /// Computes the gradients of pairs with the own arcs `own` and τ_k = `along`. `arc` contains the gradients of their
+    /// approaches A_k, and `changes` their direct changes.
     #[inline(always)]
     pub fn new(
         (couplings, curvatures): (&Couplings<K>, &CouplingCurvatures<K>),

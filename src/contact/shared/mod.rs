@@ -1,17 +1,16 @@
-//! Pairs of teeth that share the bodies of their gears: loads of all pairs of a planet's two meshes, from one
-//! potential.
+//! Tooth pairs on shared gear bodies: loads of all pairs of a planet's two meshes, derived from one potential.
 //!
-//! The arc A_k of a pair has two parts: a_k of tooth, root and Hertz under its own load ω_k(a_k), and the displacement
-//! by the loads of the other pairs:
+//! The arc A_k of a pair has two parts. The own arc a_k is the deflection of tooth, root and Hertzian contact under the
+//! pair's own load ω_k(a_k). The second part is the displacement by the loads of the other pairs:
 //!
 //!   a_k + Σ_l t_kl ω_l(a_l) = A_k,   l ≠ k.
 //!
-//! A pair with a_k ≤ 0 carries nothing. With U_k(a) the energy of a pair alone, M = ∂U/∂a = Jω and J = ∫R² dR,
+//! A pair with a_k ≤ 0 is not loaded. With U_k(a) the energy of a single pair, M = ∂U/∂a = Jω and J = ∫R² dR,
 //!
 //!   V = Σ U_k(a_k) + ½ J Σ t_kl ω_k ω_l,   ∂V/∂A_k = M_k,   ∂V/∂s_k = ∂U_k/∂s − J ω_k Σ_l ∂t_kl/∂s_k ω_l:
 //!
-//! V is stationary in the loads, so the derivatives of a contribute nothing. Damping scales M or adds to it. It takes
-//! the rate Ȧ of the whole approach of the flanks.
+//! V is stationary in the loads, so the derivatives of a contribute nothing. Damping scales M or is added to it.
+//! Damping uses the rate Ȧ of the whole approach of the flanks.
 
 mod arcs;
 mod couplings;

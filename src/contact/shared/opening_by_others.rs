@@ -1,9 +1,9 @@
-//! By how much the loads of others move pairs: what opens them when kinks of the force are predicted.
+//! Openings of pairs by the loads of other pairs, used to predict kinks of the force.
 
 use super::couplings::MOST_PAIRS;
 use crate::contact::Flank;
 
-/// Arcs by which pairs are moved apart by others [rad].
+/// Arcs by which other pairs move a pair apart [rad].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpeningByOthers {
     pairs: [Option<(usize, Flank, i64, f64)>; MOST_PAIRS],
@@ -11,10 +11,10 @@ pub struct OpeningByOthers {
 }
 
 impl OpeningByOthers {
-    /// How far before they touch pairs count, over the deepest approach of flanks.
+    /// Distance from contact within which pairs count, relative to the deepest approach of flanks.
     pub const LOOKOUT: f64 = 0.5;
 
-    /// Adds a pair of `flank` with its number in the mesh with side gear `side`.
+    /// Adds the arc `by` [rad] of pair `number` of `flank` in the mesh with side gear `side`.
     pub fn add(&mut self, side: usize, flank: Flank, number: i64, by: f64) {
         if let Some(place) = self.pairs.get_mut(self.count) {
             *place = Some((side, flank, number, by));
@@ -22,7 +22,7 @@ impl OpeningByOthers {
         }
     }
 
-    /// The arc of such a pair [rad]; 0 of one that is far from touching.
+    /// Arc of pair `number` of `flank` on side `side` [rad]; 0 if the pair is far from touching.
     pub fn of(&self, side: usize, flank: Flank, number: i64) -> f64 {
         let same = |&&(s, f, n, _): &&(usize, Flank, i64, f64)| (s, f, n) == (side, flank, number);
         self.pairs.iter().flatten().find(same).map_or(0.0, |&(.., by)| by)

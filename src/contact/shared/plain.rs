@@ -1,6 +1,6 @@
-//! Error-free meshes of a planet that share bodies: forces, Jacobian, energy and heat.
-//!
-//! One point has the load of a face whose flanks fit, and the side gears stay on their axes.
+//! Error-free meshes of a planet on shared gear bodies: forces, Jacobian, energy and heat.
+//! //!
+//! One point represents the load of a face whose flanks fit, and the side gears stay on their axes.
 
 use super::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use crate::contact::bodies::{PairCouplings, PairPlace};
@@ -12,13 +12,14 @@ use crate::contact::{Flank, Mesh, Spring, ToothPair};
 
 /// Both meshes of a planet.
 pub struct SharedMeshes<'a> {
-    /// The mesh, alike on both sides.
+    /// The mesh, identical on both sides.
     pub mesh: &'a Mesh,
-    /// The bodies.
+    /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
-    /// Number of the planet's tooth that stands at the right mesh's line as tooth 0 does at the left one's.
+    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// mesh.
     pub opposite: i64,
-    /// Pairs by which the planet's position was wrapped, in the sense of x of each mesh.
+    /// Number of pairs by which the planet's position was wrapped, positive in the direction of x of each mesh.
     pub wrapped: [i64; 2],
 }
 
@@ -27,15 +28,15 @@ pub struct SharedMeshes<'a> {
 pub struct SharedForce {
     /// Forces and heat, left and right.
     pub force: [MeshForce; 2],
-    /// ∂(force of a side)/∂(q, x of a side): side, side, row, column.
+    /// ∂(force of a side)/∂(q, x of a side), indexed by side, side, row, column.
     pub by_position: [[[[f64; 2]; 2]; 2]; 2],
-    /// ∂force/∂(rates) of each side's own.
+    /// ∂force/∂(rates of the same mesh).
     pub by_rate: [[[f64; 2]; 2]; 2],
     /// Elastic energy [J].
     pub energy: f64,
 }
 
-/// A pair that may carry.
+/// A pair that may be loaded.
 #[derive(Clone, Copy)]
 struct Near<P> {
     pair: ToothPair,
@@ -43,19 +44,19 @@ struct Near<P> {
     place: P,
 }
 
-/// Called with each pair, the approach of its flanks [rad], and its share of the load.
+/// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
 impl SharedMeshes<'_> {
-    /// Number of the planet's tooth of a pair.
+    /// Number of the planet tooth of a pair.
     #[inline(always)]
     fn tooth(&self, side: usize, flank: Flank, number: i64) -> i64 {
         let PairName { tooth, .. } = PairName::new((0, side), flank, number, self.wrapped[side]);
         if side == 0 { tooth } else { self.opposite.wrapping_sub(tooth) }
     }
 
-    /// Gathers the pairs that are pressed, that others may pull together, or that are within `lookout` of the deepest approach of
-    /// flanks.
+    /// Gathers the pairs that are pressed, that others may pull into contact, or that are within `lookout` times the
+    /// deepest approach of touching.
     #[inline(always)]
     fn gather<S: Spring>(&self, spring: &S, states: &[MeshState; 2], lookout: f64, pairs: &mut Pairs<Near<S::Place>>) {
         let half = self.mesh.half_backlash();
@@ -90,7 +91,8 @@ impl SharedMeshes<'_> {
         spring.respond_whole::<true>(&near.place, (whole, damping), whole.cone * own, rate)
     }
 
-    /// Calls `see` with each pair that may carry and its share of the load; with `SLOPES` of the share.
+    /// Calls `see` with each pair that may be loaded and its share of the load. With `SLOPES`, the share includes its
+    /// slopes.
     fn share<S: Spring, const SLOPES: bool>(
         &self,
         spring: &S,
@@ -126,7 +128,7 @@ impl SharedMeshes<'_> {
         });
     }
 
-    /// [`Self::share`] without the pairs that carry nothing.
+    /// Calls [`Self::share`], but skips unloaded pairs.
     fn carrying<S: Spring, const SLOPES: bool>(
         &self,
         spring: &S,
@@ -170,7 +172,7 @@ impl SharedMeshes<'_> {
         response
     }
 
-    /// The same with their derivatives and the elastic energy.
+    /// Forces and heat of both meshes with their derivatives, and the elastic energy.
     pub fn linearise<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> SharedForce {
         let mut sum = SharedForce::default();
         self.carrying::<S, true>(spring, states, |near, arc, share| {
@@ -203,7 +205,7 @@ impl SharedMeshes<'_> {
             for b in 0..2 {
                 let z = 3 * other + b;
                 let here = other == side;
-                // by the own arc, by the place and by the rate at constant speeds
+                // derivatives through the own arc, the position on the path, and the rate at constant speeds
                 let mut torque = r * r * f.by_depth * own_by[z];
                 let mut along = r * response.elastic_by_place * own_by[z] - moment * along_by[z];
                 if here {
@@ -240,7 +242,7 @@ impl SharedMeshes<'_> {
         sum
     }
 
-    /// By how much pairs that touch or are about to are moved by others.
+    /// Displacements that other pairs cause at pairs that touch or are about to touch.
     pub fn opening_by_others<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> OpeningByOthers {
         let mut opening_by_others = OpeningByOthers::default();
         self.share::<S, false>(spring, states, OpeningByOthers::LOOKOUT, &mut |near, arc, share| {
@@ -250,7 +252,8 @@ impl SharedMeshes<'_> {
         opening_by_others
     }
 
-    /// Calls `visit` with each loaded pair of the mesh with side gear `side`, its depth that of its own arc, and its force.
+    /// Calls `visit` with each loaded pair of the mesh with side gear `side` and its force. The depth of the pair is
+    /// its own arc.
     pub fn loaded<S: Spring>(
         &self,
         spring: &S,

@@ -1,6 +1,8 @@
-//! Shares of the load: what each pair of a planet's two meshes carries, and how this changes with the coordinates of both.
-//!
-//! The solution is compiled for the usual numbers of pairs: arrays that just fit need not be cleared for more.
+//! Shares of the load: the load on each pair of a planet's two meshes, and its changes with the coordinates of both
+//! meshes.
+//! //!
+//! The solution is compiled separately for the usual numbers of pairs, because arrays of exactly that size need less
+//! clearing.
 
 use super::couplings::MOST_PAIRS;
 use super::{Change, Couplings, Gradients, OwnArcs};
@@ -9,20 +11,20 @@ use crate::contact::bodies::{PairCouplings, PairPlace};
 /// Coordinates of both meshes: q, x and w, left and right.
 pub const COORDINATES: usize = 6;
 
-/// Numbers of pairs up to this one have room for just as many.
+/// Largest number of pairs for which there is an array size of exactly that number.
 const EXACT: usize = 4;
 
 /// Pairs that share the bodies of their gears.
 pub struct Sharing<'a> {
-    /// The bodies.
+    /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
-    /// Approaches A_k of the flanks [rad], one of each pair.
+    /// Approaches A_k of the flanks [rad], one per pair.
     pub arcs: &'a [f64],
     /// Place of a pair.
     pub place: &'a dyn Fn(usize) -> Option<&'a PairPlace>,
     /// Load ω of a pair at its own arc a [N/m²], and ∂ω/∂a.
     pub law: &'a dyn Fn(usize, f64) -> [f64; 2],
-    /// True if ω is proportional to a where a is positive.
+    /// True if ω is proportional to a for positive a.
     pub is_linear: bool,
 }
 
@@ -34,15 +36,16 @@ pub struct Share<'a> {
     pub load: f64,
     /// τ_k = Σ_l ∂t_kl/∂s_k ω_l.
     pub along: f64,
-    /// ∂a_k and ∂(ω_k τ_k) by the coordinates of both meshes, if they were asked for.
+    /// ∂a_k and ∂(ω_k τ_k) with respect to the coordinates of both meshes, if requested.
     pub slopes: Option<[&'a [f64; COORDINATES]; 2]>,
 }
 
-/// Derivatives of the approach A_k of a pair by the coordinates, and its other changes.
+/// Derivatives of the approach A_k of a pair with respect to the coordinates, and its direct changes.
 pub type Changes = ([f64; COORDINATES], Change);
 
 impl Sharing<'_> {
-    /// Calls `see` with the number and the share of each pair; with slopes if `changes` are given, by number and own arc.
+    /// Calls `see` with the number and the share of each pair. If `changes` is given, as a function of number and own
+    /// arc, the shares include slopes.
     pub fn solve(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(usize, &Share)) {
         match self.arcs.len() {
             0 => {}
@@ -61,7 +64,7 @@ impl Sharing<'_> {
         changes: Option<&dyn Fn(usize, f64) -> Changes>,
         see: &mut dyn FnMut(usize, &Share),
     ) {
-        // a constant where there is room for just as many
+        // a compile-time constant if the arrays have exactly this size
         let n = if K <= EXACT { K } else { self.arcs.len().min(K) };
         let mut arcs = [0.0; K];
         arcs[..n].copy_from_slice(&self.arcs[..n]);
@@ -91,7 +94,7 @@ impl Sharing<'_> {
 
     #[inline(always)]
     fn own_arcs<const K: usize>(&self, couplings: &Couplings<K>, arcs: &[f64; K]) -> OwnArcs<K> {
-        // a pair whose flanks do not approach each other by themselves hardly ever carries
+        // a pair whose flanks do not approach each other by themselves is rarely loaded
         if self.is_linear && arcs.iter().all(|&arc| arc > 0.0) {
             OwnArcs::linear(couplings, arcs, self.law)
         } else {

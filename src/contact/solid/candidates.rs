@@ -1,12 +1,13 @@
-//! Teeth that can touch, found by overlapping boxes around pieces of both gears' flanks.
-//!
-//! Both gears have a tree of such boxes in their own frame; both trees are traversed together. As flanks consist of rays
-//! through the apex, boxes enclose directions, on a sphere of one metre in millimetres: there a
-//! piece of a flank is short, whereas a box around it from toe to heel would hold half a tooth.
-//!
-//! As the mesh repeats with every base pitch, the teeth near each other are found once for cells of positions, with boxes
-//! larger by what gears move within a cell. A cell may name a tooth too many, whose overlap then turns out to be
-//! negative, but none too few.
+//! Teeth that can touch, found with overlapping boxes around pieces of both gears' flanks.
+//! //!
+//! Both gears have a tree of such boxes in their own frame, and both trees are traversed together. Flanks consist of
+//! rays through the apex. The boxes therefore enclose directions, on a sphere with a radius of one metre, in
+//! millimetres. On this sphere a piece of a flank is short, whereas a box around the piece from toe to heel would
+//! contain half a tooth.
+//! //!
+//! The mesh repeats with every base pitch. The teeth near each other are therefore searched once for each cell of
+//! positions, with boxes enlarged by the motion of the gears within a cell. A cell may contain a tooth too many, whose
+//! overlap is then negative, but never one too few.
 
 use nalgebra::Matrix3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -14,7 +15,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use super::flank::{Flanks, Ray, half_pitch};
-use super::{Displacement, MOST_TEETH, Placement};
+use super::{Displacement, MAX_TEETH, Placement};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin};
 
@@ -27,10 +28,10 @@ const PIECES: usize = 8;
 /// Cells per base pitch.
 const CELLS: usize = 128;
 
-/// Overlap up to which they hold, in base pitches.
+/// Largest overlap for which the cells are valid, in base pitches.
 const DEEPEST: f64 = 1.0 / 64.0;
 
-/// First and last number of the pairs of teeth near each other.
+/// First and last number of the pairs of teeth that are near each other.
 type Near = [i32; 2];
 
 /// No pairs.
@@ -41,17 +42,17 @@ const NONE: Near = [0, -1];
 pub struct Candidates {
     trees: [Bvh; 2],
     pieces: [usize; 2],
-    /// Number of the last tooth; the first one has its negative.
+    /// Number of the last tooth; the first tooth has the negative number.
     last: i32,
     apart: f64,
-    /// Where the gears stand if not displaced.
+    /// Placement of gears without displacement.
     aligned: Placement,
     sin_base: [f64; 2],
     half_backlash: f64,
     /// Cells in order of x from −½ to ½ base pitch.
     cells: Vec<Near>,
     per_cell: f64,
-    /// Overlap up to which the cells hold [rad].
+    /// Largest overlap for which the cells are valid [rad].
     deepest: f64,
 }
 
@@ -62,9 +63,10 @@ impl std::fmt::Debug for Candidates {
 }
 
 impl Candidates {
-    /// Trees of the flanks of `pair`, which touch up to a gap of `apart` between aligned gears in the same position [rad].
+    /// Builds the trees of the flanks of `pair`. Flanks can touch up to a gap of `apart` between aligned gears in the
+    /// same position [rad].
     pub fn new(pair: &Pair, flanks: &Flanks, apart: f64) -> Self {
-        let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MOST_TEETH);
+        let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MAX_TEETH);
         let cuts = [0, 1].map(|i| cuts(flanks.rays[i].len()));
         let tree = |i: usize, ahead: f64| {
             let gear = &pair.gears[i];
@@ -88,17 +90,17 @@ impl Candidates {
             per_cell: 1.0 / cell,
             deepest: DEEPEST * pair.base_pitch,
         };
-        // positions from the gap to the overlap up to which the cells hold, by their middle and half their range
+        // middle and half range of q, from the gap to the largest overlap for which the cells are valid
         let deepest = new.deepest;
         let (q, half) = (0.5 * (apart - deepest) - new.half_backlash, 0.5 * (apart + deepest));
-        // what gears move within a cell, each by the turn of its farthest point
+        // motion of the gears within a cell, each by the rotation of its farthest point
         let moved = 0.5 * cell / new.sin_base[0] + (0.5 * cell + half) / new.sin_base[1];
         let middle = |i: usize| cell * (i as f64 + 0.5) - 0.5 * pair.base_pitch;
         new.cells = (0..CELLS).map(|i| new.search(q, middle(i), moved + deepest)).collect();
         new
     }
 
-    /// Numbers of the pairs of flanks that may touch at (q, x), x within half a base pitch from 0 [rad].
+    /// Numbers of the pairs of flanks that may touch at (q, x), with x within half a base pitch of 0 [rad].
     #[inline]
     pub fn near(&self, q: f64, x: f64) -> std::ops::RangeInclusive<i32> {
         let deep = -q - self.half_backlash;
@@ -112,8 +114,8 @@ impl Candidates {
         first..=last
     }
 
-    /// The same by traversing the trees, flanks being up to `deep` [rad] inside each other or moved by as much. A flank
-    /// meets only that of the tooth ahead: the tooth itself is in between.
+    /// Finds the same pairs by traversing the trees. Flanks overlap or are moved by up to `deep` [rad]. A flank can
+    /// touch only the tooth ahead, because its own tooth is between it and the tooth behind.
     fn search(&self, q: f64, x: f64, deep: f64) -> Near {
         let turn: Matrix3<f64> = self.aligned.between([x / self.sin_base[0], (q + x) / self.sin_base[1]]);
         let (size, margin) = (turn.abs(), (self.apart + deep) * MM);
@@ -121,7 +123,7 @@ impl Candidates {
             let (p_low, p_high) = (planet.mins().to_array(), planet.maxs().to_array());
             let (s_low, s_high) = (side.mins().to_array(), side.maxs().to_array());
             (0..3).all(|i| {
-                // twice the distance of the middles, and of what reaches across it
+                // twice the distance of the middles, and twice the reach of both boxes along it
                 let (mut apart, mut reach) = (-s_low[i] - s_high[i], s_high[i] - s_low[i]);
                 for j in 0..3 {
                     apart += turn[(i, j)] * (p_low[j] + p_high[j]);
@@ -166,7 +168,7 @@ mod tests {
     use crate::geometry::GearSpec;
 
     #[test]
-    fn cells_name_every_pair_that_the_trees_find_in_any_position() {
+    fn cells_contain_every_pair_that_the_trees_find_in_any_position() {
         for apart in [1e-5, 5e-3] {
             let pair = Pair::new(&GearSpec::default());
             let near = Candidates::new(&pair, &Flanks::new(&pair, 0.03, 24), apart);

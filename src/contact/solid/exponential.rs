@@ -1,21 +1,21 @@
-//! The exponential function and its mean over an interval: the integral over a piece of a contact patch.
+//! The exponential function, and its mean over an interval, which is the integral over a piece of a contact patch.
 
 use super::turned::Partials;
 use crate::numeric::sqrt;
 
-/// Its sum with a number below 2⁵¹ has that number, rounded, in its lowest bits.
+/// Constant whose sum with a number below 2⁵¹ contains that number, rounded, in its lowest bits.
 const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
-/// ln 2 in two parts, the first short enough for whole multiples of it to be exact.
+/// ln 2 in two parts. The first part is short enough for whole multiples of it to be exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 const EXPONENT: u32 = 52;
-/// Least exponent: e to this power is next to nothing, and a normal number.
-const LEAST: f64 = -700.0;
+/// Smallest exponent: e to this power is negligible, but still a normal number.
+const MIN_EXPONENT: f64 = -700.0;
 
-/// e^x for x < 700, to two roundings, in line: 2^k e^r with whole k and |r| ≤ ln 2 / 2, of which the Taylor series is
-/// summed up to r¹³. Below −700 it stays at e⁻⁷⁰⁰.
+/// Inline e^x for x < 700, accurate to two roundings. It is 2^k e^r with whole k and |r| ≤ ln 2 / 2, and e^r is its
+/// Taylor series up to r¹³. Below −700 the result is e⁻⁷⁰⁰.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
-    let x = if x < LEAST { LEAST } else { x };
+    let x = if x < MIN_EXPONENT { MIN_EXPONENT } else { x };
     let whole = x * std::f64::consts::LOG2_E + WHOLE;
     let k = whole - WHOLE;
     let r = (x - k * LN_2[0]) - k * LN_2[1];
@@ -32,13 +32,13 @@ pub fn exp(x: f64) -> f64 {
 /// Mean of e^x for x from a to b, with its derivatives, given e^a and e^b.
 #[inline(always)]
 pub fn mean_exponential([a, b]: [f64; 2], [ea, eb]: [f64; 2]) -> Partials {
-    // e^m f(z) with the middle m and half the difference z, f = sinh z / z
+    // e^m f(z) with the middle m and half the difference z, where f = sinh z / z
     let z = 0.5 * (b - a);
     let (f, f1, f2);
     if z.abs() < 0.5 {
         let e = sqrt(ea * eb);
         let y = z * z;
-        // Taylor series, to a rounding; the ratios of their terms, times y
+        // Taylor series, accurate to a rounding; the arguments are the ratios of successive terms
         let sum = |ratios: [f64; 6]| ratios.into_iter().rev().fold(1.0, |sum, ratio| 1.0 + y * ratio * sum);
         f = e * sum([1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 72.0, 1.0 / 110.0, 1.0 / 156.0]);
         f1 = e * z / 3.0 * sum([1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0, 1.0 / 130.0, 1.0 / 180.0]);
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn the_series_ends_where_a_rounding_does() {
+    fn the_series_is_accurate_to_a_rounding() {
         for z in [0.1, 0.3, 0.45, 0.49] {
             let mean = mean_exponential([-z, z], [libm::exp(-z), libm::exp(z)]).v;
             assert!((mean * z / libm::sinh(z) - 1.0).abs() < 1e-15, "{z}: {mean}");
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn the_mean_exponential_and_its_derivatives_are_exact() {
-        // by Gauss-Legendre over the interval, five points on short pieces
+        // reference: Gauss-Legendre with five points on each of many short pieces
         let points = [
             (0.0, 0.568_888_888_888_888_9),
             (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),

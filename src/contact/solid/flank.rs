@@ -1,8 +1,9 @@
-//! Faceted flanks of one pair: drive flanks, the coast ones being their mirror images.
-//!
-//! Directions are those of a tooth of its own gear: first away from the gear's axis along the middle of the tooth, second
-//! the way in which the carrier turns forward, third along the axis from apex to heel. A facet spans the angle between two
-//! neighbouring rays; all rays of a gear meet in its apex, so that a section at any cone distance is the same polygon.
+//! Faceted flanks of one pair. Stored are the drive flanks; the coast flanks are their mirror images.
+//! //!
+//! Directions are in the frame of a tooth of the gear: first away from the gear's axis along the middle of the tooth,
+//! second in the direction in which the carrier turns forward, third along the axis from apex to heel. A facet spans
+//! the angle between two neighbouring rays. All rays of a gear meet in its apex, so a section at any cone distance is
+//! the same polygon.
 
 use nalgebra::Vector3;
 
@@ -10,33 +11,35 @@ use crate::geometry::solid::Foot;
 use crate::geometry::{Gear, Pair};
 use crate::numeric::{PI, cos, sin};
 
-/// How far a flank is prolonged below its lowest ray [rad].
+/// Angle by which a flank is extended below its lowest ray [rad].
 const PROLONGED: f64 = 0.1;
 
 /// A ray of a flank.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Its direction.
+    /// Direction of the ray.
     pub direction: Vector3<f64>,
-    /// Unit normal of the flank there, from the planet into the side gear.
+    /// Unit normal of the flank at the ray, from the planet into the side gear.
     pub normal: Vector3<f64>,
 }
 
 /// Flanks of a pair.
 #[derive(Clone, Debug)]
 pub struct Flanks {
-    /// Rays of planet and side gear; along both the planet's root and the side gear's tip come last.
+    /// Rays of planet and side gear. Both lists end at the planet's root and the side gear's tip.
     pub rays: [Vec<Ray>; 2],
-    /// Greatest height of the flanks' arcs over their facets, planet and side gear [rad].
+    /// Largest height of the flanks' arcs over their facets, planet and side gear [rad].
     pub sagitta: [f64; 2],
-    /// Ray on the path of contact, counted along each flank, at the pitch point and its change by the place s [1/rad].
+    /// Index of the ray on the path of contact, along each flank: at the pitch point, and its derivative with respect
+    /// to the position s [1/rad].
     on_path: [[f64; 2]; 2],
     /// Ends of the path of contact [rad].
     path: [f64; 2],
 }
 
 impl Flanks {
-    /// Flanks of `pair` above root fillets of the angular radius `fillet` [rad], with `facets` on each involute.
+    /// Returns the flanks of `pair` above root fillets of the angular radius `fillet` [rad], with `facets` on each
+    /// involute.
     pub fn new(pair: &Pair, fillet: f64, facets: usize) -> Self {
         let [p, s] = &pair.gears;
         let feet = pair.gears.map(|gear| Foot::new(&gear, fillet));
@@ -46,7 +49,8 @@ impl Flanks {
         let [mut planet, side] = [planet, side].map(prolonged);
         planet.reverse();
         let sagitta = [0, 1].map(|i| sagitta(&pair.gears[i], &feet[i], facets));
-        // rolled arcs grow along the planet's flank toward its tip, where its rays begin, and so do the side gear's
+        // rolled arcs increase along the planet's flank toward its tip, where its rays begin, and likewise on the side
+        // gear
         let per_arc = [0, 1].map(|i| facets as f64 / (pair.gears[i].action_arc(pair.gears[i].tip) - feet[i].start_arc));
         let from_tip = [0, 1].map(|i| (pair.gears[i].action_arc(pair.gears[i].tip) - pair.pitch_arc[i]) * per_arc[i]);
         let last = (side.len() - 1) as f64;
@@ -54,15 +58,15 @@ impl Flanks {
         Self { rays: [planet, side], sagitta, on_path, path: [pair.path.low, pair.path.high] }
     }
 
-    /// The rays of both flanks where exact ones are closest at place `s` [rad], counted along each: on the path of contact,
-    /// or beyond its ends nearly where it ends.
+    /// Fractional indices of the rays at which exact flanks are closest at position `s` [rad]. Beyond an end of the
+    /// path of contact, they are those of that end, which is nearly correct.
     pub fn closest(&self, s: f64) -> [f64; 2] {
         let s = s.max(self.path[0]).min(self.path[1]);
         self.on_path.map(|[at_pitch, per_place]| at_pitch + per_place * s)
     }
 }
 
-/// Polar angles of the rays of a flank from the end of its fillet to its tip [rad], as solids have them: equal steps of
+/// Polar angles of the rays of a flank from the end of its fillet to its tip [rad], as in the solids: equal steps of
 /// roll on the involute, and one facet below the base circle.
 fn polars(gear: &Gear, foot: &Foot, facets: usize) -> impl Iterator<Item = f64> {
     let below = foot.has_meridian(gear).then_some(foot.end[0]);
@@ -70,13 +74,13 @@ fn polars(gear: &Gear, foot: &Foot, facets: usize) -> impl Iterator<Item = f64> 
     below.into_iter().chain((0..=facets).map(move |i| on_involute(&gear, &foot, i as f64 / facets as f64)))
 }
 
-/// Polar angle on the involute at a share of its roll from the foot to the tip [rad].
+/// Polar angle on the involute at a fraction of its roll from the foot to the tip [rad].
 fn on_involute(gear: &Gear, foot: &Foot, share: f64) -> f64 {
     gear.polar_at(foot.start_arc + (gear.action_arc(gear.tip) - foot.start_arc) * share)
 }
 
-/// A flank with its lowest facet prolonged into the body of the gear, so that no contact ends where its fillet begins:
-/// fillets take no part in contact.
+/// Extends the lowest facet of a flank into the body of the gear, so that contact does not end where the fillet begins.
+/// Fillets take no part in contact.
 fn prolonged(rays: Vec<Ray>) -> Vec<Ray> {
     let [first, second, ..] = rays[..] else { return rays };
     let along = first.direction - second.direction;
@@ -86,10 +90,10 @@ fn prolonged(rays: Vec<Ray>) -> Vec<Ray> {
     std::iter::once(below).chain(rays).collect()
 }
 
-/// Ray of the flank that looks forward (`side` = 1) or backward (−1), its normal out of the material.
+/// Ray of the forward (`side` = 1) or backward (−1) flank, with its normal out of the material.
 fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
     let direction = gear.flank_point(polar, side);
-    // below the base circle the flank is a meridian
+    // below the base circle, the flank is a meridian
     let normal = if polar < gear.base {
         let azimuth = side * gear.half_angle(polar);
         Vector3::new(-sin(azimuth), cos(azimuth), 0.0) * side
@@ -99,7 +103,7 @@ fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
     Ray { direction, normal }
 }
 
-/// Greatest height of the involute over its facets [rad].
+/// Largest height of the involute over its facets [rad].
 fn sagitta(gear: &Gear, foot: &Foot, facets: usize) -> f64 {
     let point = |i: f64| gear.flank_point(on_involute(gear, foot, i / facets as f64), 1.0);
     (0..facets)

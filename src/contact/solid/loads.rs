@@ -1,4 +1,4 @@
-//! Loads of single sections of solid teeth, and how evenly a pair carries over its face.
+//! Loads of single sections of solid teeth, and the face load factor of a pair.
 
 use nalgebra::Vector3;
 
@@ -12,27 +12,28 @@ use crate::contact::state::MeshState;
 pub struct SolidLoad {
     /// Flank of the planet.
     pub flank: Flank,
-    /// Number of the pair, as tooth pairs on the path of contact are counted.
+    /// Number of the pair, counted like tooth pairs on the path of contact.
     pub number: i64,
-    /// Place by the planet's rotation [rad].
+    /// Position from the planet's rotation [rad].
     pub s: f64,
     /// The section.
     pub slice: SolidSlice,
-    /// Its overlap as an arc [rad].
+    /// Overlap of the section as an arc [rad].
     pub depth: f64,
     /// Force.
     pub force: Force,
-    /// Where on the flank: unit vector in parts along the planet's axis, the side gear's and across.
+    /// Point on the flank: components of the unit vector along the planet's axis, along the side gear's axis, and
+    /// across.
     pub point: [f64; 3],
-    /// Polar angles of that place on planet and side gear, each about its own axis as it stands [rad].
+    /// Polar angles of the point on planet and side gear, each about the gear's own displaced axis [rad].
     pub polar: [f64; 2],
-    /// Normal into the side gear, in the same parts.
+    /// Normal into the side gear, in the same components as `point`.
     pub normal: [f64; 3],
 }
 
 impl SolidLoad {
-    /// Parts of the normal that act on bearings: along the planet's axis and the side gear's, away from the apex, and along
-    /// the rotation.
+    /// Components of the normal that load the bearings: along the planet's axis and the side gear's axis, both away
+    /// from the apex, and along the rotation.
     pub fn parts(&self) -> [f64; 3] {
         // the planet is pushed back, the side gear forward
         let [planet, side, across] = self.normal;
@@ -41,9 +42,9 @@ impl SolidLoad {
 }
 
 impl SolidMesh {
-    /// Face load factor K_Hβ of the pair of `flank` at place `s`: the largest load per width, be it of a section or at an edge,
-    /// over its mean with the weight R, which is that of the torque. Loads of sections follow their overlaps alone, and
-    /// aligned solids carry evenly.
+    /// Face load factor K_Hβ of the pair of `flank` at position `s`: the largest load per width, in a section or at an
+    /// edge, over the mean load. The mean has the weight R, like the torque. The load of a section depends only on its
+    /// overlap, and aligned solids are loaded evenly.
     pub fn face_load_factor(&self, state: &MeshState, flank: Flank, s: f64) -> f64 {
         if self.slices.len() == 1 {
             return 1.0;

@@ -1,16 +1,17 @@
-//! A mesh of solid teeth: the potential of all pairs and sections that overlap.
-//!
-//!   V(q, x) = Σ_k Σ_j ω_j U(R_m p_kj(q, x)),   Σ_j ω_j = 1
-//!
-//! over pairs k and sections j across the face, p the overlap of a section as an arc ([`super::overlap`]) and U of the
-//! law of a pair (IMPACT): slices of a straight bevel tooth are similar, so that the load per width depends on the arc
-//! alone. A section that moves by δp gives way by R_j δp where it is, so that its force is
-//!
-//!   F_j = ω_j R_m/R_j U′(R_m p_kj)
-//!
-//! the only one that balances the torques. With ω_j ∝ R_j times its width aligned flanks load the face evenly; then
-//! the resultant acts at R_m and V is that of tooth pairs on the path of contact. On misaligned or crowned flanks
-//! every section carries the load of its own overlap.
+//! A mesh of solid teeth: the potential of all overlapping pairs and sections.
+//! //!
+//! V(q, x) = Σ_k Σ_j ω_j U(R_m p_kj(q, x)), Σ_j ω_j = 1
+//! //!
+//! The sum is over pairs k and sections j across the face. p is the overlap of a section as an arc
+//! ([`super::overlap`]), and U the energy of the law of a pair (IMPACT). Slices of a straight bevel tooth are similar,
+//! so the load per width depends only on the arc. If the arc of a section changes by δp, the section yields by R_j δp
+//! at its cone distance. Its force is therefore
+//! //!
+//! F_j = ω_j R_m/R_j U′(R_m p_kj)
+//! //!
+//! This is the only force that balances the torques. If ω_j is proportional to R_j times the section's width, aligned
+//! flanks load the face evenly. The resultant then acts at R_m, and V is the potential of tooth pairs on the path of
+//! contact. On misaligned or crowned flanks, the load of every section follows from its own overlap.
 
 use super::candidates::Candidates;
 use super::flank::Flanks;
@@ -32,35 +33,35 @@ pub struct SolidSlice {
     pub cone: f64,
     /// ω_j.
     pub share: f64,
-    /// Width that it represents [m].
+    /// Width that the section represents [m].
     pub width: f64,
-    /// Material missing there on the pair by crowning [m].
+    /// Material of the pair removed by crowning at this section [m].
     pub relief: f64,
 }
 
-/// What defines the solids.
+/// Definition of the solids.
 #[derive(Clone, Debug)]
 pub struct SolidSpec {
     /// Angular radius of the root fillets [rad].
     pub fillet: f64,
     /// Facets per flank.
     pub facets: usize,
-    /// Multiple of the usual softness.
+    /// Factor of the default softness.
     pub smoothing: f64,
-    /// Sections across the face; one at R_m where all are alike.
+    /// Sections across the face, or one at R_m if all would be identical.
     pub slices: Vec<SolidSlice>,
-    /// Displacement of each planet against the left and right side gear.
+    /// Displacement of each planet relative to the left and right side gear.
     pub displaced: Vec<[Displacement; 2]>,
 }
 
-/// ε in heights of arc, so that the patch is almost as wide as a facet and passes from one to the next without a
-/// ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
+/// Ratio of ε to the height of arc. The patch is almost as wide as a facet and passes from one facet to the next
+/// without a ripple: at the half-width c·facet, the first harmonic of the facets is damped by exp(−2π²c²).
 const SOFTNESS: f64 = 1.25;
 
 /// Upper bound of a flank's length [rad].
 const LONGEST: f64 = 1.0;
 
-/// A section with the planet's rays in each placement.
+/// A section with the planet's rays in every placement.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedSlice {
     pub(super) slice: SolidSlice,
@@ -70,7 +71,7 @@ pub(super) struct PlacedSlice {
 /// A mesh of solid teeth.
 #[derive(Clone, Debug)]
 pub struct SolidMesh {
-    /// Law of a section, as if the whole face were in its state.
+    /// Law of a section, scaled to the whole face.
     pub elastic: Impact,
     /// Damping.
     pub damping: Damping,
@@ -80,9 +81,10 @@ pub struct SolidMesh {
     candidates: Candidates,
     soft: Softness,
     pub(super) slices: Vec<PlacedSlice>,
-    /// Sections without a share, at which the load is only looked at.
+    /// Sections without a share of the load, at which the load is only evaluated.
     pub(super) edges: Vec<PlacedSlice>,
-    /// Placements that differ, and which of them each planet has with each side, for its drive and mirrored coast flank.
+    /// Distinct placements, and the placement of each planet with each side, for its drive flank and its mirrored coast
+    /// flank.
     placements: Vec<Placement>,
     placed: Vec<[[usize; 2]; 2]>,
     side_rays: Vec<TurningRay>,
@@ -94,7 +96,8 @@ pub struct SolidMesh {
 }
 
 impl SolidMesh {
-    /// Mesh of `pair` whose planets may be displaced; `slack` [m] bounds the gap that displacements can close.
+    /// Returns the mesh of `pair`, whose planets may be displaced. `slack` [m] bounds the gap that displacements can
+    /// close.
     pub fn new(pair: &Pair, spec: &SolidSpec, elastic: Impact, damping: Damping, slack: f64) -> Self {
         let flanks = Flanks::new(pair, spec.fillet, spec.facets);
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
@@ -131,7 +134,7 @@ impl SolidMesh {
         mesh
     }
 
-    /// The same with sections `edges` at which the load is looked at.
+    /// Adds the sections `edges`, at which the load is only evaluated.
     pub fn with_edges(mut self, edges: &[SolidSlice]) -> Self {
         self.edges = self.place(edges);
         self
@@ -145,12 +148,13 @@ impl SolidMesh {
         slices.iter().map(|slice| PlacedSlice { slice: *slice, planet_rays: rays(slice) }).collect()
     }
 
-    /// Sections across the face.
+    /// Number of sections across the face.
     pub fn section_count(&self) -> usize {
         self.slices.len()
     }
 
-    /// Visits each of `slices` of each pair near contact with its overlap [rad] by (q, x), with derivatives up to order `N`.
+    /// Calls `visit` with each of `slices` of each pair near contact, and the overlap [rad] as a function of (q, x)
+    /// with derivatives up to order `N`.
     #[inline(always)]
     pub(super) fn sections<const N: usize>(
         &self,
@@ -189,7 +193,7 @@ impl SolidMesh {
         FlankSection { rays, angles: near.angles, start: near.start }
     }
 
-    /// The placement of a pair, and where the patch of one of its sections lies.
+    /// Placement of a pair, and the contact patch of one of its sections.
     pub(super) fn patch(&self, near: &FlankPair, slice: &PlacedSlice) -> Option<(&Placement, Patch)> {
         let placement = &self.placements[near.placed];
         let normal =
@@ -197,14 +201,14 @@ impl SolidMesh {
         self.section(near, slice).patch(&self.soft, normal).map(|patch| (placement, patch))
     }
 
-    /// Force of a section that overlaps by `depth` [rad], as if the whole face were in its state.
+    /// Force of a section that overlaps by `depth` [rad], scaled to the whole face.
     pub(super) fn respond(&self, depth: f64, rate: f64) -> Force {
         let d = self.cone * depth;
         let elastic = self.elastic.force(d, 0.0);
         self.damping.apply(elastic.elastic, elastic.by_depth, d, self.cone * rate)
     }
 
-    /// Forces and heat of the mesh of planet and side `state.which`.
+    /// Forces and heat of the mesh `state.which` of planet and side.
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         let [dq, dx] = state.rate;
@@ -221,7 +225,7 @@ impl SolidMesh {
         sum
     }
 
-    /// Forces, heat and their exact derivatives.
+    /// Forces and heat, with their exact derivatives.
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
         let [dq, dx] = state.rate;
@@ -260,14 +264,14 @@ impl SolidMesh {
     }
 }
 
-/// A pair of flanks near each other, in the mirror image in which it is a drive flank.
+/// A pair of flanks near each other, mirrored if necessary so that it is a drive flank.
 pub(super) struct FlankPair {
     pub(super) flank: Flank,
-    /// Number of its placement.
+    /// Index of its placement.
     placed: usize,
     pub(super) number: i64,
     pub(super) s: f64,
     angles: [SineCosine; 2],
-    /// Rays that are closest.
+    /// Fractional indices of the closest rays.
     start: [f64; 2],
 }

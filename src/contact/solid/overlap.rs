@@ -1,24 +1,24 @@
 //! Overlap of two faceted flanks in one section.
 //!
-//! Both sections are polygons in the plane of projection of [`super::pose`]: the planet's surface h_p(u), the side gear's
-//! h_s(u), material of the planet below, of the side gear above. Their overlap at u is the distance of one surface inside
-//! the other, as an arc
-//!
-//!   δ = (h_p − h_s) c / (1 + u² + h_p h_s),   c = n_h √(1 + u² + h²), n_h the part along h of the normal,
-//!
-//! negative where the flanks stand apart, at the corners of both polygons and linear between them. On the path of contact
-//! both normals are the same; a tip corner is measured along that of the flank it meets: c passes from the side gear's at
-//! the planet's tip to the planet's at the side gear's tip. The depth of a section is its greatest overlap,
-//! taken softly over the patch around it:
-//!
-//!   p = ε ln( ∫ exp(δ(u)/ε) du / √(2π ρ ε) ),   ∂p = ∫ w ∂δ du with the weights w ∝ exp(δ/ε), ∫ w du = 1
-//!
-//! Every facet under the patch carries its share w du of the load along its own normal, so that force and torque are
-//! continuous where the deepest corner changes; the deepest point alone would make them jump at each facet. The patch
+//! Both sections are polygons in the plane of projection of [`super::pose`]: the planet's surface h_p(u) with material
+//! below it, and the side gear's surface h_s(u) with material above it. Their overlap at u is the distance of one
+//! surface inside the other, as an arc
+//! //!
+//! δ = (h_p − h_s) c / (1 + u² + h_p h_s), c = n_h √(1 + u² + h²), n_h the component along h of the normal.
+//! //!
+//! The overlap is negative if the flanks are apart. It is evaluated at the corners of both polygons and is linear
+//! between them. On the path of contact, both normals are the same. A tip corner is measured along the normal of the
+//! flank that it meets: c passes from the side gear's value at the planet's tip to the planet's value at the side
+//! gear's tip. The depth of a section is a soft maximum of the overlap over the patch around the maximum:
+//! //!
+//! p = ε ln( ∫ exp(δ(u)/ε) du / √(2π ρ ε) ), ∂p = ∫ w ∂δ du with the weights w ∝ exp(δ/ε), ∫ w du = 1
+//! //!
+//! Every facet under the patch transmits its share w du of the load along its own normal, so force and torque are
+//! continuous when the deepest corner changes. With only the deepest point, they would jump at each facet. The patch
 //! has the half-width √(ρ ε) between flanks of relative radius of curvature ρ (Laplace's method: for δ = p − u²/2ρ the
-//! formula returns p exactly); ε follows the heights of the arcs over their facets and vanishes with them, as the square
-//! of the facets' length. For ε → 0 the depth is the greatest overlap, which on involutes is exactly the approach less
-//! the gap of the tip corners, a − g.
+//! formula returns exactly p). ε is proportional to the heights of the arcs over their facets and vanishes with them,
+//! as the square of the facets' length. For ε → 0, the depth is the maximum overlap. On involutes this is exactly the
+//! approach minus the gap of the tip corners, a − g.
 
 use nalgebra::Vector3;
 
@@ -31,12 +31,12 @@ use crate::numeric::lanes::{Task, in_lanes};
 /// Largest exponent before the sum is rescaled.
 const HIGH: f64 = 20.0;
 
-/// Where the patch of a section lies.
+/// Contact patch of a section.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Patch {
-    /// Place in the plane of projection [rad].
+    /// Coordinates of its centre in the plane of projection [rad].
     pub place: [f64; 2],
-    /// Mean normal into the side gear, in rows of a placement.
+    /// Mean normal into the side gear, in the rows of a placement.
     pub normal: [f64; 3],
 }
 
@@ -45,13 +45,14 @@ struct SoftIntegral<const N: usize> {
     /// ε [rad] and 1/ε.
     width: f64,
     per: f64,
-    /// Overlap that exponents count from, and the largest that they may [rad].
+    /// Overlap at which the exponents are zero, and the largest overlap before rescaling [rad].
     from: f64,
     high: f64,
-    /// The integrals of both walks together, and that of this walk.
+    /// Integral of the completed walks, and integral of the present walk.
     sum: Both<N>,
     walked: Both<N>,
-    /// Exponent and its exponential where walks begin, and at the corner before with its place.
+    /// Exponent and its exponential at the start of the walks, the same at the previous corner, and the position of the
+    /// previous corner.
     begin: (Both<N>, f64),
     before: (Both<N>, f64),
     place: Both<N>,
@@ -75,10 +76,10 @@ impl<const N: usize> SoftIntegral<N> {
         }
     }
 
-    /// Adds the walk that ends to the sum.
+    /// Adds the present walk to the sum.
     #[inline(always)]
     fn finish(&mut self) {
-        // walks to lower places count backward
+        // walks toward lower positions have a negative integral
         self.sum = self.sum + self.walked * 1f64.copysign(self.walked.v);
         self.walked = Both::default();
     }
@@ -88,7 +89,7 @@ impl<const N: usize> SoftIntegral<N> {
         (self.from, self.high) = (from, from + HIGH * self.width);
     }
 
-    /// Lets exponents count from the greater overlap `from`.
+    /// Sets the reference of the exponents to the greater overlap `from`.
     #[inline(always)]
     fn rescale(&mut self, from: f64) {
         let shift = (self.from - from) * self.per;
@@ -101,7 +102,7 @@ impl<const N: usize> SoftIntegral<N> {
         }
     }
 
-    /// The soft greatest overlap [rad].
+    /// The soft maximum of the overlap [rad].
     #[inline(always)]
     fn greatest(mut self, soft: &Softness) -> Option<Both<N>> {
         self.finish();
@@ -138,7 +139,7 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
     }
 }
 
-/// Mean place and normal of a patch of depth `depth`, whose rays have the normals `normal`.
+/// Mean position and normal of a patch of depth `depth`. `normal` returns the normal of a ray.
 struct PatchMean<'a, F> {
     normal: F,
     depth: f64,
@@ -160,7 +161,7 @@ impl<F: Fn(usize, usize) -> Vector3<f64>> Follow<0> for PatchMean<'_, F> {
         let weight = length * mean_exponential(exponents, exponents.map(exp)).v;
         self.weight += weight;
         for end in [&self.before, at] {
-            // the flank that the corner is pressed into
+            // normal of the flank into which the corner is pressed
             self.sum += (self.normal)(end.mate, end.ray) * (0.5 * weight);
             self.place[0] += 0.5 * weight * end.u.v;
             self.place[1] += 0.5 * weight * end.height;
@@ -169,7 +170,7 @@ impl<F: Fn(usize, usize) -> Vector3<f64>> Follow<0> for PatchMean<'_, F> {
     }
 }
 
-/// The depth of a section, as a task for vectors of any width.
+/// Task that computes the depth of a section with vectors of any width.
 struct DepthOf<'a, const N: usize> {
     section: &'a FlankSection<'a>,
     soft: &'a Softness,
@@ -187,12 +188,12 @@ impl<const N: usize> Task for DepthOf<'_, N> {
 }
 
 impl FlankSection<'_> {
-    /// Depth p [rad] where it is positive, and some distance below.
+    /// Depth p [rad] if it is positive or slightly negative, else `None`.
     pub fn depth<const N: usize>(&self, soft: &Softness) -> Option<Both<N>> {
         in_lanes(DepthOf::<N> { section: self, soft })
     }
 
-    /// Where the patch lies, given the normal of each ray of a gear in rows of a placement.
+    /// Contact patch of the section. `normal` returns the normal of a ray of a gear in the rows of a placement.
     pub fn patch(&self, soft: &Softness, normal: impl Fn(usize, usize) -> Vector3<f64>) -> Option<Patch> {
         let depth = self.depth::<0>(soft)?.v;
         let before = Corner::default();

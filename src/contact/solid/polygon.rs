@@ -1,4 +1,5 @@
-//! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
+//! Flanks as polygons in the plane of projection: projected rays and facets, and the overlap of two flanks at a
+//! position.
 
 use super::turned::{Both, Single, Twin};
 use super::{SineCosine, TurningRay};
@@ -7,19 +8,19 @@ use crate::numeric::sqrt;
 /// A ray in the plane of projection.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProjectedRay<const N: usize> {
-    /// Place along the flank [rad].
+    /// Position along the flank [rad].
     pub u: Single<N>,
     /// Height [rad] and n_h √(1 + u² + h²).
     level: Twin<N>,
 }
 
-/// A pair of parts of a ray of a tooth at the angle given.
+/// A pair of components of a ray of a tooth at the given angle.
 #[inline(always)]
 fn parts<const N: usize>(ray: &TurningRay, pair: usize, angle: SineCosine) -> Twin<N> {
     Twin::turning(ray.sine[pair], ray.cosine[pair], ray.fixed[pair], angle)
 }
 
-/// Place along the flank of a ray of a tooth at the angle given [rad].
+/// Position along the flank of a ray of a tooth at the given angle [rad].
 #[inline(always)]
 pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
     let ((across, _), (toward, _)) = (parts(ray, 0, angle).parts(), parts(ray, 1, angle).parts());
@@ -27,7 +28,7 @@ pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
 }
 
 impl<const N: usize> ProjectedRay<N> {
-    /// `ray` of a tooth at the angle given.
+    /// Projects `ray` of a tooth at the given angle.
     #[inline(always)]
     pub fn new(ray: &TurningRay, angle: SineCosine) -> Self {
         let (toward, normal) = parts(ray, 1, angle).parts();
@@ -41,7 +42,7 @@ impl<const N: usize> ProjectedRay<N> {
     }
 }
 
-/// A facet in the plane of projection: height and metric of its points are linear in their places.
+/// A facet in the plane of projection. The height and metric of its points are linear in their positions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProjectedFacet<const N: usize> {
     at_zero: Twin<N>,
@@ -55,13 +56,13 @@ impl<const N: usize> ProjectedFacet<N> {
         self.slope.parts().0.v
     }
 
-    /// Height at the place `u`.
+    /// Height at the position `u`.
     #[inline(always)]
     pub fn height(&self, u: f64) -> f64 {
         self.at_zero.parts().0.v + self.slope() * u
     }
 
-    /// Facet between neighbouring rays.
+    /// Returns the facet between two neighbouring rays.
     #[inline(always)]
     pub fn new(from: &ProjectedRay<N>, to: &ProjectedRay<N>) -> Self {
         let length = to.u - from.u;
@@ -70,18 +71,18 @@ impl<const N: usize> ProjectedFacet<N> {
     }
 }
 
-/// How the overlap at a corner of one gear is measured: along the normal of its mate at its own tip, along its own at the
-/// mate's. The own angle is the first variable.
+/// Direction in which the overlap at a corner of one gear is measured: along the mate's normal at the corner's own tip,
+/// along the corner's own normal at the mate's tip. The corner's own angle is the first variable.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure<const N: usize> {
-    /// The own tip [rad].
+    /// Position of the own tip [rad].
     tip: Single<N>,
-    /// Reciprocal of the way from there to the mate's tip [1/rad].
+    /// Reciprocal of the distance from the own tip to the mate's tip [1/rad].
     per_length: Both<N>,
 }
 
 impl<const N: usize> Measure<N> {
-    /// For corners of planet and side gear, whose tips are at the places `planet` and `side`.
+    /// Returns the measures for corners of planet and side gear, whose tips are at the positions `planet` and `side`.
     #[inline(always)]
     pub fn of_both(planet: Single<N>, side: Single<N>) -> [Self; 2] {
         let length = Both::of_first(side).exchanged() - Both::of_first(planet);
@@ -90,8 +91,8 @@ impl<const N: usize> Measure<N> {
         [Self { tip: planet, per_length }, Self { tip: side, per_length: per_length.exchanged() * -1.0 }]
     }
 
-    /// Overlap at the ray `own` of the side gear over the facet `mate`, or with rays and facets exchanged its negative; and
-    /// the height of the facet there [rad].
+    /// Overlap at the ray `own` of the side gear over the facet `mate`, and the height of the facet at this ray [rad].
+    /// For a ray of the planet, the overlap has the opposite sign.
     #[inline(always)]
     pub fn overlap(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
         let (height, metric) = mate.slope.linear(mate.at_zero, own.u);

@@ -1,12 +1,12 @@
-//! Numbers that depend on how far both gears of a pair are turned, with exact derivatives.
-//!
-//! What belongs to one gear depends on the angle of that gear alone: it carries one slope and one curvature. What
-//! follows from both carries two slopes and three curvatures. Formulas are written once; `N` is the highest order of
-//! derivative that is computed, and values and slopes have the same bits at any order.
+//! Numbers that depend on the angles of both gears of a pair, with exact derivatives.
+//! //!
+//! A quantity of one gear depends only on the angle of that gear, so it has one slope and one curvature. A quantity of
+//! both gears has two slopes and three curvatures. Formulas are written once. `N` is the highest order of derivative
+//! that is computed; values and slopes have the same bits at any order.
 
 use std::ops::{Add, Mul, Sub};
 
-/// Depends on the angle of one gear.
+/// A number that depends on the angle of one gear.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Single<const N: usize> {
     /// Value.
@@ -17,18 +17,19 @@ pub struct Single<const N: usize> {
     pub dd: f64,
 }
 
-/// Depends on two variables: the angles of planet and side gear, unless said otherwise.
+/// A number that depends on two variables: the angles of planet and side gear, unless stated otherwise.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Both<const N: usize> {
     /// Value.
     pub v: f64,
     /// First derivatives.
     pub d: [f64; 2],
-    /// Second derivatives: by the first variable twice, by both, by the second twice.
+    /// Second derivatives: twice with respect to the first variable, with respect to both, twice with respect to the
+    /// second.
     pub dd: [f64; 3],
 }
 
-/// Two numbers that depend on the angle of the same gear, side by side.
+/// Two numbers that depend on the angle of the same gear, computed together.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Twin<const N: usize> {
     v: [f64; 2],
@@ -48,13 +49,13 @@ pub struct Partials {
 }
 
 impl<const N: usize> Single<N> {
-    /// A value with its derivatives.
+    /// Returns a value with its derivatives.
     #[inline(always)]
     pub fn new(v: f64, d: f64, dd: f64) -> Self {
         Self { v, d: if N > 0 { d } else { 0.0 }, dd: if N > 1 { dd } else { 0.0 } }
     }
 
-    /// f(self), given f and its first two derivatives there.
+    /// f(self), given the values of f and its first two derivatives.
     #[inline(always)]
     pub fn through(self, f: [f64; 3]) -> Self {
         Self::new(f[0], f[1] * self.d, f[1] * self.dd + f[2] * self.d * self.d)
@@ -87,7 +88,7 @@ impl<const N: usize> Sub for Single<N> {
 
 impl<const N: usize> Mul for Single<N> {
     type Output = Self;
-    // the product rule adds
+    // the product rule needs additions
     #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
@@ -97,7 +98,7 @@ impl<const N: usize> Mul for Single<N> {
 }
 
 impl<const N: usize> Twin<N> {
-    /// Values with their derivatives.
+    /// Returns values with their derivatives.
     #[inline(always)]
     pub fn new(v: [f64; 2], d: [f64; 2], dd: [f64; 2]) -> Self {
         Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 2] } }
@@ -110,13 +111,13 @@ impl<const N: usize> Twin<N> {
         Self::new(plus(turning, fixed), less(times(sine, c), times(cosine, s)), times(turning, -1.0))
     }
 
-    /// Two numbers.
+    /// Combines two numbers.
     #[inline(always)]
     pub fn of(a: Single<N>, b: Single<N>) -> Self {
         Self { v: [a.v, b.v], d: [a.d, b.d], dd: [a.dd, b.dd] }
     }
 
-    /// Both numbers.
+    /// Returns both numbers.
     #[inline(always)]
     pub fn parts(self) -> (Single<N>, Single<N>) {
         let part = |i: usize| Single { v: self.v[i], d: self.d[i], dd: self.dd[i] };
@@ -140,7 +141,8 @@ impl<const N: usize> Twin<N> {
         Self::new(times(self.v, x.v), d, dd)
     }
 
-    /// `at_zero` + self·x with x of the other gear, whose angle is the first variable of both results.
+    /// `at_zero` + self·x, where x belongs to the other gear. The angle of that gear is the first variable of both
+    /// results.
     #[inline(always)]
     pub fn linear(self, at_zero: Self, x: Single<N>) -> (Both<N>, Both<N>) {
         let v = plus(at_zero.v, times(self.v, x.v));
@@ -175,25 +177,25 @@ fn times(a: [f64; 2], x: f64) -> [f64; 2] {
 }
 
 impl<const N: usize> Both<N> {
-    /// A value with its derivatives.
+    /// Returns a value with its derivatives.
     #[inline(always)]
     pub fn new(v: f64, d: [f64; 2], dd: [f64; 3]) -> Self {
         Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 3] } }
     }
 
-    /// What depends on the first variable alone.
+    /// Returns a number that depends only on the first variable.
     #[inline(always)]
     pub fn of_first(x: Single<N>) -> Self {
         Self::new(x.v, [x.d, 0.0], [x.dd, 0.0, 0.0])
     }
 
-    /// The same with both variables exchanged.
+    /// Exchanges both variables.
     #[inline(always)]
     pub fn exchanged(self) -> Self {
         Self::new(self.v, [self.d[1], self.d[0]], [self.dd[2], self.dd[1], self.dd[0]])
     }
 
-    /// self·x with x of the first variable.
+    /// self·x, where x depends on the first variable.
     #[inline(always)]
     pub fn times_first(self, x: Single<N>) -> Self {
         Self::new(
@@ -207,13 +209,13 @@ impl<const N: usize> Both<N> {
         )
     }
 
-    /// self + x with x of the first variable.
+    /// self + x, where x depends on the first variable.
     #[inline(always)]
     pub fn plus_first(self, x: Single<N>) -> Self {
         Self::new(self.v + x.v, [self.d[0] + x.d, self.d[1]], [self.dd[0] + x.dd, self.dd[1], self.dd[2]])
     }
 
-    /// self − x with x of the first variable.
+    /// self − x, where x depends on the first variable.
     #[inline(always)]
     pub fn less_first(self, x: Single<N>) -> Self {
         Self::new(self.v - x.v, [self.d[0] - x.d, self.d[1]], [self.dd[0] - x.dd, self.dd[1], self.dd[2]])
@@ -230,7 +232,7 @@ impl<const N: usize> Both<N> {
         Self::new(v, d, [dd(0), dd(1), dd(2)])
     }
 
-    /// f(self), given f and its first two derivatives there.
+    /// f(self), given the values of f and its first two derivatives.
     #[inline(always)]
     pub fn through(self, f: [f64; 3]) -> Self {
         let half = 0.5 * f[2];
@@ -239,7 +241,7 @@ impl<const N: usize> Both<N> {
         Self::new(f[0], [f[1] * self.d[0], f[1] * self.d[1]], [dd(0), dd(1), dd(2)])
     }
 
-    /// f(a, b), given f and its derivatives there.
+    /// f(a, b), given the values of f and its derivatives.
     #[inline(always)]
     pub fn through_both(a: Self, b: Self, f: &Partials) -> Self {
         let (aa, ab, bb) = (products(&a.d, &a.d), products(&a.d, &b.d), products(&b.d, &b.d));
@@ -250,7 +252,7 @@ impl<const N: usize> Both<N> {
     }
 }
 
-/// Twice the products of first derivatives, in the order of the second.
+/// Twice the products of first derivatives, in the order of the second derivatives.
 #[inline(always)]
 fn products(a: &[f64; 2], b: &[f64; 2]) -> [f64; 3] {
     [2.0 * a[0] * b[0], a[0] * b[1] + a[1] * b[0], 2.0 * a[1] * b[1]]
@@ -276,7 +278,7 @@ impl<const N: usize> Sub for Both<N> {
 
 impl<const N: usize> Mul for Both<N> {
     type Output = Self;
-    // the product rule adds
+    // the product rule needs additions
     #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
@@ -299,7 +301,7 @@ impl<const N: usize> Mul<f64> for Both<N> {
 mod tests {
     use super::*;
 
-    /// A formula of a planet's angle x and a side gear's angle y with every operation.
+    /// A formula of a planet's angle x and a side gear's angle y that uses every operation.
     fn formula<const N: usize>(x: f64, y: f64) -> Both<N> {
         let planet = Single::<N>::new(x * x * x, 3.0 * x * x, 6.0 * x);
         let side = Single::<N>::new(1.0 / y, -1.0 / (y * y), 2.0 / (y * y * y));

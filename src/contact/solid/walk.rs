@@ -1,50 +1,50 @@
-//! Walks along both polygons of a section, corner by corner, as far as their overlap contributes to the load.
+//! Walks along both polygons of a section, corner by corner, as long as the overlap contributes to the load.
 
 use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
 use super::turned::Both;
 use super::{SineCosine, Softness, TurningRay};
 
-/// Least ratio of the flanks' distance to their height difference where they touch.
-const LEAST_METRIC: f64 = 0.8;
+/// Smallest ratio of the flanks' distance to their height difference near contact.
+const MIN_METRIC: f64 = 0.8;
 
 /// A corner of one flank over a facet of the other.
 #[derive(Clone, Copy, Default)]
 pub struct Corner<const N: usize> {
-    /// Place [rad].
+    /// Position [rad].
     pub u: Both<N>,
     /// Overlap [rad].
     pub overlap: Both<N>,
-    /// The gear of the facet.
+    /// Gear to which the facet belongs.
     pub mate: usize,
-    /// The lower ray of the facet.
+    /// Lower ray of the facet.
     pub ray: usize,
-    /// Height of the facet there [rad].
+    /// Height of the facet at the corner [rad].
     pub height: f64,
 }
 
-/// A visitor of the corners that the walks pass.
+/// Visitor of the corners that the walks pass.
 pub trait Follow<const N: usize> {
-    /// A walk begins at this corner; both walks begin at the same one.
+    /// Starts a walk at this corner. Both walks start at the same corner.
     fn begin(&mut self, at: &Corner<N>);
-    /// The next corner.
+    /// Passes the next corner.
     fn pass(&mut self, at: &Corner<N>);
 }
 
-/// How far a walk along both polygons has come.
+/// State of a walk along both polygons.
 struct Walk<'a, const N: usize> {
     section: &'a FlankSection<'a>,
     measures: &'a [Measure<N>; 2],
-    /// Direction: 1 to higher places, −1 to lower ones.
+    /// Direction: 1 toward higher positions, −1 toward lower positions.
     sense: f64,
-    /// The facets of planet and side gear at the present place.
+    /// Facets of planet and side gear at the present position.
     facets: [ProjectedFacet<N>; 2],
-    /// The rays at which these facets end, and their numbers.
+    /// Rays at which these facets end, and their indices.
     ahead: [ProjectedRay<N>; 2],
     index: [usize; 2],
 }
 
 impl<const N: usize> Walk<'_, N> {
-    /// The next corner, with the gear to which it belongs.
+    /// Returns the next corner, and the gear to which it belongs.
     #[inline(always)]
     fn corner(&self) -> (usize, Corner<N>) {
         let own = usize::from((self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0);
@@ -56,7 +56,7 @@ impl<const N: usize> Walk<'_, N> {
         (own, Corner { u, overlap, mate, ray, height })
     }
 
-    /// Passes the next corner, of gear `own`; `false` where its flank ends.
+    /// Passes the next corner, of gear `own`. Returns false if the flank of this gear ends.
     #[inline(always)]
     fn advance(&mut self, own: usize) -> bool {
         let i = self.index[own].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
@@ -72,9 +72,9 @@ impl<const N: usize> Walk<'_, N> {
 pub struct FlankSection<'a> {
     /// Rays of planet (from tip to root) and side gear (from root to tip).
     pub rays: [&'a [TurningRay]; 2],
-    /// Angles of their teeth.
+    /// Angles of the teeth of planet and side gear.
     pub angles: [SineCosine; 2],
-    /// Where to begin: numbers of the rays that would be closest on exact flanks.
+    /// Start of the walks: indices of the rays that would be closest on exact flanks.
     pub start: [f64; 2],
 }
 
@@ -84,7 +84,8 @@ impl FlankSection<'_> {
         self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, self.angles[gear]))
     }
 
-    /// The rays on both sides of the place `u` on a flank, and the number of the lower one; `None` off the flank.
+    /// Rays on both sides of the position `u` on a flank, and the index of the lower ray. `None` if `u` is outside the
+    /// flank.
     #[inline(always)]
     fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
         let last = self.rays[gear].len().checked_sub(2)?;
@@ -106,8 +107,9 @@ impl FlankSection<'_> {
         Some((i, rays))
     }
 
-    /// Walks twice from a place inside both flanks along the corners that contribute: first in the direction in which the overlap
-    /// grows, then from the same corner in the other. `None` where the flanks are apart.
+    /// Walks along the contributing corners in both directions from a position inside both flanks. The first walk
+    /// follows the direction in which the overlap grows; the second starts at the same corner in the other direction.
+    /// Returns `None` if the flanks are apart.
     #[inline(always)]
     pub fn walk<const N: usize>(&self, soft: &Softness, follow: &mut impl Follow<N>) -> Option<()> {
         let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
@@ -117,9 +119,9 @@ impl FlankSection<'_> {
         let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);
         let facets = [ProjectedFacet::new(&planet.1[0], &planet.1[1]), ProjectedFacet::new(&side.1[0], &side.1[1])];
         let grows_up = facets[0].slope() > facets[1].slope();
-        // between convex flanks the overlap grows fastest at first
+        // between convex flanks, the overlap initially grows fastest
         let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
-        let (reach, least) = (soft.deep(), -soft.excess / LEAST_METRIC);
+        let (reach, least) = (soft.deep(), -soft.excess / MIN_METRIC);
         let farthest = facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room;
         if farthest.is_nan() || farthest <= least {
             return None;
@@ -145,7 +147,7 @@ impl FlankSection<'_> {
                     greatest = at.overlap.v;
                     floor = floor_of(greatest);
                 }
-                // between convex flanks the overlap has a single maximum
+                // between convex flanks, the overlap has a single maximum
                 goes_on = at.overlap.v >= floor && walk.advance(own);
             }
             if greatest.is_nan() || greatest <= least {

@@ -1,32 +1,33 @@
-//! Range of the beam formulas: the part of the path, and of the way of a tip corner, on which both teeth act as beams.
+//! Validity range of the beam formulas: the part of the path, and of a tip corner's travel, on which both teeth are
+//! beams.
 
 use super::SectionPair;
 use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
 
-/// Least thickness of a tooth along the load [modules].
-const LEAST_DEPTH: f64 = 0.05;
+/// Smallest thickness of a tooth along the load [modules].
+const MIN_DEPTH: f64 = 0.05;
 /// Largest angle of the load to the chord [rad].
 const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
 /// The load may cross the middle of the tooth at most this far below the root section [root chords].
 const BELOW_ROOT: f64 = 0.25;
-/// Steps of the searches.
+/// Number of steps of the searches.
 const SEARCH: usize = 128;
-/// Least length of the part on which both teeth act as beams [base pitches].
-pub const LEAST_RANGE: f64 = 0.02;
+/// Smallest length of the range on which both teeth are beams [base pitches].
+pub const MIN_RANGE: f64 = 0.02;
 
-/// Parameters of the dedenda of planet and side gear.
+/// Parameters for the dedenda of planet and side gear.
 pub const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
 const ADDENDUM: [&str; 2] = ["geometry.planet_addendum", "geometry.side_addendum"];
 
-/// The parameter to change if a tooth is not a beam under a load at the roll lengths `rolls` [m].
+/// Returns the parameter to change if a tooth is not a beam under a load at the roll lengths `rolls` [m].
 fn parameter_at_fault(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static str> {
     for (i, tooth) in teeth.sections.iter().enumerate() {
         let load = tooth.load(rolls[i]);
         if rolls[i] <= 0.0 {
             return Some(ADDENDUM[1 - i]);
         }
-        if load.depth < LEAST_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
+        if load.depth < MIN_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
             return Some(ADDENDUM[i]);
         }
         if load.lever < -BELOW_ROOT * tooth.root_chord {
@@ -36,22 +37,22 @@ fn parameter_at_fault(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static s
     None
 }
 
-/// Whether both teeth are beams under a load at the roll lengths `rolls` [m].
+/// True if both teeth are beams under a load at the roll lengths `rolls` [m].
 pub fn are_beams(teeth: &SectionPair, rolls: [f64; 2]) -> bool {
     parameter_at_fault(teeth, rolls).is_none()
 }
 
-/// Place of step `j` of a search on `range`.
+/// Position of step `j` of a search on `range`.
 fn between(range: [f64; 2], j: usize) -> f64 {
     range[0] + (range[1] - range[0]) * j as f64 / SEARCH as f64
 }
 
-/// Evenly spaced places on `range`, both ends included.
+/// Evenly spaced positions on `range`, including both ends.
 pub fn places(range: [f64; 2]) -> impl Iterator<Item = f64> {
     (0..=SEARCH).map(move |j| between(range, j))
 }
 
-/// Boundary of `fits` between `inside` (true) and `outside` (false), by bisection. `fits` holds at the result.
+/// Boundary of `fits` between `inside` (true) and `outside` (false), found by bisection. `fits` is true at the result.
 pub fn boundary(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..50 {
         let half = 0.5 * (inside + outside);
@@ -60,8 +61,8 @@ pub fn boundary(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -
     inside
 }
 
-/// The longest part of `path` [rad] on which both teeth act as beams. Fails with the parameter to change if that part is
-/// shorter than `LEAST_RANGE`.
+/// Longest part of `path` [rad] on which both teeth are beams. Fails with the parameter to change if this part is
+/// shorter than `MIN_RANGE`.
 pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
     let fits = |s: f64| are_beams(teeth, teeth.rolls(s * outer_cone));
     let mut best = [0.0, 0.0];
@@ -82,11 +83,12 @@ pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f
         }
         j += 1;
     }
-    if best[1] - best[0] < LEAST_RANGE * base_pitch {
+    if best[1] - best[0] < MIN_RANGE * base_pitch {
         let middle = between(path, SEARCH / 2) * outer_cone;
         return Err(problem!(
             parameter_at_fault(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),
-            "the beam formulas hold on only {:.3} base pitches of the path: the teeth are pointed, or touch at their roots",
+            "the beam formulas are valid on only {:.3} base pitches of the path: \
+             the teeth are pointed or touch at their roots",
             (best[1] - best[0]) / base_pitch
         ));
     }

@@ -1,8 +1,9 @@
 //! Bending and shear of a loaded tooth as functions of the height y at which the load crosses the tooth's middle.
 //!
 //! With the chord s of the profile, integrals from the root section to y:
-//! B = ∫(y−y')²/s³ dy', T = ∫(y−y')/s³ dy', M = ∫dy'/s³, S = ∫dy'/s. One pass over the profile stores them at the ends of short
-//! panels. At y + h, B is B + 2hT + h²M plus the integral over h. A load therefore costs one panel instead of the whole profile.
+//! B = ∫(y−y')²/s³ dy', T = ∫(y−y')/s³ dy', M = ∫dy'/s³, S = ∫dy'/s. One pass over the profile stores them at the ends
+//! of short panels. At y + h, B is B + 2hT + h²M plus the integral over h. A load therefore needs one panel instead of
+//! the whole profile.
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ const RISE: f64 = 1.0 / 16.0;
 /// Smallest number of panels of a span.
 const PANELS: f64 = 32.0;
 /// Chord of a pointed tooth at which the last panel ends [root chords].
-const LEAST_CHORD: f64 = 1.0 / 64.0;
+const MIN_CHORD: f64 = 1.0 / 64.0;
 /// Largest number of Newton steps. Three suffice for a load on the flank.
 const STEPS: usize = 16;
 /// A Newton step below this fraction of a panel leaves an error of its square.
@@ -31,7 +32,8 @@ struct Sums {
     shear: f64,
 }
 
-/// Short part of the profile: parameters and heights [m] of its ends, and the integrals from the root section to its lower end.
+/// Short part of the profile: parameters and heights [m] of its ends, and the integrals from the root section to its
+/// lower end.
 #[derive(Clone, Copy, Debug)]
 struct Panel {
     piece: Piece,
@@ -62,7 +64,7 @@ impl Panel {
         sums
     }
 
-    /// Parameter at the height `y` [m], by Newton's method. Above the panel it is that of the same piece.
+    /// Parameter at the height `y` [m], by Newton's method. Above the panel, it is a parameter of the same piece.
     fn parameter(&self, y: f64) -> f64 {
         let ([from, to], [low, high]) = (self.u, self.heights);
         let mut u = from + (to - from) * (y - low) / (high - low);
@@ -85,14 +87,14 @@ pub struct Bending {
 }
 
 impl Bending {
-    /// Integrals over the profile `spans`, from the root section of the chord `root_chord` [m] up.
+    /// Integrates over the profile `spans`, from the root section with the chord `root_chord` [m] upward.
     pub fn new(spans: &[Span], root_chord: f64) -> Self {
         let (mut panels, mut below) = (Vec::new(), Sums::default());
         for &Span { piece, from, to } in spans {
             let (mut u, mut point) = (from, piece.at(from));
-            while u < to && 2.0 * point.half_chord > LEAST_CHORD * root_chord {
+            while u < to && 2.0 * point.half_chord > MIN_CHORD * root_chord {
                 let longest = (u + (to - from) / PANELS).min(to);
-                // on a base circle the flank does not rise at first
+                // on a base circle, the flank does not rise at first
                 let next = longest.min(u + RISE * 2.0 * point.half_chord / piece.at(longest).rise);
                 let above = piece.at(next);
                 let panel = Panel { piece, u: [u, next], heights: [point.height, above.height], below };

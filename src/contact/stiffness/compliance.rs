@@ -1,13 +1,15 @@
-//! Compliance of a loaded tooth pair per unit of width: bending, shear, compression and root of both teeth, and Hertz.
-//!
+//! Compliance of a loaded tooth pair per unit of width: bending, shear, compression and root of both teeth, and
+//! Hertzian contact.
+//! //!
 //! C. Weber, K. Banaschek: Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern (1953), in plane
-//! strain: E' = E/(1−ν²), ν' = ν/(1−ν). With the chord s(y) of the true profile, fillet included, and the load at an
-//! angle τ to the chord, crossing the tooth's middle at y_c, a lever l above the root section of chord s_F:
-//!
+//! strain: E' = E/(1−ν²), ν' = ν/(1−ν). s(y) is the chord of the true profile, including the fillet. The load is at an
+//! angle τ to the chord and crosses the tooth's middle at y_c, at a lever l above the root section with the chord s_F:
+//! //!
 //! q = cos²τ/E' { 12∫(y_c−y)²/s³ dy + (2.4(1+ν') + tan²τ)∫dy/s
-//!     + 18/π (l/s_F)² + 2(1−ν') l/s_F + 4.8/π (1 + tan²τ/(2.4(1+ν'))) }, integrals from y₀ to y_c.
+//! + 18/π (l/s_F)² + 2(1−ν') l/s_F + 4.8/π (1 + tan²τ/(2.4(1+ν'))) }, integrals from y₀ to y_c.
 //!
-//! Hertz between the flank and the teeth's middles at depths t₁, t₂, w the load per width, b half the width of contact:
+//! The Hertz part is the approach between the flank and the teeth's middles at depths t₁, t₂. With the load per width w
+//! and half the contact width b,
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
 use super::{FlankLoad, ToothSection};
@@ -37,11 +39,11 @@ impl Elasticity {
 /// Compliances of a tooth pair per unit of width [1/Pa], and its contact.
 #[derive(Clone, Copy, Debug)]
 pub struct PairCompliance {
-    /// Teeth q₁, q₂ [1/Pa].
+    /// Compliances of the teeth q₁, q₂ [1/Pa].
     pub gear: [f64; 2],
-    /// Hertz q_H [1/Pa].
+    /// Hertz compliance q_H [1/Pa].
     pub local: f64,
-    /// Half the width of contact b [m].
+    /// Half the contact width b [m].
     pub half_width: f64,
 }
 
@@ -70,8 +72,8 @@ impl ToothSection {
         cos_squared / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_squared) * shear + root)
     }
 
-    /// The same of the tooth alone, on a root that does not give way. Bending and compression are those of plane strain times
-    /// `softening`.
+    /// Compliance of the tooth [1/Pa] without its root, which is rigid. Bending and compression in plane strain are
+    /// multiplied by `softening`.
     pub fn beam_compliance(&self, roll: f64, elasticity: &Elasticity, softening: f64) -> f64 {
         let load = self.load(roll);
         let nu = elasticity.poisson / (1.0 - elasticity.poisson);
@@ -81,24 +83,24 @@ impl ToothSection {
             * (softening * (12.0 * bending + tan_squared * shear) + 2.4 * (1.0 + nu) * shear)
     }
 
-    /// ∫(y_c−y)²/s³ dy and ∫dy/s from the root section to where `load` crosses the middle.
+    /// ∫(y_c−y)²/s³ dy and ∫dy/s from the root section to the point at which `load` crosses the middle.
     fn beam(&self, load: &FlankLoad) -> [f64; 2] {
         if load.lever < 0.0 {
-            // a load that crosses the middle below the root section relieves a tooth of constant chord
+            // a load that crosses the middle below the root section is extrapolated with a tooth of constant chord
             let share = load.lever / self.root_chord;
             return [share * share * share / 3.0, share];
         }
         self.bending.at(load.height)
     }
 
-    /// cos²τ and tan²τ of `load`, as y_c = r_b/cosτ.
+    /// cos²τ and tan²τ of `load`, from y_c = r_b/cosτ.
     fn squares(&self, load: &FlankLoad) -> (f64, f64) {
         let per_cosine = load.height / self.base_radius;
         (1.0 / (per_cosine * per_cosine), (per_cosine - 1.0) * (per_cosine + 1.0))
     }
 }
 
-/// Two sections in mesh without play, and what they are made of.
+/// Two sections in mesh without backlash, with their elastic constants.
 #[derive(Clone, Debug)]
 pub struct SectionPair {
     /// Sections of gear 1 and 2.
@@ -113,7 +115,7 @@ impl SectionPair {
         [self.sections[0].pitch_roll + place, self.sections[1].pitch_roll - place]
     }
 
-    /// Compliances at `place` [m] under the load `line_load` [N/m].
+    /// Compliances at `place` [m] from the pitch point under the load `line_load` [N/m].
     pub fn at(&self, place: f64, line_load: f64) -> PairCompliance {
         self.at_rolls(self.rolls(place), line_load)
     }
@@ -128,7 +130,7 @@ impl SectionPair {
         }
     }
 
-    /// Hertz's q_H [1/Pa] at roll lengths `rolls` [m] under `line_load` [N/m].
+    /// Hertz compliance q_H [1/Pa] at roll lengths `rolls` [m] under `line_load` [N/m].
     pub fn local(&self, rolls: [f64; 2], line_load: f64) -> f64 {
         let depth = [0, 1].map(|i| self.sections[i].load(rolls[i]).depth);
         let b2 = self.half_width_squared(rolls, line_load);

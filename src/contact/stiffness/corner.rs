@@ -1,14 +1,15 @@
-//! A tip corner past the end of the path: the points of load on its own tooth and on the mating tooth.
-//!
-//! The own tooth carries at its tip. The mating tooth carries at the corner, whose polar angle φ about the mate's axis gives
-//! the arc ψ of the flank, cosφ = cosδ_b cosψ. On the path, the roll length on the section is the roll length at the pitch
-//! point plus R_e times the arc from there. A corner uses the same rule, so that both agree at the end of the path.
+//! A tip corner past the end of the path: the loaded points on its own tooth and on the mating tooth.
+//! //!
+//! The corner's own tooth is loaded at its tip. The mating tooth is loaded at the corner. The corner's polar angle φ
+//! about the mate's axis determines the arc ψ of the flank, cosφ = cosδ_b cosψ. On the path, the roll length on the
+//! section is the roll length at the pitch point plus R_e times the arc from the pitch point. A corner uses the same
+//! rule, so that both agree at the end of the path.
 
 use super::SectionPair;
-use super::beams::{LEAST_RANGE, are_beams, boundary};
+use super::beams::{MIN_RANGE, are_beams, boundary};
 use crate::geometry::{CornerTravel, Pair};
 
-/// Steps per base pitch and number of steps, in the search for the end of the corner's travel.
+/// Steps per base pitch, and number of steps, in the search for the end of the corner's travel.
 const SEARCH: (f64, i32) = (64.0, 256);
 
 /// The tip corner of gear `own` on the flank of its mate.
@@ -17,7 +18,7 @@ pub struct TipCorner {
     own: usize,
     travel: CornerTravel,
     outer_cone: f64,
-    /// Roll length of the own tooth at its tip [m].
+    /// Roll length of the corner's own tooth at its tip [m].
     tip_roll: f64,
     /// Roll length [m] and arc [rad] of the mate at the pitch point, and its roll length at its tip [m].
     mate_pitch: (f64, f64),
@@ -25,7 +26,7 @@ pub struct TipCorner {
 }
 
 impl TipCorner {
-    /// The corner of gear `own` (0 planet, 1 side gear) of `pair`, whose sections are `teeth`.
+    /// Returns the corner of gear `own` (0 planet, 1 side gear) of `pair`, whose sections are `teeth`.
     pub fn new(pair: &Pair, teeth: &SectionPair, own: usize) -> Self {
         let (travel, mate) = (CornerTravel::new(pair, own), 1 - own);
         let mate_pitch = (teeth.sections[mate].pitch_roll, pair.pitch_arc[mate]);
@@ -39,12 +40,12 @@ impl TipCorner {
         }
     }
 
-    /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
+    /// End of the path at this corner, as an arc from the pitch point toward the corner's own tip [rad].
     pub fn end(&self) -> f64 {
         self.travel.end
     }
 
-    /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad].
+    /// Arc ψ of the mate's flank at the corner, at Δ = `delta` [rad].
     pub fn mate_arc(&self, delta: f64) -> f64 {
         self.travel.mate_arc(delta)
     }
@@ -55,8 +56,8 @@ impl TipCorner {
         if self.own == 0 { [self.tip_roll, mate] } else { [mate, self.tip_roll] }
     }
 
-    /// Distance past the end of the path up to which the corner is on its mate's flank and both teeth are beams [rad]; 0 if
-    /// less than `LEAST_RANGE`.
+    /// Distance past the end of the path up to which the corner is on its mate's flank and both teeth are beams [rad].
+    /// It is 0 if it is less than `MIN_RANGE`.
     pub fn length(&self, teeth: &SectionPair, base_pitch: f64) -> f64 {
         let fits = |delta: f64| {
             let rolls = self.rolls(delta);
@@ -65,6 +66,6 @@ impl TipCorner {
         let step = |j: i32| base_pitch / SEARCH.0 * f64::from(j);
         let last = (1..=SEARCH.1).take_while(|&j| fits(step(j))).last().unwrap_or(0);
         let length = if last == SEARCH.1 { step(last) } else { boundary(step(last), step(last + 1), fits) };
-        if length < LEAST_RANGE * base_pitch { 0.0 } else { length }
+        if length < MIN_RANGE * base_pitch { 0.0 } else { length }
     }
 }

@@ -1,14 +1,14 @@
-//! Two laws of a tooth pair from its compliance: linear, or with a Hertz part that depends on the load.
-//!
-//! Slices of a straight bevel pair are similar, so with a line load w = ωR the deflection is Rp at every R, and
-//! p = ω q(ω, s), q = Q(s) − B ln(ω/ω₀), as the Hertz half-width b grows with √ω; Q is the compliance at ω₀. Both laws
-//! give the elastic response per ∫R²dR, with the energy Φ: multiplied by (R_e³ − R_i³)/3 it is that of the pair, torque
-//! ω∫R²dR.
-//!
+//! Two laws of a tooth pair derived from its compliance: linear, or with a Hertz part that depends on the load.
+//! //!
+//! Slices of a straight bevel pair are similar, so with a line load w = ωR the deflection is Rp at every R. The arc is
+//! p = ω q(ω, s) with q = Q(s) − B ln(ω/ω₀), because the Hertz half-width b grows with √ω. Q is the compliance at ω₀.
+//! Both laws return the elastic response per ∫R²dR, with the energy Φ. Multiplied by (R_e³ − R_i³)/3, it is the
+//! response of the pair, with the torque ω∫R²dR.
+//! //!
 //! * [`Line`]: q at a fixed load, Φ = p²/2q.
-//! * [`LineWeber`]: with v = q/B the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
-//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, where b exceeds half the depth to
-//!   the teeth's middles and the logarithm has no meaning, p(ω) continues along its tangent.
+//! * [`LineWeber`]: with v = q/B, the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
+//! Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, p(ω) continues along its
+//! tangent, because b exceeds half the depth to the teeth's middles and the logarithm is meaningless.
 
 use std::sync::Arc;
 
@@ -16,16 +16,16 @@ use super::table::ComplianceTable;
 use crate::contact::{Elastic, Spring};
 use crate::numeric::Jet;
 
-/// Compliance constant in load: Hertz's part is that of a reference load.
+/// Compliance independent of the load: its Hertz part is that of a reference load.
 #[derive(Clone, Debug)]
 pub struct Line {
     pub(super) table: Arc<ComplianceTable>,
-    /// q at the reference load less Q, at every place alike [1/Pa].
+    /// Compliance q at the reference load minus Q, the same at every position [1/Pa].
     pub(super) shift: f64,
 }
 
 impl Line {
-    /// Compliance q at place `s` [1/Pa].
+    /// Compliance q at position `s` [1/Pa].
     pub fn compliance(&self, s: f64) -> f64 {
         self.table.at(s).v + self.shift
     }
@@ -57,24 +57,24 @@ impl Spring for Line {
     }
 }
 
-/// Compliance whose Hertz part follows the acting load.
+/// Compliance whose Hertz part depends on the present load.
 #[derive(Clone, Debug)]
 pub struct LineWeber {
     table: Arc<ComplianceTable>,
     /// B = 2(1−ν²)/(πE) [1/Pa].
     local: f64,
-    /// ω₀, line load per cone distance up to which the logarithm holds [N/m²].
+    /// ω₀, line load per cone distance up to which the logarithm is valid [N/m²].
     limit: f64,
     per_local: f64,
     per_limit: f64,
 }
 
-/// Iterations for v at most: one suffices, near ω₀ two.
+/// Maximum number of iterations for v; one suffices, near ω₀ two.
 const ITERATIONS: usize = 4;
 /// A relative correction below this leaves an error of its fourth power.
 const CONVERGED: f64 = 1e-4;
 
-/// ln of a positive normal number within 2e-4: exponent, and a quartic in the mantissa.
+/// ln of a positive normal number within 2e-4, from the exponent and a quartic in the mantissa.
 #[inline]
 fn rough_ln(x: f64) -> f64 {
     let bits = x.to_bits();
@@ -84,8 +84,8 @@ fn rough_ln(x: f64) -> f64 {
     exponent as f64 * std::f64::consts::LN_2 + mantissa
 }
 
-/// v > 1 with v − ln v = `ratio` − ln `x` > 1: asymptotic start, then the iteration of fourth order by F. N. Fritsch,
-/// R. E. Shafer, W. P. Crowley (Algorithm 443, CACM 16, 1973), one logarithm each.
+/// v > 1 with v − ln v = `ratio` − ln `x` > 1. After an asymptotic start, the fourth-order iteration by F. N. Fritsch,
+/// R. E. Shafer, W. P. Crowley (Algorithm 443, CACM 16, 1973) needs one logarithm per step.
 #[inline]
 fn compliance_ratio(ratio: f64, x: f64) -> f64 {
     let k = ratio - rough_ln(x);
@@ -109,8 +109,8 @@ impl LineWeber {
         Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
     }
 
-    /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and compliance Q = `q` [1/Pa], the tangent dω/dp, and
-    /// whether the logarithm holds.
+    /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and compliance Q = `q` [1/Pa], and the tangent dω/dp. The
+    /// last value is true if the logarithm is valid.
     fn load(&self, p: f64, q: f64) -> (f64, f64, bool) {
         let ratio = q * self.per_local;
         let x = p * self.per_local * self.per_limit;
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rough_logarithm_is_good_for_a_start() {
+    fn the_rough_logarithm_is_accurate_enough_for_a_start() {
         for j in 0..2700 {
             let x = 1e-300 * libm::exp(0.25 * f64::from(j));
             assert!((rough_ln(x) - libm::log(x)).abs() < 2e-4, "{x:e}");

@@ -1,8 +1,9 @@
 //! Stiffness of a tooth pair from the geometry of its teeth and the elastic constants E and ν.
 //!
-//! `section` and `profile` describe the tooth, and `bending` integrates over it; `compliance` loads it, on the path and past its
-//! ends by a tip `corner`, where both teeth are `beams`; `table` and `past_end` store the result, `laws` make springs of it. All
-//! per unit of face width; slices are similar, so one section holds for all cone distances.
+//! `section` and `profile` describe the tooth, and `bending` integrates over it. `compliance` loads the tooth on the
+//! path, and past its ends at a tip `corner`, within the range in which both teeth are `beams`. `table` and `past_end`
+//! store the result, and `laws` turns it into springs. All values are per unit of face width. Slices are similar, so
+//! one section is valid for all cone distances.
 
 mod beams;
 mod bending;
@@ -29,15 +30,15 @@ use corner::TipCorner;
 use past_end::{CornerPart, PastEnd};
 use table::ComplianceTable;
 
-/// Where neither the path nor a corner on its mate's flank can carry, the stiffness becomes constant within this many base
-/// pitches.
+/// Distance within which the stiffness becomes constant if neither the path nor a corner on its mate's flank can be
+/// loaded [base pitches].
 const LEVEL: f64 = 0.1;
-/// Base pitches past the path's end over which the slope of the compliance turns into that of a corner: a third of half the
-/// width of contact under load, over which the patch runs onto the edge.
+/// Distance past the end of the path over which the slope of the compliance changes to that of a corner [base pitches].
+/// It is a third of the contact half-width under load, over which the contact patch runs onto the edge.
 const TURN: f64 = 4e-3;
-/// Half the width of contact over the depth to the teeth's middles at the limit of Hertz's logarithm.
+/// Ratio of the contact half-width to the depth to the teeth's middles at the limit of Hertz's logarithm.
 const DEEPEST: f64 = 0.5;
-/// Intervals of Simpson's rule for the mean along the path.
+/// Number of intervals of Simpson's rule for the mean along the path.
 const MEAN_INTERVALS: usize = 1024;
 
 /// Stiffness of the tooth pairs of a gear pair along the path of contact.
@@ -45,28 +46,28 @@ const MEAN_INTERVALS: usize = 1024;
 pub struct PairStiffness {
     /// Tredgold sections at the outer cone distance: planet, side gear.
     pub teeth: SectionPair,
-    /// Places on the path between which both teeth are beams [rad].
+    /// Positions on the path between which both teeth are beams [rad].
     pub range: [f64; 2],
-    /// How far past the lower and the upper end the stiffness is that of a tip corner [rad]; from there on it levels out.
+    /// Distances past both path ends within which the tip-corner stiffness applies [rad]. Beyond them it levels off.
     pub corner_range: [f64; 2],
     /// Reference line load per cone distance ω = w/R [N/m²].
     pub reference: f64,
-    /// Line load per cone distance ω₀ up to which Hertz's logarithm holds [N/m²].
+    /// Line load per cone distance ω₀ up to which Hertz's logarithm is valid [N/m²].
     pub limit: f64,
     /// Compliance Q at ω₀ [1/Pa].
     table: Arc<ComplianceTable>,
     /// Ends of the path [rad].
     pub path: [f64; 2],
-    /// R_e [m], p_b [rad].
+    /// R_e [m] and p_b [rad].
     outer_cone: f64,
     base_pitch: f64,
-    /// Corners at the lower end, the side gear's, and the upper end, the planet's.
+    /// Corner at the lower end (of the side gear) and at the upper end (of the planet).
     corners: [TipCorner; 2],
 }
 
 impl PairStiffness {
-    /// Stiffness of `pair` with roots of shape `root`, modulus `young` [Pa] and Poisson's ratio `poisson`; the linear
-    /// law takes Hertz's part at `line_load` [N/m] at the mean cone distance.
+    /// Computes the stiffness of `pair` with roots of shape `root`, Young's modulus `young` [Pa] and Poisson's ratio
+    /// `poisson`. The linear law uses the Hertz part at `line_load` [N/m] at the mean cone distance.
     pub fn new(pair: &Pair, root: &RootSpec, young: f64, poisson: f64, line_load: f64) -> Result<Self, Problem> {
         let teeth = Self::teeth(pair, root, Elasticity { young, poisson })?;
         Self::of_gears(pair, &teeth, line_load, |i, roll| teeth.sections[i].compliance(roll, &teeth.elasticity))
@@ -79,7 +80,7 @@ impl PairStiffness {
             return Err(problem!("material.young_modulus", "{young:e} Pa is not a positive number"));
         }
         if !(0.0..0.5).contains(&poisson) {
-            return Err(problem!("material.poisson_ratio", "{poisson} is not within 0 and 0.5"));
+            return Err(problem!("material.poisson_ratio", "{poisson} is not at least 0 and less than 0.5"));
         }
         if !(root.fillet > 0.0 && root.fillet.is_finite()) {
             return Err(problem!("geometry.root_fillet", "{} modules is not positive", root.fillet));
@@ -88,8 +89,8 @@ impl PairStiffness {
         Ok(SectionPair { sections: [section(0)?, section(1)?], elasticity })
     }
 
-    /// Stiffness of `pair` with the sections `teeth`, where a load at a roll length [m] of gear 0 or 1 meets the compliance
-    /// `gear` [1/Pa], Hertz's part aside.
+    /// Computes the stiffness of `pair` with the sections `teeth`. `gear` returns the compliance [1/Pa] of gear 0 or 1
+    /// without the Hertz part, at a roll length [m].
     pub fn of_gears(
         pair: &Pair,
         teeth: &SectionPair,
@@ -104,7 +105,7 @@ impl PairStiffness {
         let path = [-corners[0].end(), corners[1].end()];
         let (outer_cone, base_pitch) = (pair.outer_cone, pair.base_pitch);
         let range = beams::beams(&teeth, path, outer_cone, base_pitch)?;
-        // the corner of a tooth that is no beam where it enters the path is none past it
+        // a corner whose tooth is not a beam at the end of the path is not used past it
         let corner_range =
             [0, 1].map(|i| if range[i] == path[i] { corners[i].length(&teeth, base_pitch) } else { 0.0 });
         let limit = beams::places(range)
@@ -121,7 +122,7 @@ impl PairStiffness {
             let (corner, own) = (&corners[i], 1 - i);
             let arc = corner.mate_arc(0.0);
             let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], mate_arc_squared: arc * arc };
-            // the own tooth carries at its tip all along
+            // the corner's own tooth is always loaded at its tip
             let tip = gear(own, corner.rolls(0.0)[own]);
             PastEnd::corner(&part, end, LEVEL * base_pitch, |delta| {
                 let rolls = corner.rolls(delta);
@@ -143,9 +144,9 @@ impl PairStiffness {
         })
     }
 
-    /// Compliances and width of contact by Weber's formulas at place `s` [rad], on the path or past its ends where the corners'
-    /// are, for a line load per cone distance of `load` [N/m²]: at the outer cone distance. At R, b is R/R_e of it, the
-    /// compliances are the same.
+    /// Compliances and contact width by Weber's formulas at position `s` [rad], on the path or at the corners past its
+    /// ends, under the line load per cone distance `load` [N/m²]. Values are at the outer cone distance. At R, b is
+    /// smaller by the factor R/R_e, and the compliances are the same.
     pub fn exact(&self, s: f64, load: f64) -> PairCompliance {
         let rolls = if s < self.path[0] {
             self.corners[0].rolls(self.path[0] - s)
@@ -157,26 +158,26 @@ impl PairStiffness {
         self.teeth.at_rolls(rolls, self.outer_cone * load)
     }
 
-    /// The linear law.
+    /// Returns the linear law.
     pub fn line(&self) -> Line {
         let local = self.teeth.elasticity.local();
-        // above the limit the compliance of `LineWeber`'s tangent
+        // above the limit, use the compliance of `LineWeber`'s tangent
         let (ratio, shift) = (self.limit / self.reference, libm::log(self.limit / self.reference));
         Line { table: self.table.clone(), shift: local * if ratio >= 1.0 { shift } else { ratio - 1.0 } }
     }
 
-    /// The law with Hertz's part following the load.
+    /// Returns the law whose Hertz part depends on the load.
     pub fn line_weber(&self) -> LineWeber {
         LineWeber::new(self.table.clone(), self.teeth.elasticity.local(), self.limit)
     }
 
-    /// Stiffness c of one tooth pair per unit of width [Pa] under the reference load at place `s` [rad], any number.
+    /// Stiffness c of one tooth pair per unit of width [Pa] under the reference load at any position `s` [rad].
     pub fn at(&self, s: f64) -> f64 {
         1.0 / self.line().compliance(s)
     }
 
-    /// Mean stiffness of the mesh per unit of width c_γ = 1/p_b ∫c ds along the path [Pa] under the reference load, each
-    /// tooth pair carrying it.
+    /// Mean stiffness of the mesh per unit of width c_γ = 1/p_b ∫c ds along the path [Pa], with the reference load on
+    /// each tooth pair.
     pub fn mesh_mean(&self) -> f64 {
         let line = self.line();
         let length = self.path[1] - self.path[0];
@@ -190,7 +191,7 @@ impl PairStiffness {
     }
 }
 
-/// Line load [N/m] at the outer section at which b is `DEEPEST` of √(t₁t₂).
+/// Line load [N/m] at the outer section for which b is `DEEPEST` times √(t₁t₂).
 fn limit_line_load(teeth: &SectionPair, place: f64) -> f64 {
     let rolls = teeth.rolls(place);
     let depth = |i: usize| teeth.sections[i].load(rolls[i]).depth;

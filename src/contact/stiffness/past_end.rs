@@ -1,31 +1,32 @@
-//! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. It is that of a tip
-//! corner as far as the corner can touch, and levels out to a constant beyond.
-//!
-//! The corner moves up its mate's flank from a roll length ρ₀ on, and ρ² grows linearly with x. Near a base circle Hertz's
-//! part curves within x ≈ ρ₀², so the knots of the nearer half are evenly spaced in the eighth root of x + ρ₀². In the
-//! farther half the knots close in quadratically on the end, because the mate's tooth is thin there.
-//!
-//! At the path's end the slope jumps: the load on the own tooth stays at its tip, and the load on the mate turns back. Over a
-//! short distance a smooth step leads from the path's parabola to the corner, with four continuous derivatives.
+//! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. It is the
+//! compliance of a tip corner as far as the corner can touch, and levels off to a constant beyond.
+//! //!
+//! The corner moves up its mate's flank from a roll length ρ₀, and ρ² grows linearly with x. Near a base circle, the
+//! Hertz part curves within x ≈ ρ₀². The knots of the nearer half are therefore evenly spaced in the eighth root of x +
+//! ρ₀². In the farther half, the knots cluster quadratically at the end, because the mate's tooth is thin there.
+//! //!
+//! At the end of the path the slope jumps: the load on the corner's own tooth stays at its tip, and the load on the
+//! mate turns back. Over a short distance, a smooth step with four continuous derivatives leads from the path's
+//! parabola to the corner.
 
 use super::spline::{Cell, cells, cubic};
 use crate::numeric::{Jet, sqrt};
 
-/// Cells of each half.
+/// Number of cells of each half.
 const CELLS: usize = 512;
-/// Largest change of the value while it levels out, as a share of it: one by the slope and one by the curvature.
+/// Largest relative change of the value while it levels off: one such change from the slope and one from the curvature.
 const LEVEL_CHANGE: f64 = 0.125;
-/// Step of the differences for the slopes at both ends, as a share of the cell at the end.
+/// Step of the differences for the slopes at both ends, as a fraction of the cell at the end.
 const END_STEP: f64 = 0.25;
 
-/// The stretch past the path's end on which a tip corner touches.
+/// Range past the end of the path on which a tip corner touches.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerPart {
-    /// Distance over which the slope turns from that of the path to that of the corner [rad].
+    /// Distance over which the slope changes from that of the path to that of the corner [rad].
     pub turn: f64,
-    /// Length of the stretch [rad].
+    /// Length of the range [rad].
     pub length: f64,
-    /// Square of the mate's arc at the path's end, (ρ₀/R_e)² [rad²].
+    /// Square of the mate's arc at the end of the path, (ρ₀/R_e)² [rad²].
     pub mate_arc_squared: f64,
 }
 
@@ -39,10 +40,10 @@ pub struct PastEnd {
 
 #[derive(Clone, Debug)]
 struct CornerTable {
-    /// Value and slopes at the path's end, taken outward; their parabola has weight up to the distance `turn`.
+    /// Value and outward derivatives at the end of the path. Their parabola has weight up to the distance `turn`.
     end: Jet,
     turn: f64,
-    /// The halves meet at `middle` and end at `length`.
+    /// Distance at which the halves meet, and end of the table.
     middle: f64,
     length: f64,
     mate_arc_squared: f64,
@@ -55,7 +56,7 @@ struct CornerTable {
 /// Continuation from the value, slope and curvature at an end to a constant.
 #[derive(Clone, Copy, Debug)]
 struct Level {
-    /// Value at the end with derivatives outward.
+    /// Value at the end, with outward derivatives.
     end: Jet,
     /// Distance at which the function becomes constant.
     length: f64,
@@ -63,7 +64,7 @@ struct Level {
 
 impl Level {
     fn new(end: Jet, length: f64) -> Self {
-        // over the whole length `at` adds length/2 times the slope and length²/12 times the curvature to the value
+        // over the whole length, `at` adds length/2 times the slope and length²/12 times the curvature to the value
         let by_slope = 2.0 * LEVEL_CHANGE * end.v / end.d.abs();
         let by_curvature = sqrt(12.0 * LEVEL_CHANGE * end.v / end.dd.abs());
         Self { end, length: length.min(by_slope).min(by_curvature) }
@@ -73,7 +74,7 @@ impl Level {
         let (e, l) = (self.end, self.length);
         let u = (x / l).min(1.0);
         let v = 1.0 - u;
-        // the slope fades by f′ = (1−u)²(1+2u), the curvature by f′ = u(1−u)²; f′ and f″ of both are zero at u = 1
+        // the slope fades as f′ = (1−u)²(1+2u), the curvature as f′ = u(1−u)²; f′ and f″ of both are zero at u = 1
         let slope = [u * (1.0 - u * u * (1.0 - 0.5 * u)), v * v * (1.0 + 2.0 * u), -6.0 * u * v];
         let bend = [u * u * (0.5 - u * (2.0 / 3.0 - 0.25 * u)), u * v * v, v * (1.0 - 3.0 * u)];
         Jet {
@@ -134,12 +135,12 @@ impl CornerTable {
         } else {
             2 * CELLS - 1 - (self.cells_per_sqrt * sqrt(self.length - x)) as usize
         };
-        // rounding may give the neighbouring cell: both cubics agree at the knot
+        // rounding may select the neighbouring cell, but both cubics agree at the knot
         let corner = cubic(&self.cells[cell.min(2 * CELLS - 1)], x);
         if x < self.turn { self.turning(x, corner) } else { corner }
     }
 
-    /// Blend of the path's parabola and the value `corner` of the corner, where `x` < `turn`.
+    /// Blends the path's parabola with the corner's value `corner` for `x` < `turn`.
     fn turning(&self, x: f64, corner: Jet) -> Jet {
         let (end, step) = (&self.end, smooth_step(x, self.turn));
         let path = Jet { v: end.v + x * (end.d + 0.5 * x * end.dd), d: end.d + x * end.dd, dd: end.dd };
@@ -161,20 +162,21 @@ fn eighth_root(x: f64) -> f64 {
 }
 
 impl PastEnd {
-    /// Continuation by a corner with the positive compliance `f` along `part`, and to a constant within the distance `level`
-    /// past it. `end`: value and slopes at the path's end, taken outward.
+    /// Returns the continuation by a corner with the positive compliance `f` along `part`, and then to a constant
+    /// within the distance `level`. `end` contains the value and outward derivatives at the end of the path.
     pub fn corner(part: &CornerPart, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
         let table = CornerTable::new(part, end, f);
         let last = cubic(&table.cells[2 * CELLS - 1], part.length);
         Self { corner: Some(table), length: part.length, level: Level::new(last, level) }
     }
 
-    /// Continuation without a corner, from the value and slopes `end`, taken outward, to a constant within the distance `level`.
+    /// Returns the continuation without a corner, from the value and outward derivatives `end` to a constant within the
+    /// distance `level`.
     pub fn level(end: Jet, level: f64) -> Self {
         Self { corner: None, length: 0.0, level: Level::new(end, level) }
     }
 
-    /// Value with derivatives outward at the distance `x` ≥ 0.
+    /// Value with outward derivatives at the distance `x` ≥ 0.
     #[inline]
     pub fn at(&self, x: f64) -> Jet {
         match &self.corner {
@@ -189,11 +191,11 @@ mod tests {
     use super::*;
 
     const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, mate_arc_squared: 0.03 };
-    /// Value and slopes at the end of a path before the function below.
+    /// Value and derivatives at the end of a path, for the function below.
     const END: Jet = Jet { v: 6.873, d: 1.0, dd: -3.0 };
 
-    /// A compliance like that of a corner. The mate's arc grows as √(x + `mate_arc_squared`), and Hertz's logarithm has its pole where the
-    /// arc is zero. The logarithm of a pointed tooth has its pole a little past the end.
+    /// A compliance like that of a corner. The mate's arc grows as √(x + `mate_arc_squared`), and Hertz's logarithm has
+    /// its pole at zero arc. The logarithm of a pointed tooth has its pole a little past the end.
     fn function(mate_arc_squared: f64) -> impl Fn(f64) -> f64 {
         move |x: f64| {
             5.0 - 0.5 * libm::log(x + mate_arc_squared) - 0.1 * libm::log(0.302 - x) + crate::numeric::sin(4.0 * x)
@@ -201,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn slope_and_curvature_of_a_level_are_those_of_its_values() {
+    fn slope_and_curvature_of_a_level_match_its_values() {
         let level = Level::new(END, 0.3);
         for k in 1..100 {
             let (x, h) = (0.01 * f64::from(k) * level.length, 1e-5 * level.length);
@@ -213,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_far_from_and_near_to_its_mate_s_base_circle_is_met() {
+    fn the_table_follows_a_corner_far_from_and_near_its_mate_s_base_circle() {
         for mate_arc_squared in [0.03, 2e-4, 8e-7] {
             let (f, part) = (function(mate_arc_squared), CornerPart { mate_arc_squared, ..PART });
             let past_end = PastEnd::corner(&part, END, 0.1, &f);
@@ -250,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_corner_the_function_levels_out_within_the_given_distance() {
+    fn without_a_corner_the_function_levels_off_within_the_given_distance() {
         let past_end = PastEnd::level(END, 0.1);
         assert_eq!(past_end.at(0.0), END);
         let (before, level) = (past_end.at(0.0999), past_end.at(0.1));

@@ -1,7 +1,8 @@
 //! Half of a tooth's profile in pieces, from the root circle up: fillet, radial line, involute.
 //!
-//! The tooth stands on the y axis, its gear's axis is the origin. Each piece gives half the chord x and the height y of
-//! a point with dy/du, as a function of a parameter u in which it is smooth and y rises strictly.
+//! The tooth is centred on the y axis, and the gear's axis is the origin. Each piece returns half the chord x and the
+//! height y of a point, and dy/du. The parameter u of a piece is chosen so that the piece is smooth and y rises
+//! strictly.
 
 use crate::numeric::{sin_cos, sqrt};
 
@@ -28,8 +29,8 @@ pub enum Piece {
         /// Radius ρ [m].
         radius: f64,
     },
-    /// Fillet left by the rounded tip of a rack: u = x_c, how far the rack has rolled past the
-    /// place where the rounding's centre, the instant centre and the axis are in line.
+    /// Fillet cut by the rounded tip of a rack. u = x_c is the distance that the rack has rolled past the position at
+    /// which the rounding's centre, the instant centre and the axis are in line.
     Trochoid {
         /// Reference radius r [m].
         pitch: f64,
@@ -37,7 +38,7 @@ pub enum Piece {
         depth: f64,
         /// Tip radius ρ of the rack [m].
         radius: f64,
-        /// Distance E_c from the middle of the tooth space to that centre [m].
+        /// Distance E_c from the middle of the tooth space to the rounding's centre [m].
         offset: f64,
         /// Half pitch angle π/z [rad].
         half_pitch: f64,
@@ -47,7 +48,7 @@ pub enum Piece {
         /// Slope x/y.
         slope: f64,
     },
-    /// Involute; u is the roll length ρ, the distance to where the normal touches the base circle.
+    /// Involute; u is the roll length ρ, the distance to the point at which the normal touches the base circle.
     Involute {
         /// Base radius r_b [m].
         base: f64,
@@ -65,8 +66,9 @@ impl Piece {
                 ProfilePoint { half_chord: x - radius * c, height: y + radius * s, rise: radius * c }
             }
             Self::Trochoid { pitch, depth, radius, offset, half_pitch } => {
-                // (p, q): point of the rounding on the normal through the instant centre; turned counter-clockwise by
-                // a = (x_c − E_c)/r it stands in the frame of the gap, reflected at half a pitch in that of the tooth
+                // (p, q): point of the rounding on the normal through the instant centre. A counter-clockwise rotation
+                // by a = (x_c − E_c)/r gives the frame of the gap. Reflection at half a pitch then gives the frame of
+                // the tooth.
                 let reach = sqrt(u * u + depth * depth);
                 let (k, dk) = (1.0 + radius / reach, -radius * u / (reach * reach * reach));
                 let (p, q) = (u * k, pitch - depth * k);
@@ -86,7 +88,7 @@ impl Piece {
     }
 }
 
-/// A piece with the parameters between which it is part of the profile.
+/// A piece and its range of parameters in the profile.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     /// The piece.

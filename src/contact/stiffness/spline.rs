@@ -1,8 +1,9 @@
-//! Cubic splines through values at knots of any spacing: twice continuously differentiable, with given slopes at the ends.
+//! Cubic splines through values at knots of any spacing: twice continuously differentiable, with given slopes at the
+//! ends.
 
 use crate::numeric::Jet;
 
-/// A cell: its first knot, and the coefficients of the cubic in the distance from it.
+/// A cell: its first knot, and the coefficients of its cubic in the distance from this knot.
 pub type Cell = [f64; 5];
 
 /// Value and derivatives of the cubic of a cell at `s`.
@@ -16,7 +17,7 @@ pub fn cubic(c: &Cell, s: f64) -> Jet {
     }
 }
 
-/// The cells of the spline through `values` at `knots`, one more than cells, with the slopes `slope` at its ends.
+/// Cells of the spline through `values` at `knots`, one fewer than knots, with the slopes `slope` at its ends.
 pub fn cells<const N: usize>(knots: &[f64], values: &[f64], slope: [f64; 2]) -> Box<[Cell; N]> {
     let second = second_derivatives(knots, values, slope);
     let mut cells = Box::new([[0.0; 5]; N]);

@@ -1,14 +1,15 @@
-//! A function of the place on the path as a cubic spline, twice continuously differentiable and read in O(1).
-//!
-//! Toward a clipped end of the path the Hertz part has a logarithm and toward a pointed tip the bending has one, so in
-//! the outer quarters the knots close in quadratically on the ends: index = n √(distance). The middle half is even, and
-//! cells meet with equal widths. `past_end` continues past the ends.
+//! A function of the position on the path as a cubic spline, twice continuously differentiable and read in O(1).
+//! //!
+//! Toward a clipped end of the path the Hertz part contains a logarithm, and toward a pointed tip the bending contains
+//! one. In the outer quarters the knots therefore cluster quadratically at the ends: index = n √(distance). In the
+//! middle half they are evenly spaced, and adjacent cells at the joints have equal widths. `past_end` continues past
+//! the ends.
 
 use super::past_end::PastEnd;
 use super::spline::{Cell, cells, cubic};
 use crate::numeric::{Jet, sqrt};
 
-/// Cells in each outer quarter and in the middle half.
+/// Number of cells in each outer quarter and in the middle half.
 const CELLS: usize = 256;
 
 /// Compliance along the path of contact.
@@ -16,7 +17,7 @@ const CELLS: usize = 256;
 pub struct ComplianceTable {
     low: f64,
     high: f64,
-    /// Length of an outer quarter; cells per √length in it, and cells per length in the middle.
+    /// Length of an outer quarter, cells per √length in this quarter, and cells per length in the middle.
     quarter: f64,
     cells_per_sqrt: f64,
     per_length: f64,
@@ -25,13 +26,13 @@ pub struct ComplianceTable {
 }
 
 impl ComplianceTable {
-    /// Table of the function `f` on [`low`, `high`]. `past_end` makes the continuation past the lower (0) or the upper
-    /// end (1) from the value and the outward slopes there.
+    /// Tabulates the function `f` on [`low`, `high`]. `past_end` returns the continuation past the lower (0) or the
+    /// upper end (1) from the value and the outward derivatives at this end.
     pub fn new(low: f64, high: f64, f: impl Fn(f64) -> f64, past_end: impl Fn(usize, Jet) -> PastEnd) -> Self {
         let span = high - low;
         let knots: Vec<f64> = (0..=3 * CELLS).map(|j| low + span * share(j)).collect();
         let values: Vec<f64> = knots.iter().map(|&s| f(s)).collect();
-        // slopes at the ends by differences of fourth order: the function is known a little past them
+        // slopes at the ends from fourth-order differences, because the function is known a little past them
         let step = END_STEP * span;
         let slope =
             |s: f64| (8.0 * (f(s + step) - f(s - step)) - (f(s + 2.0 * step) - f(s - 2.0 * step))) / (12.0 * step);
@@ -50,7 +51,7 @@ impl ComplianceTable {
         }
     }
 
-    /// Value with derivatives at `s`, any finite number.
+    /// Value with derivatives at any finite `s`.
     #[inline]
     pub fn at(&self, s: f64) -> Jet {
         let (above, below) = (s - self.low, self.high - s);
@@ -68,15 +69,15 @@ impl ComplianceTable {
         } else {
             CELLS + (self.per_length * (above - self.quarter)) as usize
         };
-        // by rounding this may be the neighbouring cell, whose cubic has the same value at their common knot
+        // rounding may select the neighbouring cell, whose cubic has the same value at the common knot
         cubic(&self.cells[cell.min(3 * CELLS - 1)], s)
     }
 }
 
-/// Step of the end slopes' differences as a share of the table's length.
+/// Step of the differences for the end slopes, as a fraction of the table's length.
 const END_STEP: f64 = 1e-4;
 
-/// Where knot `j` stands between the ends.
+/// Position of knot `j` as a fraction of the table's length.
 fn share(j: usize) -> f64 {
     let part = |k: usize| k as f64 / CELLS as f64;
     if j <= CELLS {
@@ -92,7 +93,7 @@ fn share(j: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// A logarithm whose pole lies as near to the end as that of a clipped path.
+    /// A logarithm whose pole is as near to the end as for a clipped path.
     fn function(s: f64) -> f64 {
         5.0 - libm::log(s + 0.504) + crate::numeric::sin(2.0 * s)
     }
@@ -102,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_logarithm_near_the_end_is_met_within_a_millionth() {
+    fn a_logarithm_near_the_end_is_reproduced_within_a_millionth() {
         let table = table();
         let mut worst = 0f64;
         for j in 0..=10_000 {

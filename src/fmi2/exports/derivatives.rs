@@ -1,4 +1,4 @@
-//! Derivatives of inputs, of outputs, and along directions.
+//! Derivatives of inputs and outputs with respect to time, and directional derivatives.
 
 use super::*;
 use crate::instance::values::all_or_none;

@@ -32,7 +32,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _visible: Boolean,
     logging: Boolean,
 ) -> ComponentPointer {
-    // without a valid pointer to the logger there is no way to report the error
+    // without a valid pointer to the logger, the error cannot be reported
     if !callbacks.is_aligned() {
         return ptr::null_mut();
     }
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
 }
 
-/// A new instance; none, and an error in the log, if the arguments are for another FMU or of an unknown kind.
+/// Creates an instance. Logs an error and returns `None` if the arguments are for another FMU or of an unknown kind.
 fn instantiate(
     name: Option<&CStr>,
     kind: c_int,
@@ -59,7 +59,7 @@ fn instantiate(
     let named = name.filter(|n| !n.is_empty());
     let label = named.map_or_else(|| CString::new(MODEL_NAME).unwrap_or_default(), CStr::to_owned);
     let log = Log::new(HostLogger::of(callbacks, label), logging_on);
-    let made_for = match kind {
+    let requested = match kind {
         CO_SIMULATION => Some(Kind::CoSimulation),
         MODEL_EXCHANGE => Some(Kind::ModelExchange),
         _ => None,
@@ -69,9 +69,9 @@ fn instantiate(
     } else if given.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
         let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
         format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
-    } else if let (false, Some(Kind::ModelExchange)) = (FULL, made_for) {
-        "this build, for real time, is for co-simulation alone".to_owned()
-    } else if let Some(kind) = made_for {
+    } else if let (false, Some(Kind::ModelExchange)) = (FULL, requested) {
+        "this build for real-time targets supports co-simulation only".to_owned()
+    } else if let Some(kind) = requested {
         return Some(Instance::new(&INTERFACE, kind, log));
     } else {
         format!("type {kind} is neither model exchange ({MODEL_EXCHANGE}) nor co-simulation ({CO_SIMULATION})")

@@ -3,13 +3,13 @@
 use super::*;
 use crate::instance::Phase;
 
-/// fmi2DoStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
+/// fmi2DoStep. The last flag is ignored, because snapshots are complete even if the host goes back in time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(c: ComponentPointer, point: f64, size: f64, _never_back: Boolean) -> Status {
     call!(c, DoStep, |instance, _| instance.do_step(point, size))
 }
 
-/// fmi2CancelStep. Steps are synchronous, so there is never one to cancel.
+/// fmi2CancelStep. Steps are synchronous, so there is never a step to cancel.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: ComponentPointer) -> Status {
     call!(c, CancelStep, |_, _| Ok(()))
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn fmi2GetStringStatus(c: ComponentPointer, kind: c_int, v
     })
 }
 
-/// The error for an unavailable status; FMI requires fmi2Discard.
+/// Returns the error for an unavailable status. FMI requires fmi2Discard.
 fn no_such_status(kind: i32) -> CallError {
     CallError::discard(format!("the status of kind {kind} is not available"))
 }

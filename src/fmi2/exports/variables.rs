@@ -1,4 +1,4 @@
-//! Getting and setting variables.
+//! Reading and setting variables.
 
 use super::*;
 use crate::instance::values::{all_or_none, string_error};
@@ -48,7 +48,7 @@ accesses! {
     };
 }
 
-/// String variables may be read and set, but there are none.
+/// Accepts no references, because there are no String variables.
 unsafe fn no_strings(host: &HostMemory, references: *const ValueReference, count: usize) -> CallResult {
     // SAFETY: the host's promise, see the module
     let references = unsafe { host.input("vr", references, count) }?;

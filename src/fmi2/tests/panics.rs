@@ -1,5 +1,5 @@
-//! Tests: no panic leaves a call. No host can provoke a panic. So these tests enter the calls by the same function as the
-//! exports, and check in the source text that all exports use this function.
+//! Tests that no panic leaves a call. A host cannot provoke a panic. These tests therefore enter the calls by the same
+//! function as the exports. They check in the source text that all exports use this function.
 
 use std::ffi::CString;
 
@@ -14,7 +14,7 @@ mod recorder;
 
 use recorder::Recorder;
 
-/// A component in `phase` that logs into `recorder`.
+/// Creates a component in `phase` that logs to `recorder`.
 fn component(kind: Kind, phase: Phase, recorder: &Recorder) -> ComponentPointer {
     let log = Log::new(HostLogger::of(Some(recorder.callbacks()), CString::default()), false);
     let mut instance = Instance::new(&INTERFACE, kind, log);
@@ -39,25 +39,25 @@ fn a_panic_in_any_call_is_an_error_with_a_message_and_reset_recovers() {
             for words in [call.name(), "internal error", "provoked", "fmi2Reset"] {
                 assert!(logged[0].message.contains(words), "{words:?} is missing in {logged:?}");
             }
-            // SAFETY: a live component, the last use of it
+            // SAFETY: a live component, used for the last time
             unsafe { fmi2FreeInstance(c) };
         }
     }
 }
 
 #[test]
-fn a_panic_without_a_text_is_an_error_too() {
+fn a_panic_without_a_message_is_also_an_error() {
     let recorder = Recorder::default();
     let c = component(Kind::CoSimulation, Phase::Instantiated, &recorder);
     // SAFETY: a live component
     let status = unsafe { run(c, Call::GetReal, |_, _| std::panic::panic_any(7)) };
     assert_eq!(status, Status::Error);
     assert!(recorder.lines()[0].message.contains("no message"));
-    // SAFETY: a live component, the last use of it
+    // SAFETY: a live component, used for the last time
     unsafe { fmi2FreeInstance(c) };
 }
 
-/// How an export begins: three entries that catch panics, and two constants that cannot panic.
+/// Allowed entries of an export: three that catch panics, and two constants that cannot panic.
 const ENTRIES: [&str; 5] = ["call!(c, ", " catch(", "{ free(c) }", "c\"default\"", "c\"2.0\""];
 
 #[test]
@@ -72,7 +72,7 @@ fn every_export_catches_panics() {
     ];
     let listed = include_str!("../exports/mod.rs").lines().filter(|line| line.starts_with("mod ")).count();
     assert_eq!(files.len(), listed, "a file of exports is not checked");
-    // and what both versions of FMI share
+    // and the macros that both versions of FMI share
     let shared = include_str!("../../instance/exports.rs");
     let files = [files.as_slice(), &[shared]].concat();
     let mut seen = 0;

@@ -1,4 +1,4 @@
-//! Functions of clocks and model partitions: there are none of either.
+//! Functions of clocks and model partitions, which the FMU does not have.
 
 use super::*;
 
@@ -33,7 +33,7 @@ no_clocks! {
     fmi3SetShiftFraction(_counters: *const u64, _resolutions: *const u64);
 }
 
-/// fmi3ActivateModelPartition: of scheduled execution alone.
+/// fmi3ActivateModelPartition, which exists only for scheduled execution.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3ActivateModelPartition(c: ComponentPointer, _clock: ValueReference, _time: f64) -> Status {
     call!(c, ActivateModelPartition, |_, _| Ok(()))

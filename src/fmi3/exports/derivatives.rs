@@ -1,4 +1,4 @@
-//! Derivatives of outputs by time, and along and across directions.
+//! Derivatives of outputs with respect to time, and directional and adjoint derivatives.
 
 use super::*;
 

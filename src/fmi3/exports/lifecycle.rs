@@ -27,12 +27,13 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
 ) -> ComponentPointer {
     let allowed = Allowed { events: true, ..Allowed::default() };
     // SAFETY: the host's promise, see the module
-    let made =
+    let instance =
         catch(|| unsafe { instantiate(Kind::ModelExchange, [name, token], logging, environment, message, allowed) });
-    made.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
+    instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
 }
 
-/// fmi3InstantiateCoSimulation. All variables may be read in intermediate update mode, whichever the host requires.
+/// fmi3InstantiateCoSimulation. All variables may be read in intermediate update mode, not only those that the host
+/// names.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     name: Text,
@@ -54,12 +55,12 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         update: [update.map_or(0, |update| update as usize), environment as usize],
     };
     // SAFETY: the host's promise, see the module
-    let made =
+    let instance =
         catch(|| unsafe { instantiate(Kind::CoSimulation, [name, token], logging, environment, message, allowed) });
-    made.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
+    instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
 }
 
-/// fmi3InstantiateScheduledExecution: the unit has no model partitions, so there is never an instance.
+/// fmi3InstantiateScheduledExecution. The FMU has no model partitions, so the call always fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _name: Text,
@@ -83,7 +84,7 @@ fn log(environment: *mut c_void, message: Option<LogMessage>, logging: bool) -> 
     Log::new(sink, logging)
 }
 
-/// A new instance; none, and an error in the log, if the arguments are for another FMU.
+/// Creates an instance. Logs an error and returns `None` if the arguments are for another FMU.
 ///
 /// # Safety
 /// Both texts are NULL or end with NUL.

@@ -1,10 +1,11 @@
 //! The C functions. Each checks its pointers, calls the instance and returns a status.
 //!
 //! # Safety
-//! For all of them: an instance comes from `fmi3Instantiate…` and was not freed, and every pointer that is not NULL points to
-//! what FMI 3.0 says for as long as the call lasts. NULL and misaligned pointers are refused where FMI requires a value.
+//! These rules apply to all functions. An instance comes from `fmi3Instantiate…` and was not freed. Every pointer that
+//! is not NULL points to what FMI 3.0 specifies for as long as the call lasts. NULL and misaligned pointers are refused
+//! if FMI requires a value.
 
-#![allow(clippy::missing_safety_doc)] // the section above holds for all
+#![allow(clippy::missing_safety_doc)] // the section above applies to all
 #![allow(non_snake_case)] // FMI's names
 
 use super::types::*;

@@ -1,4 +1,4 @@
-//! Getting and setting variables of types that the FMU does not have.
+//! Reading and setting variables of types that the FMU does not have.
 
 use super::*;
 
@@ -61,7 +61,7 @@ no_binary! {
     fmi3SetBinary SetOther;
 }
 
-/// fmi3GetNumberOfVariableDependencies: dependencies are those of the model description.
+/// fmi3GetNumberOfVariableDependencies. Dependencies are only in the model description.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
     c: ComponentPointer,
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
     call!(c, GetVariableDependencies, |_, _| Err(no_dependencies()))
 }
 
-/// fmi3GetVariableDependencies.
+/// fmi3GetVariableDependencies. Dependencies are only in the model description.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetVariableDependencies(
     c: ComponentPointer,
@@ -86,5 +86,7 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
 }
 
 fn no_dependencies() -> CallError {
-    CallError::error("dependencies by element are not provided; the model description has those by variable")
+    CallError::error(
+        "dependencies of array elements are not provided; the model description contains dependencies of variables",
+    )
 }

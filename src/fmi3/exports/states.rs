@@ -1,4 +1,4 @@
-//! FMU states: the host keeps them as pointers to snapshots, or as bytes.
+//! FMU states, which the host stores as pointers to snapshots or as bytes.
 
 use super::*;
 

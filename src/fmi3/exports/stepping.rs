@@ -3,7 +3,7 @@
 use super::*;
 use crate::instance::{Ended, Phase};
 
-/// fmi3DoStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
+/// fmi3DoStep. The flag `_never_back` is ignored, because snapshots are complete even if the host goes back in time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3DoStep(
     c: ComponentPointer,
@@ -15,7 +15,7 @@ pub unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_time: *mut f64,
 ) -> Status {
-    // the end stays the host's, whatever the parts before it
+    // the end of the step stays the host's value, to avoid rounding over several parts
     let (mut begin, mut size, until) = (point, size, point + size);
     loop {
         // SAFETY: the host's promise, see the module
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn fmi3DoStep(
         let is_last = ended.is_done;
         let may_return = may_return && !is_last;
         let (mut wants_return, mut return_time) = (0, ended.time);
-        // SAFETY: the host's function, which it keeps valid; the instance takes calls while it runs
+        // SAFETY: the host keeps its function valid; the instance accepts calls while the function runs
         unsafe {
             update(
                 environment,
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn fmi3DoStep(
     }
 }
 
-/// A part of a step after which the host is called back.
+/// A part of a step, after which the host is called back.
 struct Part {
     ended: Ended,
     update: IntermediateUpdate,
@@ -56,7 +56,8 @@ struct Part {
     may_return: bool,
 }
 
-/// Moves on by a part of a step; writes how the step would end here. Without a function to call back the part is the whole.
+/// Advances by a part of a step and writes the outputs as if the step ended here. Without a callback function, the part
+/// is the whole step.
 unsafe fn part(
     c: ComponentPointer,
     [point, size, until]: [f64; 3],
@@ -96,7 +97,7 @@ unsafe fn part(
     (status, part)
 }
 
-/// Ends the host's update within a step.
+/// Ends the host's intermediate update within a step.
 unsafe fn end_update(c: ComponentPointer, returns: bool, early_return: *mut Boolean) -> Status {
     call!(c, EndIntermediateUpdate, |instance, host| {
         instance.now.phase = Phase::StepComplete;

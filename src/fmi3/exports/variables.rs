@@ -1,9 +1,9 @@
-//! Getting and setting variables of the types that the FMU has.
+//! Reading and setting variables of the types that the FMU has.
 
 use super::*;
 use crate::instance::values::all_or_none;
 
-/// Outcome of a call that gets values, or sets all or none.
+/// Passes on the outcome of a call that reads values, and completes the error of a call that sets them.
 macro_rules! outcome {
     (output, $count:expr, $outcome:expr) => {
         $outcome
@@ -51,7 +51,7 @@ accesses! {
     fmi3SetBoolean SetBoolean set_boolean *const Boolean, input;
 }
 
-/// fmi3GetString. The text is valid for ever.
+/// fmi3GetString. The returned text is never freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetString(
     c: ComponentPointer,
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn fmi3GetString(
     })
 }
 
-/// fmi3SetString. The only text is an output.
+/// fmi3SetString. The only String variable is an output.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetString(
     c: ComponentPointer,
@@ -83,6 +83,6 @@ pub unsafe extern "C" fn fmi3SetString(
 ) -> Status {
     call!(c, SetString, |_, host| {
         // SAFETY: the host's promise, see the module
-        values::none_of(unsafe { host.input("valueReferences", references, count)? }, "String that can be set")
+        values::none_of(unsafe { host.input("valueReferences", references, count)? }, "settable String")
     })
 }

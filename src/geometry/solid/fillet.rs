@@ -1,41 +1,41 @@
 //! Foot of a tooth: the fillet between root circle and flank, on the unit sphere.
 //!
-//! A fillet of angular radius ρ is a small circle about a centre at polar angle c = δ_f + ρ, so that it touches the root
-//! circle from above. A parallel of a spherical involute is the same involute turned by ρ/sinδ_b, hence the centre lies on
-//! it at the arc ψ_c with cos c = cosδ_b cosψ_c, and the circle touches the flank at ψ = ψ_c − ρ. If that is negative it
-//! touches the meridian below the base circle, from which the centre stands off by the azimuth A:
-//! sinA = sinρ / sin c, and it touches at the polar angle tanφ = tan c cosA.
+//! A fillet of angular radius ρ is a small circle about a centre at polar angle c = δ_f + ρ, so that it touches the
+//! root circle from above. A parallel of a spherical involute is the same involute turned by ρ/sinδ_b. The centre is
+//! therefore on this involute, at the arc ψ_c with cos c = cosδ_b cosψ_c, and the circle touches the flank at ψ = ψ_c −
+//! ρ. If ψ is negative, the circle touches the meridian below the base circle. The centre then has the azimuth A from
+//! the meridian, sinA = sinρ / sin c, and the circle touches at the polar angle tanφ = tan c cosA.
 
 use crate::geometry::Gear;
 use crate::numeric::{asin, atan2, cos, sin, sqrt};
 
-/// Share of half a pitch, and angle [rad], below which a piece of the outline is left out.
+/// Fraction of half a pitch, and angle [rad], below which a piece of the outline is omitted.
 const SLIVER: f64 = 1e-7;
-/// Halvings in the search for the largest fillet: as many as a double has bits.
+/// Number of bisections in the search for the largest fillet, equal to the number of bits of a double.
 const HALVINGS: usize = 53;
 
-/// Foot of a tooth at its side of positive azimuth, from the gap's floor to where the involute begins.
+/// Foot of a tooth on the side of positive azimuth, from the floor of the gap to the start of the involute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foot {
     /// Half the angular pitch [rad]: azimuth of the gap's middle.
     pub middle: f64,
-    /// Polar angle of the gap's floor [rad]: the root circle, or where both flanks meet above it.
+    /// Polar angle of the gap's floor [rad]: the root circle, or a higher point at which both flanks meet.
     pub floor: f64,
     /// Angular radius ρ of the fillet [rad]; 0 = a sharp corner.
     pub radius: f64,
-    /// Azimuth of the fillet's centre [rad], where the root land ends; its polar angle is floor + radius.
+    /// Azimuth of the fillet's centre [rad], at which the root land ends. Its polar angle is floor + radius.
     pub centre: f64,
     /// Polar angle and azimuth of the fillet's upper end [rad].
     pub end: [f64; 2],
     /// Angle that the fillet sweeps about its centre [rad].
     pub sweep: f64,
-    /// Arc ψ at which the involute begins [rad].
+    /// Arc ψ at which the involute starts [rad].
     pub start_arc: f64,
 }
 
 impl Foot {
-    /// Foot of a tooth of `gear` with a fillet of the angular radius `wanted` [rad], or the largest that fits the gap
-    /// and ends below the pitch circle.
+    /// Returns the foot of a tooth of `gear` with a fillet of the angular radius `wanted` [rad], or with the largest
+    /// fillet that fits the gap and ends below the pitch circle.
     pub fn new(gear: &Gear, wanted: f64) -> Self {
         let middle = gear.tooth_pitch() / 2.0;
         let start = gear.root.max(gear.base);
@@ -63,13 +63,13 @@ impl Foot {
             centre = middle;
         }
         let (c, apart) = (gear.root + radius, centre - azimuth);
-        // the end as seen from the centre, from the direction of the pole
+        // angle at the centre between the direction of the pole and the end of the fillet
         let toward = cos(polar) * sin(c) - sin(polar) * cos(c) * cos(apart);
         let sweep = if radius > 0.0 { atan2(sin(polar) * sin(apart), toward) } else { 0.0 };
         Self { middle, floor: gear.root, radius, centre, end: [polar, azimuth], sweep, start_arc: arc.max(0.0) }
     }
 
-    /// Foot where the flanks of neighbouring teeth meet above the root circle, at an arc beyond `low`.
+    /// Foot of a tooth whose flanks meet those of its neighbours above the root circle, at an arc beyond `low`.
     fn closed(gear: &Gear, middle: f64, low: f64) -> Self {
         let (mut low, mut high) = (low, gear.action_arc(gear.pitch));
         for _ in 0..HALVINGS {
@@ -80,7 +80,8 @@ impl Foot {
         Self { middle, floor, radius: 0.0, centre: middle, end: [floor, middle], sweep: 0.0, start_arc: low }
     }
 
-    /// Polar angle and azimuth of the fillet at the share `u` of its sweep [rad]: 0 on the root circle, 1 at its end.
+    /// Polar angle and azimuth of the fillet at the fraction `u` of its sweep [rad]: 0 on the root circle, 1 at its
+    /// end.
     pub fn fillet_at(&self, u: f64) -> [f64; 2] {
         let (c, beta) = (self.floor + self.radius, self.sweep * u);
         let (sr, cr) = (sin(self.radius), cos(self.radius));
@@ -90,19 +91,19 @@ impl Foot {
         [polar, self.centre - atan2(across, outward)]
     }
 
-    /// Whether a piece of the meridian is left between the fillet, or the floor, and the base circle of `gear`.
+    /// True if a piece of the meridian remains between the fillet, or the floor, and the base circle of `gear`.
     pub fn has_meridian(&self, gear: &Gear) -> bool {
         self.start_arc <= 0.0 && gear.base - self.end[0] > SLIVER
     }
 }
 
-/// Where a fillet touches the flank or the meridian.
+/// Point at which a fillet touches the flank or the meridian.
 struct Touch {
-    /// Azimuth of its centre [rad].
+    /// Azimuth of the fillet's centre [rad].
     centre: f64,
-    /// Polar angle and azimuth where it touches [rad].
+    /// Polar angle and azimuth of the point [rad].
     end: [f64; 2],
-    /// Arc ψ where it touches the involute; 0 or less on the meridian [rad].
+    /// Arc ψ of the point on the involute [rad]; 0 or less on the meridian.
     arc: f64,
 }
 

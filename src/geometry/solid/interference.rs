@@ -1,18 +1,20 @@
-//! Interference of planet and side gear: whether their teeth penetrate each other while turning, and their least clearance.
-//!
-//! Both apexes coincide and the gears turn by Willis' equation: a planet turned by θ from a tooth in the plane of both axes
-//! stands opposite a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass through the same positions,
-//! half a tooth pitch apart, and left and right mirror each other: one pair over one pitch covers them all. It is examined
-//! in two stances: teeth in the middle of their gaps, with equal backlash on both flanks, and all backlash closed on one
-//! side, as gears run: then flanks touch there, and nothing else may.
-//!
-//! *Depth* is the distance of a ray of one gear that lies within the other from the nearest face of that other, along
-//! its normal. Rays of either gear are tested against the other: those through the nodes of its outline, including the
-//! corners of the tip. The gap of flanks that do not touch is found likewise. As all faces are cones with one apex, depth and
-//! gap are proportional to the cone distance, and given per cone distance [rad]: deepest at the heel, nearest at the toe.
-//!
-//! Facets are chords of the exact faces. Results are accurate to the *resolution*: twice the greatest distance of the
-//! facets from the faces, of both gears together, since rays of one gear also meet the other between its nodes.
+//! Interference check of planet and side gear: penetration of their teeth while turning, and their smallest clearance.
+//! //!
+//! Both apexes coincide and the gears turn by Willis' equation. A planet turned by θ from a tooth in the plane of both
+//! axes faces a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass through the same positions,
+//! half a tooth pitch apart, and left and right are mirror images. One pair over one pitch therefore covers all meshes.
+//! The pair is examined in two stances. In the first, teeth are in the middle of their gaps, with equal backlash on
+//! both flanks. In the second, all backlash is closed on one side, as in running gears; flanks then touch, and nothing
+//! else may touch.
+//! //!
+//! *Depth* is the distance of a ray of one gear inside the other gear from the nearest face of that gear, along its
+//! normal. Rays of either gear are tested against the other gear: the rays through the nodes of its outline, including
+//! the corners of the tip. The gap between flanks that do not touch is found in the same way. All faces are cones with
+//! one apex, so depth and gap are proportional to the cone distance. They are given per cone distance [rad]; depth is
+//! largest at the heel, gap smallest at the toe.
+//! //!
+//! Facets are chords of the exact faces. Results are accurate to the *resolution*: twice the largest distance of the
+//! facets from the faces, summed over both gears, because rays of one gear also meet the other between its nodes.
 
 use nalgebra::Vector3;
 
@@ -25,49 +27,50 @@ use crate::numeric::{TAU, acos, atan2, cos, sin};
 
 /// Facets per flank.
 pub const FACETS: usize = 128;
-/// Positions in a tooth pitch.
+/// Number of positions in a tooth pitch.
 pub const POSITIONS: usize = 24;
-/// Bisections of the step between positions about the worst one.
+/// Number of bisections of the step between positions near the worst position.
 const HALVINGS: usize = 8;
 /// Rays farther than this beyond the mate's tip cone [rad] are skipped.
 const REACH: f64 = 0.05;
 
-/// Nearest approach of two parts of teeth in the whole cycle, or their deepest penetration.
+/// Smallest distance, or deepest penetration, of two parts of teeth over the whole cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// Parts of planet and side gear.
     pub parts: [Part; 2],
     /// Distance per cone distance [rad]; negative is depth.
     pub gap: f64,
-    /// Gear (0 planet, 1 side gear) whose ray it is; the distance is from a face of the other.
+    /// Gear of the ray (0 planet, 1 side gear). The distance is from a face of the other gear.
     pub ray: usize,
     /// Angle of the ray from the axes of planet and side gear [rad].
     pub polar: [f64; 2],
     /// Angle of the ray out of the plane of both axes, about the planet's axis [rad].
     pub azimuth: f64,
-    /// Turn θ of the planet from a tooth in the plane of both axes [rad], within half a pitch.
+    /// Rotation θ of the planet from a tooth in the plane of both axes [rad], within half a pitch.
     pub turn: f64,
-    /// Tooth of either gear, counted from that in or next to the plane by rising azimuth about its own axis.
+    /// Tooth of each gear, counted from the tooth in or next to the plane by rising azimuth about the gear's own axis.
     pub teeth: [i32; 2],
 }
 
 /// Position of teeth in their gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stance {
-    /// In the middle.
+    /// In the middle of the gap.
     Middle,
-    /// At one flank, where there is backlash.
+    /// At one flank, with all backlash on the other side.
     Driving,
 }
 
 /// Result of the check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interference {
-    /// The nearest or deepest approach of each two parts, the worst first; flanks first among equals.
+    /// Smallest distance or deepest penetration of every two parts, the worst first; flanks come first among equals.
     pub approaches: Vec<Approach>,
     /// Accuracy of gaps and depths per cone distance [rad].
     pub resolution: f64,
-    /// Angle between the tip cones of neighbouring planets, and of the two side gears [rad]; negative where they overlap.
+    /// Angle between the tip cones of neighbouring planets, and between those of the two side gears [rad]; negative if
+    /// they overlap.
     pub between_tips: [f64; 2],
 }
 
@@ -76,19 +79,21 @@ pub struct Interference {
 pub enum Verdict {
     /// Nothing touches.
     Clear,
-    /// Nothing touches or penetrates within the resolution.
+    /// The distance or depth is within the resolution.
     Touching,
     /// Something penetrates.
     Interfering,
 }
 
 impl Interference {
-    /// Examines `pair`, made from `spec`, in one stance; `None` if its surface cannot be built. Backlash may be negative.
+    /// Examines `pair`, built from `spec`, in one stance. Returns `None` if its surface cannot be built. Backlash may
+    /// be negative.
     pub fn new(pair: &Pair, spec: &GearSpec, stance: Stance) -> Option<Self> {
         Self::stoppable(pair, spec, stance, &mut || true)
     }
 
-    /// The same; `go_on` is asked at every position, and there is nothing when it says no.
+    /// Examines `pair` like [`Self::new`]. It calls `go_on` at every position and returns `None` if `go_on` returns
+    /// false.
     pub fn stoppable(pair: &Pair, spec: &GearSpec, stance: Stance, go_on: &mut dyn FnMut() -> bool) -> Option<Self> {
         let skins = [Skin::new(pair, spec, 0, FACETS)?, Skin::new(pair, spec, 1, FACETS)?];
         let resolution = 2.0 * skins.iter().map(|skin| skin.coarseness(pair, spec, FACETS)).sum::<f64>();
@@ -104,7 +109,7 @@ impl Interference {
             go_on().then_some(())?;
             cycle.examine(step * (k as f64 - (POSITIONS / 2) as f64), &mut found);
         }
-        // refine about the worst position
+        // refine around the worst position
         for _ in 0..HALVINGS {
             go_on().then_some(())?;
             step /= 2.0;
@@ -127,12 +132,12 @@ impl Interference {
         }
     }
 
-    /// The nearest or deepest of all approaches of teeth.
+    /// Smallest distance or deepest penetration of all teeth.
     pub fn worst(&self) -> Option<&Approach> {
         self.approaches.first()
     }
 
-    /// Whether anything penetrates.
+    /// True if teeth penetrate or tip cones overlap.
     pub fn any(&self) -> bool {
         let teeth = self.worst().is_some_and(|worst| self.verdict(worst.gap) == Verdict::Interfering);
         teeth || self.between_tips.iter().any(|&angle| angle < 0.0)
@@ -143,24 +148,24 @@ fn worst(found: &[Approach]) -> Option<&Approach> {
     found.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
 }
 
-/// Both gears, to be turned.
+/// Both gears of a pair with their surfaces, for any rotation.
 struct MeshingCycle<'a> {
     pair: &'a Pair,
     skins: [Skin; 2],
     /// Rays of tooth 0 of either gear.
     nodes: [Vec<Vector3<f64>>; 2],
-    /// Turn of the side gear from the middle of its backlash [rad].
+    /// Rotation of the side gear from the middle of its backlash [rad].
     lag: f64,
 }
 
 impl MeshingCycle<'_> {
-    /// Turns of planet and side gear about their own axes when the planet is turned by `turn` [rad].
+    /// Rotations of planet and side gear about their own axes if the planet is turned by `turn` [rad].
     fn turns(&self, turn: f64) -> [f64; 2] {
         let [planet, side] = &self.pair.gears;
         [turn, self.lag + side.tooth_pitch() / 2.0 - turn * f64::from(planet.teeth) / f64::from(side.teeth)]
     }
 
-    /// Examines one position and keeps approaches nearer than those `found` before.
+    /// Examines one position and keeps approaches that are nearer than those in `found`.
     fn examine(&self, turn: f64, found: &mut Vec<Approach>) {
         let turns = self.turns(turn);
         for own in 0..2 {
@@ -203,14 +208,14 @@ fn keep(found: &mut Vec<Approach>, new: Approach) {
     }
 }
 
-/// A vector of one gear's frame in that of its mate, not turned yet: x of either points toward the other's axis, and both
-/// see the mate across the same plane y = 0, so that the way there is the way back.
+/// Converts a vector from one gear's unrotated frame to that of its mate. In both frames, x points toward the other
+/// axis and the mate is across the same plane y = 0, so the conversion is its own inverse.
 fn across(v: &Vector3<f64>, shaft_angle: f64) -> Vector3<f64> {
     let (s, c) = (sin(shaft_angle), cos(shaft_angle));
     Vector3::new(s * v.z - c * v.x, -v.y, s * v.x + c * v.z)
 }
 
-/// A turn about z, by its sine and cosine.
+/// A rotation about z, as its sine and cosine.
 struct Turn(f64, f64);
 
 impl Turn {

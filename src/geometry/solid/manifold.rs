@@ -1,11 +1,12 @@
-//! Surface of a whole gear: closed, of triangles that share their vertices, counter-clockwise seen from outside.
+//! Closed surface of a whole gear: triangles that share their vertices, counter-clockwise seen from outside.
 //!
-//! The outline of each tooth is swept along the rays through the apex from R_i to R_e. At each end the teeth are closed by
-//! straight lines from the outline down to the root circle, and the body by the plane z = R cosδ_f from there to the bore;
-//! without a bore, to the axis. So there is a frustum of the root cone, with the teeth on it.
-//! Lengthwise crowning takes C ((R − R_m)/(b/2))² off the flanks, along their normals (ISO 21771).
-//!
-//! One tooth's *sector* is cut out of it by the planes through the axis and the middles of its gaps.
+//! The outline of each tooth is swept along the rays through the apex from R_i to R_e. At each end, straight lines from
+//! the outline down to the root circle close the teeth. The plane z = R cosδ_f from the root circle to the bore closes
+//! the body; without a bore, it extends to the axis. The result is a frustum of the root cone with the teeth on it.
+//! Lengthwise crowning removes C ((R − R_m)/(b/2))² from the flanks, along their normals (ISO 21771).
+//! //!
+//! The *sector* of a tooth is cut from the gear by the planes through the axis and the middles of the gaps on both
+//! sides.
 
 use nalgebra::Vector3;
 
@@ -20,7 +21,7 @@ use crate::numeric::{cos, sin};
 pub struct GearSolid {
     /// Vertices [m].
     pub vertices: Vec<Vector3<f64>>,
-    /// Triangles by the numbers of their vertices, counter-clockwise from outside.
+    /// Triangles as indices of their vertices, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -31,19 +32,19 @@ pub struct Shape {
     pub facets: usize,
     /// Strips along the tooth.
     pub strips: usize,
-    /// What is missing from the flanks at both ends of the face relative to its middle [m]: small compared with the tip
-    /// land's width, and visible from four strips on.
+    /// Material removed from the flanks at both ends of the face relative to its middle [m]. It must be small compared
+    /// with the width of the tip land, and it is visible with four or more strips.
     pub crowning: f64,
 }
 
 impl GearSolid {
-    /// Gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, with `facets` per flank across the tooth and
-    /// `strips` along it, not crowned. The pair must be free of `geometry::checks::errors`.
+    /// Returns gear `gear` (0 planet, 1 side gear) of `pair`, built from `spec`, without crowning. It has `facets` per
+    /// flank across the tooth and `strips` along it. The pair must be free of `geometry::checks::errors`.
     pub fn new(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize, strips: usize) -> Self {
         Self::shaped(pair, spec, gear, &Shape { facets, strips, crowning: 0.0 })
     }
 
-    /// The same in another shape.
+    /// Returns the gear with the given `shape`.
     pub fn shaped(pair: &Pair, spec: &GearSpec, gear: usize, shape: &Shape) -> Self {
         let strips = shape.strips.max(1);
         let rows: Vec<NodeRow> = (0..=strips)
@@ -57,7 +58,7 @@ impl GearSolid {
         Surface::new(&pair.gears[gear], &outline).build(&rows, bore(spec, gear))
     }
 
-    /// The sector of tooth 0 of the same gear, in one strip, not crowned.
+    /// Returns the sector of tooth 0 of the gear, in one strip, without crowning.
     pub fn sector(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize) -> Self {
         let rows = [pair.inner_cone, pair.outer_cone].map(|cone| NodeRow { cone, missing: 0.0 });
         let outline = outline(pair, spec, gear, facets);
@@ -73,22 +74,22 @@ fn bore(spec: &GearSpec, gear: usize) -> f64 {
     [spec.planet_bore, spec.side_bore][gear]
 }
 
-/// Share of a pitch within which nodes, one above the other on the outline, share one vertex of the hub.
+/// Fraction of a pitch within which nodes, one above the other on the outline, share one vertex of the hub.
 const UPRIGHT: f64 = 1e-5;
 
-/// Polar angle [rad] above the root circle up to which a node stands on it.
+/// Polar angle above the root circle up to which a node counts as on it [rad].
 const ROUNDING: f64 = 1e-9;
 
 /// Nodes of all teeth at one cone distance.
 struct NodeRow {
     /// Cone distance R [m].
     cone: f64,
-    /// Material that crowning removes from the flanks there [m].
+    /// Material that crowning removes from the flanks at this cone distance [m].
     missing: f64,
 }
 
 impl NodeRow {
-    /// Place of `node` of tooth number `tooth` [m].
+    /// Position of `node` of tooth number `tooth` [m].
     fn place(&self, gear: &Gear, node: &Node, tooth: f64) -> Vector3<f64> {
         let turn = gear.tooth_pitch() * tooth;
         let point = direction(node.polar, node.azimuth + turn) * self.cone;
@@ -101,16 +102,18 @@ impl NodeRow {
     }
 }
 
-/// Data of the surface of a gear or of a sector of it.
+/// Data of the surface of a gear or of a sector.
 struct Surface<'a> {
     gear: &'a Gear,
-    /// Nodes of a tooth. In a whole gear the last of its outline is left out: it is the first of the next.
+    /// Nodes of a tooth. In a whole gear, the last node of the outline is omitted, because it is the first node of the
+    /// next tooth.
     nodes: &'a [Node],
     /// Number of teeth, counted from tooth 0.
     teeth: usize,
-    /// Whether the last tooth is followed by the first.
+    /// True if the last tooth is followed by the first.
     whole: bool,
-    /// Azimuths of a tooth's vertices on the circles within the outline [rad], and the node on the root circle there.
+    /// Azimuths of a tooth's vertices on the circles within the outline [rad], and the node on the root circle at each
+    /// azimuth.
     columns: Vec<(f64, Option<u32>)>,
     /// Column of each node.
     column: Vec<u32>,
@@ -119,7 +122,7 @@ struct Surface<'a> {
 impl<'a> Surface<'a> {
     fn new(gear: &'a Gear, outline: &'a Outline) -> Self {
         let nodes = &outline.nodes[..outline.nodes.len() - 1];
-        // nodes on a meridian, and at the foot of an involute, would make slivers with a column each
+        // nodes on a meridian, and at the foot of an involute, would cause slivers if each had a separate column
         let mut columns: Vec<(f64, Option<u32>)> = Vec::with_capacity(nodes.len() + 1);
         let mut column = Vec::with_capacity(nodes.len() + 1);
         for (i, node) in nodes.iter().enumerate() {
@@ -140,7 +143,7 @@ impl<'a> Surface<'a> {
     fn sector(gear: &'a Gear, outline: &'a Outline) -> Self {
         let one = Self::new(gear, outline);
         let (nodes, Self { mut columns, mut column, .. }) = (&outline.nodes[..], one);
-        // where the next tooth has its first column
+        // first column of the next tooth
         let last =
             columns.first().map(|(azimuth, root)| (azimuth + gear.tooth_pitch(), root.map(|_| nodes.len() as u32 - 1)));
         columns.extend(last);
@@ -154,7 +157,7 @@ impl<'a> Surface<'a> {
         let mut vertices = Vec::with_capacity((rows.len() + 4) * around as usize);
         for row in rows {
             for tooth in 0..self.teeth {
-                // a node in the middle of a gap belongs to two flanks at once and stays
+                // a node in the middle of a gap belongs to two flanks, so crowning does not move it
                 let whole = NodeRow { missing: 0.0, ..*row };
                 let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
                 vertices.extend(self.nodes.iter().enumerate().map(place));
@@ -166,7 +169,7 @@ impl<'a> Surface<'a> {
             let collar = self.ring(&mut vertices, cone * sin(gear.root), cone, &outline);
             [outline, collar, self.ring(&mut vertices, bore / 2.0, cone, &[])]
         };
-        // once around a section of the body: up the toe from the hub, along the teeth, down the heel
+        // rings once around a section of the body: up the toe from the hub, along the teeth, down the heel
         let ([toe, toe_collar, toe_hub], [heel, heel_collar, heel_hub]) = (end(0), end(rows.len() - 1));
         let mut section = vec![toe_hub, toe_collar, toe];
         section.extend((1..rows.len() - 1).map(row));
@@ -185,8 +188,8 @@ impl<'a> Surface<'a> {
         GearSolid { vertices, triangles }
     }
 
-    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and returns its vertex for each node. Nodes
-    /// of `outline` on the root circle, if any, are reused. A circle of no radius is one vertex.
+    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and returns its vertex for each node.
+    /// Nodes of `outline` on the root circle are reused. A circle of zero radius is one vertex.
     fn ring(&self, vertices: &mut Vec<Vector3<f64>>, radius: f64, cone: f64, outline: &[u32]) -> Vec<u32> {
         let (gear, z) = (self.gear, cone * cos(self.gear.root));
         if radius <= 0.0 {
@@ -213,8 +216,8 @@ impl<'a> Surface<'a> {
         ring
     }
 
-    /// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
-    /// Where two corners of a triangle are the same vertex there is none.
+    /// Adds triangles between two rings with equal numbers of vertices. Seen from outside, `upper` is above and both
+    /// rings run to the right. Triangles with two identical corners are omitted.
     fn band(&self, triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
         for i in 0..upper.len() - usize::from(!self.whole) {
             let next = (i + 1) % upper.len();
@@ -225,8 +228,8 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// Triangles of the plane through the axis in which a sector is cut: from the first corner of the `section`, which lies on
-/// the hub. They face rising azimuth at the sector's `last` tooth, else falling.
+/// Adds triangles of the plane through the axis in which a sector is cut, all from the first corner of the `section`,
+/// which is on the hub. They face rising azimuth at the sector's `last` tooth, otherwise falling azimuth.
 fn cut(triangles: &mut Vec<[u32; 3]>, section: impl Iterator<Item = u32>, last: bool) {
     let corners: Vec<u32> = section.collect();
     for pair in corners[1..].windows(2) {

@@ -1,7 +1,8 @@
-//! Mass properties of a gear: mass and moments of inertia of its solid, by parry3d.
+//! Mass properties of a gear: mass and moments of inertia of its solid, computed with parry3d.
 //!
-//! The solid is the one that is exported (`manifold`). A gear consists of z sectors of one tooth: its mass and
-//! its moments are z times the sector's, across the axis z times the mean of any two at a right angle.
+//! The solid is the exported one (`manifold`). A gear consists of z sectors of one tooth. Its mass and axial moment of
+//! inertia are z times those of the sector. Its transverse moment is z times the mean of the sector's moments about any
+//! two perpendicular axes.
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
@@ -9,11 +10,11 @@ use parry3d_f64::math::Vector;
 use super::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
-/// Units of length per metre, millimetres or less. parry3d's tolerances are absolute: where moments of inertia in kilograms
-/// and units are below about [`LEAST`], as of gears within a centimetre, units are smaller.
+/// Length units per metre: millimetres or smaller. The tolerances of parry3d are absolute. The unit is smaller if
+/// moments of inertia in kilograms and this unit would be below about [`MIN_MOMENT`], as for gears within a centimetre.
 const MM: f64 = 1e3;
-const LEAST: f64 = 0.5;
-/// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
+const MIN_MOMENT: f64 = 0.5;
+/// Facets per flank. Masses and moments of inertia are then within 2e-5 of the limit of many facets.
 const FACETS: usize = 96;
 
 /// Mass properties about the gear's axis and apex.
@@ -25,11 +26,12 @@ pub struct GearMass {
     pub centre: f64,
     /// Moment of inertia about the gear's axis [kg·m²].
     pub axial: f64,
-    /// Moment of inertia about any axis through the apex perpendicular to the gear's [kg·m²].
+    /// Moment of inertia about any axis through the apex perpendicular to the gear's axis [kg·m²].
     pub transverse_at_apex: f64,
 }
 
-/// Mass properties of gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, at the density `density` [kg/m³].
+/// Mass properties of gear `gear` (0 planet, 1 side gear) of `pair`, built from `spec`, at the density `density`
+/// [kg/m³].
 pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> GearMass {
     let sector = GearSolid::sector(pair, spec, gear, FACETS).mass(density);
     let z = f64::from(pair.gears[gear].teeth);
@@ -42,19 +44,20 @@ pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> Gea
 }
 
 impl GearSolid {
-    /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
+    /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]. A sector has its share of the
+    /// gear's values.
     pub fn mass(&self, density: f64) -> GearMass {
         let reach = self.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
         let moment = density * reach.powi(5);
         let mut unit = MM;
-        while moment > 0.0 && moment * unit * unit < LEAST {
+        while moment > 0.0 && moment * unit * unit < MIN_MOMENT {
             unit *= 10.0;
         }
         let vertices: Vec<Vector> =
             self.vertices.iter().map(|v| Vector::new(v.x * unit, v.y * unit, v.z * unit)).collect();
         let p = MassProperties::from_trimesh(density / (unit * unit * unit), &vertices, &self.triangles);
         let (com, inertia) = (p.local_com / unit, p.reconstruct_inertia_matrix() * (1.0 / (unit * unit)));
-        // about the apex, by Steiner; the mean of x and y holds for the whole gear by symmetry
+        // about the apex, by Steiner's theorem; by symmetry, the mean of x and y is valid for the whole gear
         let (xx, yy, zz) = (com.x * com.x, com.y * com.y, com.z * com.z);
         GearMass {
             mass: p.mass(),

@@ -1,5 +1,5 @@
-//! The gears as solids: outlines of teeth with their fillets, closed surfaces of whole gears, mass properties, and the check
-//! for interference.
+//! The gears as solids: outlines of teeth with their fillets, closed surfaces of whole gears, mass properties, and the
+//! check for interference.
 
 pub mod fillet;
 pub mod interference;

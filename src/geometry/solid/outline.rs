@@ -1,12 +1,13 @@
-//! Outline of one tooth on the unit sphere, from the middle of one gap to that of the next.
-//!
-//! Root land, fillet, meridian below the base circle, involute flank, tip land, and their mirror images. Nodes of the
-//! flank are equally spaced in the arc ψ by which the great circle rolls: they lie on the involute itself.
+//! Outline of one tooth on the unit sphere, from the middle of one gap to the middle of the next.
+//! //!
+//! It consists of root land, fillet, meridian below the base circle, involute flank, tip land, and their mirror images.
+//! Nodes of the flank are on the involute, equally spaced in the arc ψ by which the great circle rolls.
 
 use super::Foot;
 use crate::geometry::Gear;
 
-/// Part of a tooth that a node lies on; where two meet, the flank has precedence over the fillet, the fillet over others.
+/// Part of a tooth on which a node is. If two parts meet, the flank has precedence over the fillet, and the fillet over
+/// others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The root circle.
@@ -28,7 +29,7 @@ pub struct Node {
     pub polar: f64,
     /// Azimuth about the gear's axis [rad].
     pub azimuth: f64,
-    /// What it lies on.
+    /// Part of the tooth on which the node is.
     pub part: Part,
 }
 
@@ -37,13 +38,14 @@ pub struct Node {
 pub struct Outline {
     /// Foot of the tooth.
     pub foot: Foot,
-    /// Nodes by rising azimuth: the first and the last stand in the middle of gaps, one pitch apart.
+    /// Nodes by rising azimuth. The first and the last node are in the middle of gaps, one pitch apart.
     pub nodes: Vec<Node>,
 }
 
 impl Outline {
-    /// Outline of a tooth of `gear` with `facets` ≥ 1 per flank and a fillet of the angular radius `fillet` [rad], or the
-    /// largest that fits. Fillets have half as many facets but at least two, the tip land half as many.
+    /// Returns the outline of a tooth of `gear` with `facets` ≥ 1 per flank and a fillet of the angular radius `fillet`
+    /// [rad], or the largest that fits. Fillets have half as many facets, but at least two. The tip land has half as
+    /// many.
     pub fn new(gear: &Gear, fillet: f64, facets: usize) -> Self {
         let foot = Foot::new(gear, fillet);
         let left = side(gear, &foot, facets.max(1));

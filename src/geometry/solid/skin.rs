@@ -1,9 +1,10 @@
-//! Surface of the teeth of a gear for parry3d's queries: distance of a point outside or inside.
-//!
-//! All faces of the teeth are cones with their apex in the pitch apex. So a band of them about the heel represents them
-//! all, and a length at the cone distance R is R/R_e of that at the heel. Three neighbouring teeth suffice, as every
-//! azimuth folds into the middle one. The ends of the face are left out: everything of a gear between R_i and R_e lies
-//! within these cones, and so do its ends. parry3d works in millimetres; all results are angles from the apex.
+//! Surface of the teeth of a gear for parry3d's queries: distance of a point inside or outside.
+//! //!
+//! All faces of the teeth are cones with the pitch apex as their apex. A band of these cones at the heel therefore
+//! represents them all. A length at the cone distance R is R/R_e times the length at the heel. Three neighbouring teeth
+//! suffice, because every azimuth is mapped into the middle tooth. The ends of the face are omitted: the whole gear
+//! between R_i and R_e, including its ends, is within these cones. parry3d works in millimetres; all results are angles
+//! from the apex.
 
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
@@ -18,21 +19,22 @@ use crate::numeric::{atan2, cos, sin};
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;
-/// Ends of the band as shares of R_e. The foot of a perpendicular from R_e is at R_e cos(angle), never above it.
+/// Ends of the band as fractions of R_e. The foot of a perpendicular from R_e is at R_e cos(angle), which never exceeds
+/// R_e.
 const BAND: [f64; 2] = [0.97, 1.01];
-/// Teeth in the band on either side of the middle one.
+/// Number of teeth in the band on either side of the middle one.
 const NEIGHBOURS: i32 = 1;
-/// Difference of polar angles [rad] below which a node stands on the tip circle.
+/// Difference of polar angles below which a node counts as on the tip circle [rad].
 const ROUNDING: f64 = 1e-9;
 
 /// The teeth of one gear.
 pub struct Skin {
     /// The gear.
     pub gear: Gear,
-    /// Nodes of the tooth on azimuth 0 with what they lie on: here the corners of the tip count to the tip. Each stands
-    /// for a ray from the apex.
+    /// Nodes of the tooth on azimuth 0 with their parts. The corners of the tip count as tip. Each node represents a
+    /// ray from the apex.
     pub nodes: Vec<Node>,
-    /// What the facet between a node and the next lies on.
+    /// Part of the tooth for the facet between each node and the next.
     facets: Vec<Part>,
     mesh: TriMesh,
     /// R_e [mm].
@@ -51,7 +53,8 @@ pub struct Nearest {
 }
 
 impl Skin {
-    /// Teeth of gear `i` of `pair`, made from `spec`, with `facets` per flank; none if the surface cannot be built.
+    /// Returns the teeth of gear `i` of `pair`, built from `spec`, with `facets` per flank. `None` if the surface
+    /// cannot be built.
     pub fn new(pair: &Pair, spec: &GearSpec, i: usize, facets: usize) -> Option<Self> {
         let gear = pair.gears[i];
         let outline = Outline::new(&gear, spec.root_fillet * pair.module / pair.outer_cone, facets);
@@ -69,7 +72,7 @@ impl Skin {
             }
         }
         let quads = (vertices.len() / 2 - 1) as u32;
-        // counter-clockwise from outside: inner and outer vertex of a node, then those of the next
+        // counter-clockwise from outside: inner and outer vertex of a node, then those of the next node
         let triangles =
             (0..quads).flat_map(|k| [[2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1]]).collect();
         let mesh = TriMesh::with_flags(vertices, triangles, TriMeshFlags::ORIENTED).ok()?;
@@ -78,7 +81,7 @@ impl Skin {
         Some(Self { gear, nodes, facets: labels, mesh, radius })
     }
 
-    /// Where the surface is nearest to the ray along the unit vector `ray` in the gear's frame.
+    /// Point of the surface nearest to the ray along the unit vector `ray` in the gear's frame.
     pub fn nearest(&self, ray: &Vector3<f64>) -> Nearest {
         let pitch = self.gear.tooth_pitch();
         let tooth = (atan2(ray.y, ray.x) / pitch).round();
@@ -94,7 +97,7 @@ impl Skin {
         }
     }
 
-    /// Greatest distance between the facets and the exact faces, per cone distance [rad].
+    /// Largest distance between the facets and the exact faces, per cone distance [rad].
     pub fn coarseness(&self, pair: &Pair, spec: &GearSpec, facets: usize) -> f64 {
         let fine = Outline::new(&self.gear, spec.root_fillet * pair.module / pair.outer_cone, 2 * facets);
         let off = |node: &Node| self.nearest(&direction(node.polar, node.azimuth)).gap.abs();
@@ -102,7 +105,7 @@ impl Skin {
     }
 }
 
-/// Part of the tooth that the facet from one node to the next lies on.
+/// Part of the tooth for the facet from one node to the next.
 fn between(gear: &Gear, outline: &Outline, ends: &[Node]) -> Part {
     let both = |part: Part| ends.iter().all(|node| node.part == part);
     if ends.iter().all(|node| node.polar >= gear.tip - ROUNDING) {

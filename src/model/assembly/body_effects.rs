@@ -17,13 +17,13 @@ pub struct BodyEffects {
     pub friction: Vec<FrictionSource>,
     /// The half-shafts.
     pub half_shafts: HalfShafts,
-    /// Whether there are effects; without any, a lock may still be commanded.
+    /// True if there are effects. Without them, a lock may still be commanded.
     pub has_effects: bool,
-    /// Whether wheels have brakes.
+    /// True if wheels have brakes.
     pub has_brakes: bool,
     /// True if there is dry friction other than that of a lock.
     pub has_friction: bool,
-    /// The oil, where an effect asks for its viscosity.
+    /// Oil, if an effect needs its viscosity.
     oil: Option<OilSpec>,
 }
 
@@ -42,19 +42,19 @@ impl BodyEffects {
         }
     }
 
-    /// Takes over tunable parameters.
+    /// Applies changed tunable parameters.
     pub fn tune(&mut self, effects: &SceneEffects) {
         self.friction.clear();
         self.friction.extend(effects.friction());
         self.has_friction = self.friction.iter().any(|source| !source.by_lock);
     }
 
-    /// Speed that an imposed carrier has at the positions `q` under its command [rad/s].
+    /// Speed of an imposed carrier at the positions `q` under its command [rad/s].
     pub fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
         self.forces.iter().fold(command, |speed, effect| effect.carrier_speed(q, speed))
     }
 
-    /// Whether an effect scales the speed or the torque that the carrier is given.
+    /// True if an effect scales the commanded speed or torque of the carrier.
     pub fn scale_carrier_inputs(&self) -> bool {
         self.forces.iter().any(|effect| effect.scales_carrier_inputs())
     }
@@ -69,28 +69,28 @@ impl BodyEffects {
         Friction::new(&self.friction, (lock, temperatures), inputs, input_derivatives)
     }
 
-    /// Viscosity of the oil at the `temperatures` of all nodes [K], where an effect asks for it.
+    /// Viscosity of the oil at the `temperatures` of all nodes [K], if an effect needs it.
     pub fn oil_viscosity(&self, temperatures: &[f64; NODES]) -> Option<Viscosity> {
         self.oil.map(|oil| oil.viscosity(temperatures[OIL]))
     }
 
-    /// Nodes whose temperatures friction feels.
+    /// Nodes whose temperatures influence friction or the viscosity of the oil.
     pub fn felt_nodes(&self) -> Vec<usize> {
         let is_felt = |node: &usize| {
             let at_node = SurfaceTemperature::Node(*node);
             let rubs_there =
-                |source: &FrictionSource| source.temperature == at_node && source.sliding.feels_temperature();
+                |source: &FrictionSource| source.temperature == at_node && source.sliding.varies_with_temperature();
             *node == OIL && self.oil.is_some() || self.friction.iter().any(rubs_there)
         };
         (0..NODES).filter(is_felt).collect()
     }
 
-    /// Whether friction depends on temperature.
+    /// True if friction, or an effect through the viscosity of the oil, depends on temperature.
     pub fn feels_temperature(&self) -> bool {
-        self.oil.is_some() || self.friction.iter().any(|source| source.sliding.feels_temperature())
+        self.oil.is_some() || self.friction.iter().any(|source| source.sliding.varies_with_temperature())
     }
 
-    /// Whether friction that always acts depends on the loads of the meshes.
+    /// True if friction other than that of a lock depends on the loads of the meshes.
     pub fn needs_loads(&self) -> bool {
         self.friction.iter().any(|source| !source.by_lock && source.depends_on_load())
     }

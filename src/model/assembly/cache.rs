@@ -1,7 +1,7 @@
-//! A cache of values. The key of a value is the exact bits of everything that it is calculated from.
+//! Cache of values. The key of a value is the exact bits of everything from which it is computed.
 //!
-//! A cache has few places; the least recently used value is replaced. Several threads may share it: one makes a value,
-//! the others wait for it.
+//! A cache has few entries and replaces the least recently used one. Several threads may share it: one thread computes
+//! a value, and the others wait for it.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -10,60 +10,60 @@ use serde::Serialize;
 
 use crate::FULL;
 
-/// Places of a cache.
-pub const PLACES: usize = 16;
-/// The same where memory is little.
+/// Number of entries of a cache.
+pub const ENTRIES: usize = 16;
+/// Number of entries in a build for little memory.
 const FEW: usize = 2;
-/// Bytes that most keys fit in.
+/// Number of bytes that is enough for most keys.
 const USUAL: usize = 1024;
 
-/// A value, once it is made, and its key: the bits of everything that it is calculated from.
-struct Place<V> {
+/// Value, once it is computed, with its key.
+struct Entry<V> {
     key: Vec<u8>,
     value: Arc<OnceLock<V>>,
 }
 
-/// A cache of values, the last used first.
+/// Cache of values, the most recently used first.
 pub struct Cache<V> {
-    places: Mutex<Vec<Place<V>>>,
+    entries: Mutex<Vec<Entry<V>>>,
 }
 
 impl<V> Default for Cache<V> {
     fn default() -> Self {
-        Self { places: Mutex::default() }
+        Self { entries: Mutex::default() }
     }
 }
 
 impl<V> fmt::Debug for Cache<V> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_struct("Cache").field("filled", &self.places().len()).finish()
+        f.debug_struct("Cache").field("filled", &self.entries().len()).finish()
     }
 }
 
 impl<V> Cache<V> {
-    /// The places. They are whole even if a thread panicked while it held the lock.
-    fn places(&self) -> MutexGuard<'_, Vec<Place<V>>> {
-        self.places.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Entries of the cache. They are valid even if a thread panicked while it held the lock.
+    fn entries(&self) -> MutexGuard<'_, Vec<Entry<V>>> {
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The place of the key `key`, which becomes the first.
-    fn place(&self, key: Vec<u8>) -> Arc<OnceLock<V>> {
-        let mut places = self.places();
-        if let Some(found) = places.iter().position(|place| place.key == key) {
-            places[..=found].rotate_right(1);
+    /// Returns the value of the entry with the key `key`, which becomes the first entry.
+    fn entry(&self, key: Vec<u8>) -> Arc<OnceLock<V>> {
+        let mut entries = self.entries();
+        if let Some(found) = entries.iter().position(|entry| entry.key == key) {
+            entries[..=found].rotate_right(1);
         } else {
-            places.truncate(if FULL { PLACES } else { FEW } - 1);
-            places.insert(0, Place { key, value: Arc::default() });
+            entries.truncate(if FULL { ENTRIES } else { FEW } - 1);
+            entries.insert(0, Entry { key, value: Arc::default() });
         }
-        places[0].value.clone()
+        entries[0].value.clone()
     }
 }
 
 impl<V: Clone> Cache<V> {
-    /// The value of the key `key`; `make` makes it if the cache does not hold it.
+    /// Returns the value of the key `key`. If the cache does not contain it, `make` computes it.
     pub fn get(&self, key: &impl Serialize, make: impl FnOnce() -> V) -> V {
         match postcard::to_extend(key, Vec::with_capacity(USUAL)) {
-            Ok(key) => self.place(key).get_or_init(make).clone(),
+            Ok(key) => self.entry(key).get_or_init(make).clone(),
             Err(_) => make(),
         }
     }
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_is_made_once_for_the_same_bits_and_anew_for_others() {
+    fn a_value_is_computed_once_for_the_same_bits_and_again_for_others() {
         let (cache, made) = (Cache::default(), Cell::new(0));
         let get = |x: f64, n: i32| {
             cache.get(&(x, n), || {
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn the_value_not_asked_for_the_longest_makes_way() {
+    fn the_least_recently_used_value_is_replaced() {
         let (cache, value) = (Cache::default(), Arc::new(()));
         let get = |n: usize| {
             let made = Cell::new(false);
@@ -104,12 +104,12 @@ mod tests {
             });
             made.get()
         };
-        assert!((0..PLACES).all(get));
-        assert!((0..PLACES).all(|n| !get(n)));
-        // asked for again, 0 stays, and 1 goes
-        assert!(!get(0) && get(PLACES) && !get(0) && get(1));
+        assert!((0..ENTRIES).all(get));
+        assert!((0..ENTRIES).all(|n| !get(n)));
+        // 0 was requested again, so it stays, and 1 is replaced
+        assert!(!get(0) && get(ENTRIES) && !get(0) && get(1));
         assert!((100..1000).all(get));
-        assert_eq!((cache.places().len(), Arc::strong_count(&value)), (PLACES, PLACES + 1));
+        assert_eq!((cache.entries().len(), Arc::strong_count(&value)), (ENTRIES, ENTRIES + 1));
         drop(cache);
         assert_eq!(Arc::strong_count(&value), 1);
     }
@@ -135,10 +135,10 @@ mod tests {
         let cache = Cache::default();
         assert!(catch_unwind(AssertUnwindSafe(|| cache.get(&1, || panic!("no value")))).is_err());
         let poisoned = catch_unwind(AssertUnwindSafe(|| {
-            let _held = cache.places();
-            panic!("with the places in hand");
+            let _held = cache.entries();
+            panic!("while holding the entries");
         }));
-        assert!(poisoned.is_err() && cache.places.is_poisoned());
+        assert!(poisoned.is_err() && cache.entries.is_poisoned());
         assert_eq!([cache.get(&1, || 5), cache.get(&1, || 6)], [5, 5]);
     }
 }

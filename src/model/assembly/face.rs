@@ -1,15 +1,15 @@
-//! The face of a tooth cut into slices, and where its load has its resultant.
+//! Slices of the face of a tooth, and the position of the resultant load.
 
 use crate::contact::detailed::{Face, Node, Slice};
 use crate::geometry::Pair;
 
-/// Cone distance at which a load per width that grows with R has its resultant [m].
+/// Cone distance of the resultant of a load per width that grows with R [m].
 pub fn centroid(pair: &Pair) -> f64 {
     let (outer, inner) = (pair.outer_cone, pair.inner_cone);
     2.0 / 3.0 * (outer * outer * outer - inner * inner * inner) / (outer * outer - inner * inner)
 }
 
-/// Slices of the face by Gauss's rule, weights times R².
+/// Slices of the face by Gauss's rule, with weights multiplied by R².
 pub fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
     let slice = |node: &Node| Slice { cone: node.cone, weight: node.weight, width: node.width };
     Face::gauss_points([inner, outer]).iter().map(slice).collect()

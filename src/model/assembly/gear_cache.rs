@@ -1,7 +1,8 @@
-//! What follows from gears and material alone, kept for the next start with the same ones.
+//! Cache of values that depend only on gears and material, for later starts with the same ones.
 //!
-//! Masses, tables of gaps and tables of compliances take most of a start, and loads and drives do not change them.
-//! The key of each is the bits of all arguments of the function that makes it, so that it has the same bits as made anew.
+//! Masses, gap tables and compliance tables take most of the time of a start, but loads and drives do not change them.
+//! The key of each value is the bits of all arguments of the function that computes it. A cached value therefore has
+//! the same bits as a recomputed one.
 
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,27 +20,27 @@ use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
-/// A pair, with errors and warnings of its geometry.
+/// Gear pair with the errors and warnings of its geometry.
 #[derive(Debug)]
 pub struct CheckedPair {
-    /// The pair.
+    /// Gear pair.
     pub pair: Pair,
-    /// Why it cannot be built; empty if it can.
+    /// Errors; empty if the pair can be built.
     pub errors: Vec<Problem>,
-    /// What is unusual about it.
+    /// Warnings.
     pub warnings: Vec<Problem>,
 }
 
 /// Tooth pairs of gears with elastic bodies.
 #[derive(Debug)]
 pub struct OnBodies {
-    /// Stiffness of a pair alone, teeth and bodies.
+    /// Stiffness of a pair by itself, from teeth and bodies.
     pub stiffness: PairStiffness,
-    /// How pairs move each other.
+    /// Couplings by which pairs move each other.
     pub couplings: Arc<PairCouplings>,
 }
 
-/// What is kept.
+/// Cache of values that depend only on gears and material.
 #[derive(Debug, Default)]
 pub struct GearCache {
     pairs: Cache<Arc<CheckedPair>>,
@@ -52,7 +53,7 @@ pub struct GearCache {
 }
 
 impl GearCache {
-    /// The pair of `spec`, whose pitch angles must be below 90°.
+    /// Gear pair of `spec`, whose pitch angles must be below 90°.
     pub fn pair(&self, spec: &GearSpec) -> Arc<CheckedPair> {
         self.pairs.get(spec, || {
             let pair = Pair::new(spec);
@@ -61,12 +62,13 @@ impl GearCache {
         })
     }
 
-    /// Mass properties of planet and side gear of `pair`, made from `spec`, at the density `density` [kg/m³].
+    /// Mass properties of planet and side gear of `pair`, which was built from `spec`, at the density `density`
+    /// [kg/m³].
     pub fn masses(&self, pair: &Pair, spec: &GearSpec, density: f64) -> [GearMass; 2] {
         self.masses.get(&(pair, spec, density), || [0, 1].map(|i| gear_mass(pair, spec, i, density)))
     }
 
-    /// Tooth pairs of `pair` for approaches up to `reach` [rad].
+    /// Engagement of the tooth pairs of `pair` for approaches up to `reach` [rad].
     pub fn engagement(&self, pair: &Pair, corner_contact: bool, reach: f64) -> Engagement {
         self.engagements.get(&(pair, corner_contact, reach), || Engagement::new(pair, corner_contact, reach))
     }
@@ -79,8 +81,8 @@ impl GearCache {
         })
     }
 
-    /// Tooth pairs of `pair` on the bodies of its gears in the scene `p`: side gears on their splines, planets on pins that take
-    /// no torque.
+    /// Tooth pairs of `pair` on elastic gear bodies in the scene `p`. Side gears are held by splines, and planets by
+    /// pins that transmit no torque.
     pub fn on_bodies(&self, p: &Parameters, pair: &Pair) -> Result<Arc<OnBodies>, Problem> {
         let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
         let (bores, planets) = ([p.geometry.planet_bore, p.geometry.side_bore], p.geometry.planet_count.unsigned_abs());
@@ -114,7 +116,7 @@ impl GearCache {
     ) -> SolidMesh {
         let key = (pair, spec, teeth, errors);
         let mut mesh = self.solids.get(&key, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
-        // the law does not shape the surfaces
+        // the surfaces do not depend on the law
         (mesh.elastic, mesh.damping) = (elastic, damping);
         mesh
     }
@@ -125,7 +127,7 @@ fn elasticity(p: &Parameters) -> [f64; 3] {
     [p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load]
 }
 
-/// What is kept in common, and how many share in it.
+/// Shared cache, and the number of its users.
 struct Common {
     shares: usize,
     cache: Option<Arc<GearCache>>,
@@ -137,12 +139,12 @@ fn common() -> MutexGuard<'static, Common> {
     COMMON.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A share in what is kept in common, which is released with the last share.
+/// Handle of the shared cache, which is released with its last handle.
 #[derive(Debug)]
 pub struct Share(Arc<GearCache>);
 
 impl Share {
-    /// A share.
+    /// Returns a handle of the shared cache.
     #[expect(clippy::new_without_default, reason = "shares are counted")]
     pub fn new() -> Self {
         let mut common = common();
@@ -174,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_parameter_does_not_change_is_the_same_thing() {
+    fn values_that_a_parameter_does_not_change_are_shared() {
         let (cache, p) = (GearCache::default(), Parameters::default());
         let pair = cache.pair(&p.gears());
         let stiffness = |p: &Parameters, pair: &Pair| cache.stiffness(p, pair).expect("a stiffness");
@@ -199,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn solid_teeth_kept_take_the_law_that_is_asked_for() {
+    fn cached_solid_teeth_have_the_requested_law() {
         let (cache, p) = (GearCache::default(), Parameters::default());
         let pair = Pair::new(&p.gears());
         let mesh = |stiffness: f64, coefficient: f64| {

@@ -1,8 +1,8 @@
-//! The ideal differential: no teeth, Willis' equation as a constraint, two degrees of freedom ω_c and ψ̇.
+//! Ideal differential: no teeth, Willis' equation as a constraint, two degrees of freedom ω_c and ψ̇.
 //!
-//! With ω_L,R = ω_c ± r ψ̇, r = z_p/z_s, the kinetic energy gives M (ω̇_c, ψ̈)ᵀ = (T_c − T_L − T_R, r (T_R − T_L) + T_ψ)ᵀ,
-//! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constants or parabolas of time between
-//! communication points, so speeds and angles are polynomials of time: the step is exact.
+//! With ω_L,R = ω_c ± r ψ̇, r = z_p/z_s, the kinetic energy gives M (ω̇_c, ψ̈)ᵀ = (T_c − T_L − T_R, r (T_R − T_L) +
+//! T_ψ)ᵀ, M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constants or parabolas of
+//! time between communication points, so speeds and angles are polynomials of time, and each step is exact.
 
 use super::Inertias;
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, PLANET, Plan};
@@ -27,7 +27,7 @@ pub struct IdealMotion {
     pub spin: f64,
     /// Torque on the carrier [N·m].
     pub carrier_torque: f64,
-    /// Torque that imposes the spin, all planets together [N·m].
+    /// Torque that imposes the spin, summed over all planets [N·m].
     pub spin_torque: f64,
     /// Sums of all torques that work at ω_c and at ψ̇ [N·m].
     pub net: [f64; 2],
@@ -41,14 +41,15 @@ impl Ideal {
         [j.carrier + left + right, r * (left - right), r * r * (left + right) + j.planets * j.planet]
     }
 
-    /// Inertias of the side gears: an end behind a shaft that twists does not move with its gear [kg·m²].
+    /// Inertias of the side gears with their rigid ends [kg·m²]. An end behind a shaft that twists does not move with
+    /// its gear.
     fn side_inertia(&self) -> [f64; 2] {
         let j = &self.inertia;
         [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
     }
 
-    /// Part that free speeds take of a jump of imposed ones: the spin by the carrier, and the carrier by the spin. Sides of
-    /// unequal inertia couple both.
+    /// Jump of a free speed over the jump of an imposed speed: spin over carrier, and carrier over spin. Sides of
+    /// unequal inertia couple both speeds.
     pub fn impulse(&self) -> [f64; 2] {
         let [m11, m12, m22] = self.mass();
         let plan = &self.plan;
@@ -84,7 +85,7 @@ impl Ideal {
         ]
     }
 
-    /// Accelerations under `inputs`, with those of imposed speeds given by the `rates` of the inputs [per s].
+    /// Accelerations under `inputs`. The accelerations of imposed speeds are the `rates` of the inputs [per s].
     #[inline]
     fn motion_along(&self, [m11, m12, m22]: [f64; 3], inputs: &Inputs, rates: &Inputs) -> IdealMotion {
         let r = self.ratio;
@@ -106,7 +107,7 @@ impl Ideal {
         IdealMotion { carrier, spin, carrier_torque, spin_torque, net }
     }
 
-    /// Sets side gear speeds by Willis' equation.
+    /// Sets the side gear speeds by Willis' equation.
     pub fn constrain(&self, v: &mut [f64]) {
         let (carrier, spin) = (v[CARRIER], v[PLANET]);
         v[0] = carrier + self.ratio * spin;

@@ -1,9 +1,9 @@
 //! Constants of the ideal differential with effects on bodies.
 //!
-//! All speeds follow from those that Willis' equation leaves free: v = P u with u = (ω_c, ψ̇, ends). Some of u are
-//! imposed, u_c; the others are u_f; P_c and P_f are their columns of P. Forces Q and imposed accelerations u̇_c give
-//! u̇_f = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c), so that v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and
-//! f = (1 − W M) P_c.
+//! All speeds follow from the speeds that Willis' equation leaves free: v = P u with u = (ω_c, ψ̇, ends). Some of u are
+//! imposed (u_c), the others are free (u_f); P_c and P_f are their columns of P. Forces Q and imposed accelerations
+//! u̇_c give u̇_f = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c), so v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹
+//! P_fᵀ and f = (1 − W M) P_c.
 
 use super::{BodyEffects, Ideal};
 use crate::integrate::Matrix;
@@ -11,16 +11,16 @@ use crate::model::effect_kinds::{BodyMotion, Slopes};
 use crate::model::scene::{ATTACHED_COUNT, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
-/// Most degrees of freedom: side gears, carrier, planets in one group, and ends of half-shafts.
+/// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and half-shaft ends.
 pub const MOST: usize = PLANET + 1 + ATTACHED_COUNT;
 
 /// Motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
 
-/// A scene whose forces are linear: only half-shafts act.
+/// Constants of a scene whose forces are linear, because only half-shafts act.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear {
-    /// Index of their heat in the ledger.
+    /// Index of the half-shafts' heat in the ledger.
     pub heat_index: usize,
     /// Derivatives of the accelerations with respect to positions.
     pub by_position: Matrix<MOST>,
@@ -35,15 +35,15 @@ pub struct IdealWithEffects {
     pub plan: Plan,
     /// Index of each degree of freedom.
     pub layout: Layout,
-    /// Inertia by degree of freedom, all planets together [kg·m²].
+    /// Inertia by degree of freedom, summed over all planets [kg·m²].
     pub inertia: [f64; MOST],
     /// Inertias of ends that are rigid on their side gears [kg·m²].
     pub rigid_end: [f64; 2],
     /// r = z_p/z_s.
     pub ratio: f64,
-    /// W: accelerations by forces, by columns.
+    /// Columns of W, which gives accelerations from forces.
     pub mobility: [[f64; MOST]; MOST],
-    /// Columns of f: for the carrier, the spin and both ends; zero where the motion is not imposed.
+    /// Columns of f for the carrier, the spin and both ends; zero if the motion is not imposed.
     pub follow: [[f64; MOST]; IMPOSED],
     /// Constants of a scene in which only half-shafts act, apart from dry friction.
     pub linear: Option<Box<Linear>>,
@@ -73,7 +73,7 @@ impl IdealWithEffects {
             columns.iter().enumerate().filter(|&(k, column)| is_free(k, column)).map(|(_, column)| *column).collect();
         let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
         let m = nalgebra::DMatrix::from_fn(n, n, |i, j| if i == j { inertia[i] } else { 0.0 });
-        // inertias are positive, so that the reduced matrix has an inverse
+        // inertias are positive, so the reduced matrix has an inverse
         let reduced = (p.transpose() * &m * &p).try_inverse();
         let w = reduced.map_or_else(|| nalgebra::DMatrix::zeros(n, n), |inverse| &p * inverse * p.transpose());
         let c = nalgebra::DMatrix::from_fn(n, IMPOSED, |i, k| if imposed[k] { columns[k][i] } else { 0.0 });
@@ -129,7 +129,8 @@ impl IdealWithEffects {
         Linear { heat_index, by_position, by_velocity }
     }
 
-    /// Writes derivatives of the accelerations to `product`, from those of the forces and of the carrier's imposed acceleration.
+    /// Writes the derivatives of the accelerations to `product`, from the derivatives of the forces and of the
+    /// carrier's imposed acceleration.
     pub fn accelerations_by(&self, forces: &Matrix<MOST>, imposed: &[f64; MOST], product: &mut Matrix<MOST>) {
         for (i, row) in product.iter_mut().enumerate() {
             let mut sum = [0.0; MOST];

@@ -15,27 +15,27 @@ pub struct Inertias {
     pub carrier: f64,
     /// Side gears with their rigid ends.
     pub side: [f64; 2],
-    /// Wheel-side ends alone, left and right.
+    /// Wheel-side ends, left and right.
     pub end: [f64; 2],
     /// One planet about its own axis.
     pub planet: f64,
     /// One planet about the carrier's axis.
     pub planet_transverse: f64,
-    /// Mass of a side gear [kg], of its solid unless it is given.
+    /// Mass of a side gear [kg], from its solid unless it is given.
     pub side_mass: f64,
-    /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m], always of its solid.
+    /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m], always from its solid.
     pub planet_mass_moment: f64,
     /// Number of planets.
     pub planets: f64,
 }
 
 impl Inertias {
-    /// Inertias of the scene from the solids of planet and side gear. A given inertia replaces that of the solid and scales the
-    /// planet's transverse inertia; it leaves masses unchanged.
+    /// Inertias of the scene from the solids of planet and side gear. A given inertia replaces the inertia of the solid
+    /// and scales the planet's transverse inertia, but leaves masses unchanged.
     pub fn new(p: &Parameters, [planet, side]: &[GearMass; 2]) -> Self {
         let (side_axial, planet_axial) =
             if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
-        // an inertia says nothing of a mass: that of the solid stays until another one is given
+        // an inertia says nothing about a mass, so the mass of the solid remains until another one is given
         let is_mass_given = !p.inertia.from_geometry && p.inertia.side_gear_mass > 0.0;
         let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
         let end = [p.inertia.left_end, p.inertia.right_end];
@@ -52,7 +52,8 @@ impl Inertias {
         }
     }
 
-    /// Inertia by degree of freedom of `plan`, planets and pins singly, and the ends that stay rigid on their side gears.
+    /// Inertia by degree of freedom of `plan`, for a single planet and pin of each group, and inertias of the ends that
+    /// are rigid on their side gears.
     pub fn by_freedom(&self, plan: &Plan) -> ([f64; MAX_DOF], [f64; 2]) {
         let layout = plan.layout();
         let mut inertia = [0.0; MAX_DOF];
@@ -107,7 +108,7 @@ mod tests {
         assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         let given = p.inertia.side_gear;
         assert_eq!((j.planet, j.side), (3.0 * axial, [given + 0.5, given]));
-        // but not its mass, nor that of a side gear
+        // but neither its mass nor the mass of a side gear
         assert_eq!((j.planet_mass_moment, j.side_mass), (mass * centre, masses[1].mass));
         p.inertia.side_gear_mass = 0.7;
         assert_eq!(Inertias::new(&p, &masses).side_mass, 0.7);

@@ -1,4 +1,4 @@
-//! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
+//! Contact law of a scene, from parameters to the laws of plain and detailed meshes.
 
 use std::sync::Arc;
 
@@ -19,31 +19,31 @@ use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
-/// The law of a scene, and what it acts on.
+/// Contact law of a scene, and the faces and bodies on which it acts.
 pub struct Laws {
     /// Elastic law of a tooth pair, or of a mesh.
     pub spring: AnySpring,
-    /// Where the resultant of a pair acts.
+    /// Position of the resultant of a pair.
     pub whole: Resultant,
     /// Solid teeth.
     pub solid: Option<Box<SolidMesh>>,
-    /// The face over which loads are summed in detail.
+    /// Face over which loads are summed in detail.
     pub face: CutFace,
-    /// The face over which flanks rub, if the law is valid at every cone distance.
+    /// Face over which flanks rub, if the law is valid at every cone distance.
     pub rubbed: Option<CutFace>,
-    /// The bodies that pairs share, where they are elastic.
+    /// Gear bodies that pairs share, if they are elastic.
     pub bodies: Option<Arc<PairCouplings>>,
 }
 
 impl Laws {
-    /// Law of the scene with what effects do to the teeth: loads that differ over the face, where the law holds at every cone
-    /// distance, and elastic bodies.
+    /// Law of the scene with the influence of effects on the teeth: elastic bodies, and loads that differ over the face
+    /// if the law is valid at every cone distance.
     pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
         let cut = tooth.sliced;
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
-        // a resultant at `cone` of a load that grows with R, spread so that the line load is the one there
+        // the resultant at `cone` of a load that grows with R, spread over a width that gives the line load at `cone`
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
         let whole = |cone: f64, weight: f64| CutFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
@@ -86,7 +86,7 @@ impl Laws {
         })
     }
 
-    /// A law of the penetration at its cone distance.
+    /// Law that depends on the penetration at one cone distance.
     fn of_depth(spring: ImpactSpring, face: CutFace) -> Self {
         let whole = Resultant::new(spring.cone, 1.0);
         Self { spring: AnySpring::Impact(spring), whole, solid: None, face, rubbed: None, bodies: None }
@@ -98,7 +98,7 @@ impl Laws {
             DampingModel::Step => {
                 Damping::Step { coefficient: p.contact.damping, per_full_depth: 1.0 / p.contact.penetration_depth }
             }
-            // a restitution that has no damping to go with it is refused before
+            // a restitution without a corresponding damping was rejected before
             DampingModel::Restitution => Damping::HuntCrossley {
                 lambda: damping::dimensionless_damping(p.contact.restitution).unwrap_or(0.0) / p.contact.impact_speed,
             },
@@ -106,7 +106,7 @@ impl Laws {
     }
 }
 
-/// A law by the stiffness of the teeth, and the bodies that pairs share, where they are elastic.
+/// Law from the stiffness of the teeth, and the gear bodies that pairs share, if they are elastic.
 fn of_teeth<S>(
     p: &Parameters,
     pair: &Pair,
@@ -114,7 +114,7 @@ fn of_teeth<S>(
     cache: &GearCache,
     law: impl Fn(&PairStiffness) -> S,
 ) -> Result<(S, Option<Arc<PairCouplings>>), Problem> {
-    if !tooth.on_bodies {
+    if !tooth.elastic_bodies {
         return Ok((law(&*cache.stiffness(p, pair)?), None));
     }
     let gears = cache.on_bodies(p, pair)?;

@@ -17,28 +17,28 @@ use crate::model::setup::{CONTACT_HEAT, HEAT_OUTPUTS, HEATS, Parameters, SceneEf
 use crate::model::thermal::Network;
 use crate::problem::Problem;
 
-/// How the gears are represented.
+/// Representation of the gears.
 #[derive(Clone, Debug)]
 pub enum Gears {
-    /// Willis' equation: in closed form while nothing acts on bodies, integrated otherwise.
+    /// Willis' equation, solved in closed form while no effect acts on bodies, and integrated otherwise.
     Ideal(Box<IdealWithEffects>),
-    /// Meshes.
+    /// Teeth in mesh.
     Teeth(Box<Teeth>),
 }
 
-/// What a model is given besides the parameters.
+/// Data from which a model is built, in addition to the parameters.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Given<'a> {
-    /// Teeth of all gears in place of those that the seed of tooth errors gives.
+    /// Teeth of all gears, instead of those from the seed of the tooth errors.
     pub teeth: Option<&'a [GearTeeth]>,
-    /// What is kept from starts before.
+    /// Cache from earlier starts.
     pub cache: Option<&'a GearCache>,
 }
 
-/// Everything derived from the parameters; it does not change while a simulation runs, but for tunable parameters.
+/// Everything derived from the parameters. It does not change during a simulation, except by tunable parameters.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// Parameters it was made from.
+    /// Parameters from which the model was built.
     pub parameters: Parameters,
     /// Geometry of the pair.
     pub pair: Pair,
@@ -46,24 +46,25 @@ pub struct Model {
     pub masses: [GearMass; 2],
     /// Ideal differential of the same scene.
     pub ideal: Ideal,
-    /// How the gears are represented.
+    /// Representation of the gears.
     pub gears: Gears,
-    /// The teeth with planets that move as one until a tooth of one breaks.
+    /// Teeth with all planets in one group, until a tooth breaks.
     pub together: Option<Box<Teeth>>,
-    /// Nodes that warm up, where the scene asks for them.
+    /// Thermal network, if the scene has the effect `warm_up`.
     pub thermal: Option<Box<Network<HEATS>>>,
-    /// What steps are watched for beside the ledger, where the scene asks for anything.
+    /// Records of steps in addition to the ledger, if the scene needs any.
     pub watch: Option<Box<Watch>>,
-    /// Where each degree of freedom stands.
+    /// Index of each degree of freedom.
     pub layout: Layout,
-    /// Periods of the positions: a tooth pitch, for the carrier a turn [rad].
+    /// Periods of the positions: a tooth pitch, or a turn for the carrier [rad].
     pub periods: [f64; MAX_DOF],
-    /// What is unusual about the scene.
+    /// Warnings about the scene.
     pub warnings: Vec<Problem>,
 }
 
 impl Model {
-    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
+    /// Model of the scene, whose values must be within the ranges of the interface. Fails with all problems of the
+    /// scene.
     pub fn new(parameters: &Parameters, given: &Given) -> Result<Self, Vec<Problem>> {
         let own = GearCache::default();
         let cache = given.cache.unwrap_or(&own);
@@ -96,7 +97,7 @@ impl Model {
         let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
             GearContact::Ideal => {
-                // a formula has no steps that could be recorded
+                // a closed form has no steps that could be recorded
                 body_effects.has_effects |= parameters.effects.warm_up;
                 Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
             }
@@ -141,12 +142,12 @@ impl Model {
         }
     }
 
-    /// Stress and fatigue, where the scene asks for them.
+    /// Stress and fatigue, if the scene has the effect `strength`.
     pub fn strength(&self) -> Option<&GearStrength> {
         self.watch.as_ref()?.strength.as_ref()
     }
 
-    /// Takes over tunable parameters from `parameters`, which must differ in those alone.
+    /// Applies the tunable parameters of `parameters`, which must differ only in these.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
         if let Some(thermal) = &mut self.thermal {
@@ -161,7 +162,7 @@ impl Model {
                 contact.set_damping(damping);
                 contact.detailed.friction = effects.on_flanks().map(|friction| friction.law);
                 effect_terms.body_effects.tune(&effects);
-                // a coefficient that was 0 needs the loads from now on
+                // a coefficient that was 0 may need the loads from now on
                 contact.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
                 contact.in_detail |= contact.detailed.needs_thrust;
                 if let Some(together) = &mut self.together {
@@ -172,14 +173,14 @@ impl Model {
     }
 }
 
-/// Nodes that warm up, with gears of these masses.
+/// Thermal network with gears of these masses.
 fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
     let [planet, side] = masses.map(|gear| gear.mass);
     let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
     p.specs.warm_up.network(gears, p.oil.temperature, HEAT_OUTPUTS)
 }
 
-/// What effects do to single teeth; solid teeth take their errors themselves.
+/// Influence of effects on single teeth. Solid teeth include their errors directly.
 fn tooth_effects(p: &Parameters, effects: &SceneEffects) -> Result<ToothEffects, Problem> {
     if p.scene.gear_contact == GearContact::Solid {
         return Ok(ToothEffects { individual: solid::is_individual(p), ..ToothEffects::default() });
@@ -228,11 +229,11 @@ fn teeth(
     Teeth::new(pair, contact, plan, &ideal.inertia, deflection_limit, effect_terms)
 }
 
-/// What steps are watched for.
+/// Records of steps in addition to the ledger.
 #[derive(Clone, Debug)]
 pub struct Watch {
     /// Stress and fatigue.
     pub strength: Option<GearStrength>,
-    /// Peak-to-peak values over mesh cycles.
+    /// True if peak-to-peak values over mesh cycles are recorded.
     pub keeps_mesh_history: bool,
 }

@@ -11,8 +11,8 @@ use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::numeric::{cos, sin};
 
-/// Mesh of `pair` with the gears `spec`, the facets of `teeth`, the tooth errors `errors`, and the elastic law and damping of
-/// a tooth pair.
+/// Mesh of `pair` with the gears `spec`, the facets of `teeth`, the tooth errors `errors`, and the elastic law and
+/// damping of a tooth pair.
 pub fn mesh(
     pair: &Pair,
     (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),
@@ -31,7 +31,7 @@ pub fn mesh(
         (vec![slice((pair.mean_cone, width))], Vec::new())
     } else {
         let sections = gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(|s| slice((s.cone, s.width)));
-        // the load is also read at its possible maxima: both ends of the face and the crest of the crowning
+        // the load is also evaluated at its possible maxima: both ends of the face and the crest of the crowning
         let edges = [pair.inner_cone, pair.mean_cone, pair.outer_cone].map(|cone| slice((cone, 0.0)));
         (sections.collect(), edges.to_vec())
     };
@@ -49,13 +49,13 @@ pub fn mesh(
     SolidMesh::new(pair, &solids, elastic, damping, slack).with_edges(&edges)
 }
 
-/// Whether the displacements of the planets differ, so that each planet is simulated.
+/// True if the displacements of the planets differ, so each planet must be simulated.
 pub fn is_individual(p: &Parameters) -> bool {
     let displaced = displaced(&errors(p), p.geometry.planet_count);
     displaced.iter().any(|d| *d != displaced[0])
 }
 
-/// Tooth errors of the scene `p`; none where their effect is off.
+/// Tooth errors of the scene `p`; none if their effect is off.
 pub fn errors(p: &Parameters) -> ToothErrorSpec {
     if p.effects.tooth_errors { p.specs.tooth_errors } else { ToothErrorSpec::default() }
 }

@@ -11,15 +11,15 @@ pub const SIGMA: [f64; 2] = [1.0, -1.0];
 /// Constants of a differential with teeth.
 #[derive(Clone, Debug)]
 pub struct Teeth {
-    /// Contact of a planet with both side gears, alike for all planets.
+    /// Contact of a planet with both side gears, identical for all planets.
     pub contact: Contact,
     /// Scene plan.
     pub plan: Plan,
     /// Index of each degree of freedom.
     pub layout: Layout,
-    /// Inertia of each degree of freedom, that of planets and pins for a single one [kg·m², for seats kg].
+    /// Inertia of each degree of freedom, for a single planet and pin of each group [kg·m², for seats kg].
     pub inertia: [f64; MAX_DOF],
-    /// Reciprocals of the inertias, 0 where the motion is imposed.
+    /// Reciprocals of the inertias, or 0 if the motion is imposed.
     pub inverse_inertia: [f64; MAX_DOF],
     /// Inertias of the wheel-side ends that are rigid on their side gears [kg·m²].
     pub rigid_end: [f64; 2],
@@ -29,15 +29,15 @@ pub struct Teeth {
     pub base_pitch: f64,
     /// Largest approach of flanks: the working depth or half the base pitch, whichever is smaller [rad].
     pub deflection_limit: f64,
-    /// Whether completed steps have more to record than work and heat of contact.
+    /// True if completed steps record more than work and heat of contact.
     pub records_more: bool,
-    /// Constants of the effects; boxed, so that the layout of `Teeth` is the same in every build.
+    /// Constants of the effects; boxed, so the layout of `Teeth` is the same in every build.
     pub effect_terms: Box<EffectTerms>,
 }
 
 impl Teeth {
-    /// The same teeth with all planets in one group, for the time before an event such as a broken tooth makes one differ.
-    /// `None` where planets are not alike and plain until then.
+    /// Returns the teeth with all planets in one group, until an event such as a broken tooth makes one planet differ.
+    /// Returns `None` unless planets are in phase and their teeth are plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
         let is_plain = !self.effect_terms.body_effects.has_effects
@@ -69,7 +69,7 @@ impl Teeth {
             inverse_inertia[layout.planet(g)] = 0.0;
         }
         for s in (0..2).filter(|_| layout.has_ends()) {
-            // a side with a rigid half-shaft has no end to move
+            // a side with a rigid half-shaft has no moving end
             if plan.side_imposed[s] || !plan.shafts[s] {
                 inverse_inertia[layout.end(s)] = 0.0;
             }
@@ -90,10 +90,10 @@ impl Teeth {
     }
 }
 
-/// Constants of the effects that act besides plain teeth.
+/// Constants of the effects that act in addition to plain teeth.
 #[derive(Clone, Debug)]
 pub struct EffectTerms {
-    /// Whether steps feed temperatures, damage or histories, which act on no force themselves.
+    /// True if steps update temperatures, damage or histories, which cause no forces themselves.
     pub is_watched: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat_index: usize,

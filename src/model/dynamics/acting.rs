@@ -1,4 +1,4 @@
-//! What acts on gears of any level besides their teeth: inputs, and dry friction with where it sticks or slides.
+//! Inputs and dry friction, which act on gears with and without teeth.
 
 use std::iter::Chain;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::model::scene::{
 };
 use crate::model::thermal::NODES;
 
-/// Derivatives of forces, written to where they stay.
+/// Derivatives of forces, written in place.
 pub struct Jacobian<'a, const N: usize> {
     /// ∂force/∂position.
     pub by_position: &'a mut Matrix<N>,
@@ -24,28 +24,28 @@ pub struct Jacobian<'a, const N: usize> {
     pub by_velocity: &'a mut Matrix<N>,
 }
 
-/// Inputs and dry friction under which equations hold.
+/// Inputs and dry friction that act in the equations.
 #[derive(Clone, Copy)]
 pub struct Acting {
     /// Inputs.
     pub inputs: Inputs,
-    /// How they go on.
+    /// Derivatives of the inputs.
     pub input_derivatives: InputDerivatives,
-    /// Whether they change while they act.
+    /// True if inputs change with time.
     pub driven: bool,
-    /// By how much the load torques, left and right, and the torque of the carrier have changed within the step ahead [N·m].
+    /// Changes of the load torques, left and right, and of the carrier torque within the pending step [N·m].
     pub change: [f64; 3],
     /// State of the dry friction.
     pub friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
-    /// Whether there is any friction.
+    /// True if there is any dry friction.
     pub rubs: bool,
-    /// Viscosity of the oil, where effects ask for it.
+    /// Viscosity of the oil, if an effect needs it.
     pub oil_viscosity: Option<Viscosity>,
 }
 
 impl Acting {
-    /// Inputs that act at `state`. It is large: within steps it is written where it stays.
+    /// Inputs that act at `state`. Always inlined, so that this large value is written in place.
     #[inline(always)]
     pub fn without_friction(inputs: &Inputs, state: &State) -> Self {
         Self {
@@ -60,7 +60,8 @@ impl Acting {
         }
     }
 
-    /// Adds what effects on bodies contribute at `state`: dry friction, if there may be any, and the viscosity of the oil.
+    /// Adds the contribution of effects on bodies at `state`: dry friction, if there may be any, and the viscosity of
+    /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
         self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.felt);
         if body_effects.may_rub_in(state) {
@@ -76,19 +77,19 @@ impl Acting {
         self.friction.is_none()
     }
 
-    /// Lets friction feel other `temperatures` [K].
-    pub fn feel(&mut self, body_effects: &BodyEffects, lock: f64, temperatures: &[f64; NODES]) {
+    /// Updates dry friction and oil viscosity to other `temperatures` [K].
+    pub fn update_temperatures(&mut self, body_effects: &BodyEffects, lock: f64, temperatures: &[f64; NODES]) {
         self.friction = Some(body_effects.friction((lock, temperatures), &self.inputs, &self.input_derivatives));
         self.oil_viscosity = body_effects.oil_viscosity(temperatures);
     }
 
-    /// Where the springs of dry friction are anchored.
+    /// Anchors of the springs of dry friction.
     pub fn anchors(&self) -> [f64; FRICTION_BODIES] {
         self.friction_state.map(|state| state.anchor)
     }
 
-    /// Takes dragged anchors over.
-    pub fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
+    /// Sets the anchors of the springs of dry friction.
+    pub fn set_anchors(&mut self, anchors: &[f64; FRICTION_BODIES]) {
         self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
     }
 
@@ -101,7 +102,7 @@ impl Acting {
 
 /// Bodies on which friction acts.
 fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl Iterator<Item = usize> {
-    // as bits of a number, which few branches find
+    // the bits of a number are found with few branches
     let mut left = of.acting().friction().bodies(of.sticking().len());
     std::iter::from_fn(move || {
         let body = left.trailing_zeros();
@@ -112,32 +113,32 @@ fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl I
     })
 }
 
-/// Equations of gears of any level, as what acts on them sees them.
+/// Equations of gears with or without teeth, as far as inputs and dry friction need them.
 pub trait Acted<const N: usize> {
-    /// What acts.
+    /// Inputs and dry friction that act.
     fn acting(&self) -> &Acting;
-    /// The same, to be changed.
+    /// Mutable inputs and dry friction.
     fn acting_mut(&mut self) -> &mut Acting;
-    /// Sources of its dry friction.
+    /// Sources of the dry friction.
     fn friction_sources(&self) -> &[FrictionSource];
     /// Scene plan.
     fn plan(&self) -> &Plan;
     /// Index of each degree of freedom.
     fn layout(&self) -> &Layout;
-    /// Whether there is dry friction.
+    /// True if there is dry friction.
     fn rubs(&self) -> bool;
-    /// Whether half-shafts have ends.
+    /// True if half-shafts have ends.
     fn has_ends(&self) -> bool;
-    /// Groups of planets that may stick on their pins, and how many planets are in each.
+    /// Number of planets in each group that may stick on its pins.
     fn sticking(&self) -> &[f64];
-    /// Loads of the meshes on the surfaces of side gears and planets at `at`, where friction depends on them.
+    /// Loads of the meshes on the surfaces of side gears and planets at `at`, if friction depends on them.
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];
     /// Accelerations at `at`, `time` [s] after the inputs were set.
     fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N];
-    /// Accelerations by inputs and effects alone.
+    /// Accelerations from inputs and effects. Forces that do not depend on inputs may be left out.
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N];
 
-    /// The equations under other inputs.
+    /// Returns the equations under other inputs.
     fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self
     where
         Self: Copy,
@@ -148,7 +149,7 @@ pub trait Acted<const N: usize> {
         these
     }
 
-    /// The equations with the inputs of `time` [s] later.
+    /// Returns the equations with the inputs `time` [s] later.
     fn later(&self, time: f64) -> Self
     where
         Self: Copy,
@@ -157,7 +158,7 @@ pub trait Acted<const N: usize> {
         self.under(&inputs, &input_derivatives)
     }
 
-    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
+    /// Contribution of `inputs` and their derivatives to the accelerations, which are linear in both.
     fn input_accelerations(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
     where
         Self: Copy,
@@ -167,7 +168,7 @@ pub trait Acted<const N: usize> {
         std::array::from_fn(|i| with[i] - without[i])
     }
 
-    /// The slope of the accelerations by time alone, `time` [s] after the inputs were set.
+    /// Partial derivative of the accelerations with respect to time, `time` [s] after the inputs were set.
     fn drift_at(&self, at: &Point<N>, time: f64) -> [f64; N]
     where
         Self: Copy,
@@ -176,7 +177,7 @@ pub trait Acted<const N: usize> {
         self.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
-    /// All positions and velocities as effects see them.
+    /// Positions, velocities and inputs, as passed to effects.
     fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
         let Acting { inputs, input_derivatives, oil_viscosity, .. } = self.acting();
         BodyMotion {
@@ -189,7 +190,7 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Turns ledger rates at `at` into those before torques changed.
+    /// Converts ledger rates at `at` to those before the torques changed.
     fn take_torques_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         let (Acting { inputs, change, .. }, plan) = (self.acting(), self.plan());
         for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
@@ -203,13 +204,13 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
+    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear if the half-shaft is rigid.
     #[inline]
     fn wheel(&self, s: usize) -> usize {
         if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
-    /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
+    /// Numbers of the bodies that may stick: side gears, planet groups, wheels.
     fn bodies_that_stick(&self) -> Chain<Range<usize>, Range<usize>> {
         (0..FRICTION_PLANETS + self.sticking().len()).chain(FRICTION_WHEELS..FRICTION_BODIES)
     }
@@ -223,7 +224,7 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Motion of body `i` against the surface it rubs on: carrier, pin, or ground.
+    /// Motion of body `i` relative to the surface on which it rubs: carrier, pin, or ground.
     fn slip(&self, at: &Point<N>, i: usize) -> Slip {
         let body = self.freedom_of(i);
         match i {
@@ -237,7 +238,7 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Friction on body `i` with its state, and how many bodies it stands for.
+    /// Friction on body `i`, its state, and the number of identical bodies.
     fn friction_on(&self, i: usize) -> (DryFriction<'_>, &FrictionState, f64) {
         let planets = FRICTION_PLANETS..FRICTION_WHEELS;
         let count = if planets.contains(&i) { self.sticking()[i - FRICTION_PLANETS] } else { 1.0 };
@@ -276,14 +277,14 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Derivatives of dry friction by the motion of the bodies on which it acts, under the loads on its surfaces.
+    /// Adds the derivatives of dry friction with respect to the motion of its bodies, under the loads on its surfaces.
     fn friction_slopes(&self, at: &Point<N>, surface_loads: &[SurfaceLoad; FRICTION_BODIES], j: &mut Jacobian<'_, N>) {
         for i in bodies_with_friction(self) {
             let (friction, state, _) = self.friction_on(i);
             let [k, c] = friction.torque_slopes(state, &self.slip(at, i), &surface_loads[i]);
             let body = self.freedom_of(i);
             if i >= FRICTION_WHEELS {
-                // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
+                // wheel angle = carrier angle + side gear angle − twist
                 let s = i - FRICTION_WHEELS;
                 j.by_position[body][CARRIER] -= k;
                 j.by_position[body][s] -= k;
@@ -315,7 +316,7 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Energy of stuck friction [J].
+    /// Energy in the springs of stuck friction [J].
     fn friction_energy(&self, at: &Point<N>) -> f64 {
         let energy = |i: usize| {
             let (friction, state, count) = self.friction_on(i);
@@ -324,13 +325,14 @@ pub trait Acted<const N: usize> {
         self.bodies_that_stick().filter(|&i| self.acting().friction_state[i].stiffness > 0.0).map(energy).sum()
     }
 
-    /// Whether loads decide if friction switches at `at`.
+    /// True if loads decide whether friction switches at `at`.
     fn awaits_load(&self, at: &Point<N>) -> bool {
         let awaits = |i: usize| self.friction_on(i).0.awaits_load(self.friction_on(i).1, &self.slip(at, i));
         self.rubs() && bodies_with_friction(self).any(awaits)
     }
 
-    /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
+    /// Fraction of a step after which friction switches, or `None` if it does not. `start` and `end` are the ends of
+    /// the step with their times [s].
     fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
         if !self.awaits_load(end.0) {
             return None;
@@ -346,7 +348,7 @@ pub trait Acted<const N: usize> {
             .reduce(f64::min)
     }
 
-    /// Distance of each friction from its switch, where it acts.
+    /// Distance of each friction from its switch, or `None` if it does not act.
     fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES]
     where
         Self: Sized,
@@ -362,7 +364,7 @@ pub trait Acted<const N: usize> {
         margins
     }
 
-    /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
+    /// True if friction is due to switch at `at`, `time` [s] after the inputs were set.
     fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
         if !self.awaits_load(at) {
             return false;
@@ -374,8 +376,8 @@ pub trait Acted<const N: usize> {
         })
     }
 
-    /// Returns true if body `i` slides at a speed near zero at `at`, `time` [s] after the inputs were set, and does not accelerate in
-    /// the direction in which it slides.
+    /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction, at `at` and
+    /// `time` [s] after the inputs were set.
     fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
         let direction = self.acting().friction_state[i].mode.direction();
         if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {
@@ -385,7 +387,7 @@ pub trait Acted<const N: usize> {
         direction * self.slip(&Point { q: at.q, v }, i).speed <= 0.0
     }
 
-    /// Drags the anchors of bodies that slide along to `at`, with the ledger rates there.
+    /// Drags the anchors of sliding bodies to the point `at` with these ledger rates.
     #[inline]
     fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.rubs() {
@@ -396,8 +398,8 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Switches friction where it is due at `at`, `time` [s] after the inputs were set, on `bodies`; what its springs
-    /// lose is heat.
+    /// Switches friction on `bodies` if it is due at `at`, `time` [s] after the inputs were set. Energy that its
+    /// springs lose becomes heat.
     fn settle_friction(&mut self, at: &Point<N>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
         let surface_loads = self.surface_loads(at, time);
         for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
@@ -410,7 +412,7 @@ pub trait Acted<const N: usize> {
         }
     }
 
-    /// Adapts friction to changed stiffnesses: it starts on bodies that were free, and ends on others.
+    /// Adapts friction to changed stiffnesses. It starts on bodies without friction so far, or ends on others.
     fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64])
     where
         Self: Sized,

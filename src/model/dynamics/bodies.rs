@@ -1,8 +1,10 @@
-//! Bodies and meshes: the coordinates of a mesh from the motion of its bodies, and forces and derivatives of meshes on the bodies.
+//! Transformation between bodies and meshes: mesh coordinates from the motion of the bodies, and mesh forces and their
+//! derivatives on the bodies.
 //!
-//! q = sinδ_bs α − σ sinδ_bp ψ, x = σ sinδ_bp ψ + h, and the displacement w of the side gear along its axis; σ = +1 left, −1 right.
-//! A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the planet with σ sinδ_bp (F_x − F_q), and on the seat with
-//! F_w. Its reaction acts on the carrier, or on the pin where pins move.
+//! Mesh coordinates are q = sinδ_bs α − σ sinδ_bp ψ, x = σ sinδ_bp ψ + h, and the displacement w of the side gear along
+//! its axis. The sign σ is +1 left and −1 right. A force (F_q, F_x, F_w) acts on the side gear with sinδ_bs F_q, on the
+//! planet with σ sinδ_bp (F_x − F_q), and on the seat with F_w. Its reaction acts on the carrier, or on the pin if pins
+//! move.
 
 use super::Equations;
 use super::shape::Shape;
@@ -13,7 +15,7 @@ use crate::integrate::{Matrix, Point};
 use crate::model::assembly::SIGMA;
 use crate::model::scene::CARRIER;
 
-/// Derivatives of the forces of a mesh by coordinates.
+/// Derivatives of the forces of a mesh with respect to mesh coordinates.
 type Block = [[f64; COORDINATES]; COORDINATES];
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
@@ -75,8 +77,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of the mesh of side `s` by the coordinates of the mesh of side `other`, from
-    /// ∂(F_q, F_x, F_w)/∂(q, x, w).
+    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of the mesh of side `s` with respect to the coordinates of the mesh of side `other`,
+    /// from ∂(F_q, F_x, F_w)/∂(q, x, w).
     #[inline]
     fn on_bodies(&self, s: usize, other: usize, by: &Block) -> Block {
         let [planet, side] = self.teeth.sin_base;
@@ -91,8 +93,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Adds derivatives of the forces of meshes, by group and side, to ∂(sums)/∂(positions) or ∂(sums)/∂(rates): those by the
-    /// coordinates of each mesh itself, or `ACROSS`, by those of the planet's other mesh.
+    /// Adds derivatives of mesh forces, by group and side, to ∂(sums)/∂(positions) or ∂(sums)/∂(rates). They are
+    /// derivatives with respect to the coordinates of the mesh itself or, with `ACROSS`, of the planet's other mesh.
     #[inline(always)]
     pub(super) fn add_block<const ACROSS: bool>(&self, by: impl Fn(usize, usize) -> Block, m: &mut Matrix<N>) {
         let other = |s: usize| if ACROSS { 1 - s } else { s };
@@ -137,8 +139,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Adds to row `row` the slopes of something by q, x, w, or by their rates, of all meshes of side `s`. The slopes of a group are
-    /// those of all its members; `part` is the place of the first of the three.
+    /// Adds derivatives with respect to q, x, w, or to their rates, of all meshes of side `s` to the row `row`. The
+    /// caller includes the number of members of a group in its slopes. `part` is the index of the first of the three
+    /// slopes.
     #[inline]
     pub(super) fn spread(
         &self,
@@ -161,12 +164,13 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
+    /// Degree of freedom that moves the planets of group `g` around the carrier's axis: their pin, or the carrier.
     pub(super) fn orbit(&self, g: usize) -> usize {
         if self.has_pins() { self.pin(g) } else { CARRIER }
     }
 
-    /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
+    /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its derivative with respect to ω
+    /// [N·s/rad].
     pub(super) fn centrifugal(&self, at: &Point<N>, g: usize) -> [f64; 2] {
         let per_speed = self.teeth.effect_terms.planet_mass_moment * at.v[self.orbit(g)];
         [per_speed * at.v[self.orbit(g)], 2.0 * per_speed]
@@ -184,7 +188,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         0.5 * (others(0..self.planet(0)) + planets + others(behind..self.count()))
     }
 
-    /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
+    /// Largest approach of any flank pair [rad], negative inside the backlash, with its group and side.
     #[inline]
     pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
         self.deepest_of_touching(at).0

@@ -1,33 +1,34 @@
-//! Inputs that change while they act.
+//! Inputs that change with time.
 //!
-//! Accelerations are linear in torques and in imposed accelerations, with constant coefficients. So inputs that follow a parabola,
-//! u(t) = u + u̇ t + ü t²/2, add a parabola of time to the accelerations at constant inputs, Δv̇ = a₀ + a₁ t + a₂ t², and the power
-//! Σ J Δv̇ v to that of the inputs. Only a final drive whose teeth scale what the carrier is given, and torques of brakes, need the
-//! equations at the inputs of the time.
+//! Accelerations are linear in torques and in imposed accelerations, with constant coefficients. Inputs that follow a
+//! parabola, u(t) = u + u̇ t + ü t²/2, therefore add a parabola of time to the accelerations at constant inputs: Δv̇ =
+//! a₀ + a₁ t + a₂ t². They add the power Σ J Δv̇ v to the power of the inputs. There are two exceptions, for which the
+//! equations are evaluated at the inputs of each time: brake torques, and a final drive that scales the inputs of the
+//! carrier.
 
 use super::shape::Shape;
 use super::{Acted, Equations};
 use crate::integrate::Point;
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
-/// What inputs add to the accelerations while they change.
+/// Terms that changing inputs add to the accelerations.
 #[derive(Clone, Copy)]
 pub struct Driven<const N: usize> {
-    /// Whether they change.
+    /// True if inputs change.
     pub changes: bool,
-    /// Whether the equations are to be evaluated at the inputs of the time.
+    /// True if the equations must be evaluated at the inputs of each time.
     pub scales: bool,
-    /// Otherwise, a₀, a₁ and a₂.
+    /// Coefficients a₀, a₁ and a₂ of the parabola, unless `scales`.
     pub by_order: [[f64; N]; 3],
 }
 
 impl<const N: usize> Driven<N> {
-    /// Inputs are constant.
+    /// Constant inputs.
     pub const NO: Self = Self { changes: false, scales: false, by_order: [[0.0; N]; 3] };
-    /// Equations are to be evaluated at the inputs of the time.
+    /// Inputs for which the equations must be evaluated at each time.
     pub const SCALES: Self = Self { changes: true, scales: true, ..Self::NO };
 
-    /// Adds to the accelerations at `time` [s].
+    /// Adds the parabola at `time` [s] to the accelerations.
     #[inline(always)]
     fn add(&self, time: f64, accelerations: &mut [f64; N]) {
         let [zero, one, two] = &self.by_order;
@@ -43,9 +44,9 @@ impl<const N: usize> Driven<N> {
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// What the inputs that act add.
+    /// Terms that the acting inputs add to the accelerations.
     #[inline(never)]
-    pub(super) fn addition(&self, derivatives: &InputDerivatives) -> Driven<N> {
+    pub(super) fn driven_terms(&self, derivatives: &InputDerivatives) -> Driven<N> {
         let [first, second] = &derivatives.rates;
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let moves_carrier = |rates: &Inputs| rates.carrier_speed != 0.0 || rates.carrier_torque != 0.0;
@@ -67,7 +68,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             torque(CARRIER, |inputs, _| inputs.carrier_torque, 0);
         }
         let mut acceleration = |i: usize, of: fn(&Inputs, usize) -> f64, s: usize| {
-            // where effects may act the equations have the first of them already
+            // if effects may act, the equations already contain the first derivative
             (by_order[0][i], by_order[1][i]) = (if S::MAY_ACT { 0.0 } else { of(first, s) }, of(second, s));
         };
         if plan.carrier_imposed {
@@ -82,13 +83,13 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         Driven { changes: true, scales: false, by_order }
     }
 
-    /// Whether the equations are to be evaluated at the inputs of the time.
+    /// True if the equations must be evaluated at the inputs of each time.
     #[inline]
     pub(super) fn scales_by_inputs(&self) -> bool {
         S::MAY_ACT && self.driven.scales
     }
 
-    /// Adds to the accelerations at `time` [s] what changing inputs add.
+    /// Adds the terms of changing inputs at `time` [s] to the accelerations.
     #[inline(always)]
     pub(super) fn add_by_inputs(&self, time: f64, accelerations: &mut [f64; N]) {
         if S::MAY_CHANGE && (!S::MAY_ACT || self.driven.changes) {
@@ -96,7 +97,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Power of what changing inputs add, at the velocities of `at` at `time` [s] [W].
+    /// Power of the terms of changing inputs at `time` [s] and at the velocities of `at` [W].
     #[inline]
     pub(super) fn added_power(&self, at: &Point<N>, time: f64) -> f64 {
         if S::MAY_CHANGE && self.driven.changes { self.power_of_parabola(at, time) } else { 0.0 }

@@ -1,4 +1,4 @@
-//! Dry friction of gears with teeth: under the loads of their meshes, with derivatives by these.
+//! Dry friction of gears with teeth under the loads of their meshes, with its derivatives with respect to these loads.
 
 use super::ledger_rates::LedgerRates;
 use super::shape::{ByGroup, Shape};
@@ -14,7 +14,7 @@ use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_W
 pub(super) type MeshLoads<S, const N: usize> = ([SurfaceLoad; 2], <S as Shape<N>>::ByGroup<SurfaceLoad>);
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// Loads by body; none where meshes press nothing.
+    /// Loads by body; zero without mesh loads.
     #[inline(always)]
     pub(super) fn by_body(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
@@ -27,8 +27,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         all
     }
 
-    /// Adds the torques and the heat of dry friction, where there is any, under given loads on the surfaces of side gears and
-    /// planets.
+    /// Adds the torques and the heat of dry friction, if there is any, under given loads on the surfaces of side gears
+    /// and planets.
     #[inline(always)]
     pub(super) fn add_friction(
         &self,
@@ -52,15 +52,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.rub(at, &self.all_surface_loads(loads), sum, ledger_rates);
     }
 
-    /// Loads on all surfaces, those of side gears and planets as given.
+    /// Loads on all rubbing surfaces. `loads` are those of side gears and planets.
     fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = self.by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
         all
     }
 
-    /// Derivatives of dry friction by the motion of the bodies on which it acts, under given loads on the surfaces of side gears
-    /// and planets.
+    /// Adds the derivatives of dry friction with respect to the motion of its bodies, under given loads on the surfaces
+    /// of side gears and planets.
     pub(super) fn friction_slopes_under(
         &self,
         at: &Point<N>,
@@ -72,7 +72,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Adds the torques of brakes that slide, which follow from inputs and speeds alone.
+    /// Adds the torques of sliding brakes, which depend only on inputs and speeds.
     pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
         let surface_loads = self.acting.friction().wheel_loads(&self.acting.inputs);
         for s in 0..2 {
@@ -85,7 +85,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Derivatives of dry friction by the loads of the meshes.
+    /// Adds the derivatives of dry friction that result from the loads of the meshes.
     pub(super) fn friction_slopes_by_loads<L: LinearisedLoad>(
         &self,
         at: &Point<N>,
@@ -128,8 +128,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Direction in which body `i` slides, and the slopes of its limit torque by thrust and load, under the loads `by`; none
-    /// where it does not slide.
+    /// Direction in which body `i` slides, and the derivatives of its limit torque with respect to thrust and load,
+    /// under the loads `by`. Returns `None` if the body does not slide.
     fn slopes_of_sliding(&self, at: &Point<N>, i: usize, by: &SurfaceLoad) -> Option<(f64, [f64; 2])> {
         let (friction, state, _) = self.friction_on(i);
         let direction = state.mode.direction();
@@ -137,7 +137,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed, by)))
     }
 
-    /// Derivatives of the planets' dry friction by the speeds that throw them outward.
+    /// Adds the derivatives of the planets' dry friction that result from their centrifugal force.
     pub(super) fn friction_slopes_by_orbit(
         &self,
         at: &Point<N>,
@@ -151,8 +151,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Adds to a row the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes where those
-    /// matter.
+    /// Adds derivatives with respect to the variables of all meshes of side `s` to a row. If the meshes of a planet are
+    /// coupled, it adds derivatives with respect to the other meshes as well.
     fn spread_all<L: LinearisedLoad>(
         &self,
         row: (usize, f64),

@@ -1,26 +1,27 @@
-//! Least energy that the balance of a step resolves.
+//! Smallest energy that the balance of a step resolves.
 //!
-//! The balance is relative to the energy exchanged in the step. In a motion that decays to rest this energy decays along with
-//! the motion, so that the relative balance alone would resolve the decay to the last bit. The floor is the sum of two energies:
+//! The balance is relative to the energy exchanged in the step. In a motion that decays to rest, this energy decays as
+//! well, so that a purely relative balance would resolve the decay to the last bit. The floor is the sum of two
+//! energies:
 //!
-//!   rounding    Σ |F| δ, with the force F of all springs on a body at the end of the step, and the rounding δ of the body's
-//!               position. A shift by δ changes the stored energy by F δ, and no input does this work.
-//!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below tol/w.
-//!               It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster motion, a
-//!               small energy may be the beginning of a large one, as at the first touch of a blow.
+//!   rounding    Σ |F| δ, with the force F of all springs on a body at the end of the step, and the rounding δ of the
+//!               body's position. A shift by δ changes the stored energy by F δ, and no input does this work.
+//!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below
+//!               tol/w. It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster
+//!               motion, a small energy may be the beginning of a large one, as at the start of an impact.
 
 use super::Acted;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{CARRIER, Layout, MAX_DOF};
 
-/// Share of the kinetic energy that rounding of positions changes at most in moving gears. A larger residual is an error of the
-/// step, and the forces of the springs need not be evaluated.
+/// Maximum fraction of the kinetic energy that rounding of positions changes in moving gears. A larger residual is an
+/// error of the step, and the forces of the springs need not be evaluated.
 const ROUNDED_SHARE: f64 = 1e-9;
 
-/// Returns the energy [J] below which a `residual` [J] of the balance of a step between `ends` is not resolved, if the motion has
-/// the relative `tolerance`. `spring_forces` are the forces on all bodies at the end, at rest and without inputs, and
-/// `kinetic_energy` is in J.
+/// Returns the energy [J] below which a `residual` [J] of the balance of a step between `ends` is not resolved, if the
+/// motion has the relative `tolerance`. `spring_forces` are the forces on all bodies at the end, at rest and without
+/// inputs, and `kinetic_energy` is in J.
 pub fn energy_floor<const N: usize>(
     equations: &(impl Acted<N> + SecondOrder<N>),
     [start, end]: [&Point<N>; 2],
@@ -42,8 +43,8 @@ pub fn energy_floor<const N: usize>(
     if is_near_rest { shifted + unresolved } else { shifted }
 }
 
-/// Rounding of the absolute position of each body in a step between `ends` [rad; seats m]. Positions of side gears and pins are
-/// relative to the carrier, those of attached bodies to the body that they turn against.
+/// Rounding of the absolute position of each body in a step between `ends` [rad; seats m]. Positions of side gears and
+/// pins are relative to the carrier; positions of attached bodies are relative to the body against which they turn.
 fn roundings<const N: usize>(layout: &Layout, [start, end]: [&Point<N>; 2]) -> [f64; N] {
     let mut rounding: [f64; N] = std::array::from_fn(|i| POSITION_ROUNDING * start.q[i].abs().max(end.q[i].abs()));
     let on_carrier =

@@ -5,12 +5,16 @@
 //!
 //!   J_s ω̇_s = Σ Q_α − T_s,   J_c ω̇_c = T_c − Σ_s Σ Q_α,   I_p ψ̈ = Q_ψL + Q_ψR,   α̇_s = ω_s − ω_c
 //!
-//! Forces come in this order: the contact of each planet with both side gears (`planet_contact`), carried to the bodies (`bodies`), with
-//! the dry friction under its loads (`dry_friction`); then effects on bodies; then inputs and imposed motions. Derivatives come with
-//! them. Imposed motions have a given acceleration.
+//! Forces are computed in this order, together with their derivatives:
 //!
-//! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
-//! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
+//! 1. contact of each planet with both side gears (`planet_contact`),
+//! 2. forces of the contact on the bodies (`bodies`),
+//! 3. dry friction under the loads of the contact (`dry_friction`),
+//! 4. effects on bodies (`Equations::act_on_bodies`),
+//! 5. inputs and imposed motions, which have a given acceleration (`Equations::finish`).
+//!
+//! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β relative to the carrier,
+//! and ends of half-shafts with the twist as position. With pins, α − β replaces α, and the reaction acts on the pin.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -25,27 +29,27 @@ use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
 use crate::model::scene::layout::{LEFT, over_groups};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, Plan};
 
-/// The equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
+/// Equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
 #[derive(Clone, Copy)]
 pub struct Equations<'a, S, const N: usize> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) acting: Acting,
-    /// What inputs add while they change.
+    /// Terms that inputs add while they change.
     pub(super) driven: Driven<N>,
     pub(in crate::model) is_tooth_broken: bool,
-    /// Relative position taken out by wrapping, by group and side [rad].
+    /// Relative position removed by wrapping, by group and side [rad].
     pub(super) offset: [[f64; 2]; MAX_GROUPS],
-    /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
+    /// Number of pitches by which planets have been wrapped, in the direction of x of the left mesh.
     wrapped: [i64; MAX_GROUPS],
     shape: PhantomData<S>,
 }
 
-/// Equations with teeth of any scene: for all that is not done in every step.
+/// Equations with teeth in the shape that fits any scene, for computations outside the loop over the steps.
 pub type Largest<'a> = Equations<'a, Any, LARGEST>;
 
 impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
-    /// Equations at `state`'s wrapping under `inputs`.
+    /// Equations under `inputs` with the wrapping of `state`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
         let mut offset = [[0.0; 2]; MAX_GROUPS];
         let mut wrapped = [0; MAX_GROUPS];
@@ -64,12 +68,12 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         let mut these =
             Self { teeth, acting, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };
         if let Some(derivatives) = &state.input_derivatives {
-            these.driven = these.addition(derivatives);
+            these.driven = these.driven_terms(derivatives);
         }
         these
     }
 
-    /// Groups of planets.
+    /// Number of planet groups.
     #[inline]
     pub(in crate::model) fn groups(&self) -> usize {
         S::groups(&self.teeth.layout)
@@ -81,7 +85,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         over_groups(self.groups(), term)
     }
 
-    /// Values of the groups of planets; `none` fills what there is no group for.
+    /// Values `of` the planet groups. Entries beyond the last group are `none`.
     #[inline]
     pub(super) fn by_group<T: Copy>(&self, none: T, of: impl Fn(usize) -> T) -> S::ByGroup<T> {
         let mut all = S::ByGroup::filled(none);
@@ -97,7 +101,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         self.teeth.plan.group(g).members
     }
 
-    /// Whether pins and seats move.
+    /// True if pins and seats move.
     #[inline]
     pub(in crate::model) fn has_pins(&self) -> bool {
         S::has_pins(&self.teeth.layout)
@@ -127,7 +131,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         S::end(&self.teeth.layout, s)
     }
 
-    /// Degrees of freedom.
+    /// Number of degrees of freedom.
     #[inline]
     pub(in crate::model) fn count(&self) -> usize {
         S::count(&self.teeth.layout)
@@ -140,25 +144,26 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         first..first + self.groups() + pins
     }
 
-    /// These equations in the shape that fits any scene.
+    /// Returns these equations in the shape that fits any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
         let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
         let driven = if acting.driven { Driven::SCALES } else { Driven::NO };
         Largest { teeth, acting, driven, is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 
-    /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
+    /// Number of pitches by which planets of group `g` have been wrapped, in the direction of x of the mesh with side
+    /// `s`.
     #[inline]
     pub(super) fn wrapped(&self, g: usize, s: usize) -> i64 {
         if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
     }
 
-    /// Accelerations; completes the ledger rates.
+    /// Returns the accelerations and completes the ledger rates.
     #[inline]
     pub(super) fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
         let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
         self.act(at, &mut sum, &mut imposed, ledger_rates);
-        // in small sizes a copy that stays in registers
+        // a small copy stays in registers
         let mut sum = if S::HAS_OWN_STEPS { std::array::from_fn(|i| sum[i]) } else { sum };
         self.finish(at, &mut sum, &imposed, ledger_rates);
         sum
@@ -203,7 +208,8 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         }
     }
 
-    /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]; the load torque if the shaft is no degree of freedom.
+    /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]. It is the load torque if the shaft has no
+    /// degree of freedom.
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
         if !self.has_ends() || !self.teeth.plan.shafts[s] {
             return self.acting.inputs.load_torque[s];
@@ -212,7 +218,8 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
-    /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
+    /// Adds the torques of inputs, converts sums of forces to accelerations, and completes the ledger rates. `imposed`
+    /// contains the accelerations of imposed motions.
     #[inline(always)]
     pub(in crate::model) fn finish(
         &self,
@@ -261,18 +268,18 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         ledger_rates.input += input;
     }
 
-    /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
+    /// Writes the linearised equations to `lin`. Returns the elastic energy of all meshes [J].
     #[inline]
     pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         (lin.acceleration, lin.ledger_rates) = ([0.0; N], LedgerRates::default());
-        // rows beyond are never anything but zero
+        // rows beyond are always zero
         for i in 0..self.count() {
             (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
         }
         if S::MAY_ACT { self.linearise_all(at, lin) } else { self.linearise_teeth(at, lin) }
     }
 
-    /// Adds to `lin` the equations of teeth without effects, linearised; returns the elastic energy [J].
+    /// Adds the linearised equations of teeth without effects to `lin`. Returns the elastic energy of all meshes [J].
     #[inline]
     fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
@@ -287,7 +294,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         energy
     }
 
-    /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].
+    /// Adds the linearised equations with all effects to `lin`. Returns the elastic energy of all meshes [J].
     #[inline]
     fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
@@ -321,7 +328,8 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         }
     }
 
-    /// Forces of meshes, pins and seats at rest and their derivatives by positions, for the static equilibrium.
+    /// Forces of meshes, pins and seats at rest, and their derivatives with respect to positions, for the static
+    /// equilibrium.
     pub(in crate::model) fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         self.static_contact(at, &mut sum, &mut by_position);
@@ -359,7 +367,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         if all { energy + self.friction_energy(at) } else { energy }
     }
 
-    /// Effects on bodies, where any may act.
+    /// Effects on bodies, if any may act.
     #[inline]
     fn body_effects(&self) -> Option<&BodyEffects> {
         S::MAY_ACT.then_some(&self.teeth.effect_terms.body_effects)

@@ -1,4 +1,4 @@
-//! Events: what happens by itself on the way from one communication point to the next.
+//! Events of a simulation: a tooth breaks, or friction starts or stops holding a body.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,20 @@ use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs};
 use crate::numeric::finite;
 
-/// What happens.
+/// Kind of an event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Happening {
     /// Nothing has happened yet.
     #[default]
     Nothing = 0,
-    /// A brake begins to hold a wheel: the wheel comes to rest, or the brake is applied at standstill.
+    /// A brake starts to hold a wheel: the wheel stops, or the brake is applied at standstill.
     WheelStops = 1,
     /// A brake no longer holds a wheel: the wheel breaks loose, or the brake is released at standstill.
     WheelBreaksLoose = 2,
-    /// A clutch, washer or lock begins to stick, or the lock is closed at standstill.
+    /// A clutch, washer or lock starts to stick, or the lock is closed at standstill.
     ClutchSticks = 3,
-    /// A clutch, washer or lock begins to slip, or the lock is opened while it sticks.
+    /// A clutch, washer or lock starts to slip, or the lock is opened while it sticks.
     ClutchSlips = 4,
     /// The tooth of the tooth fault breaks.
     ToothBreaks = 5,
@@ -28,9 +28,9 @@ pub enum Happening {
 /// An event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// What happened.
+    /// Kind of the event.
     pub what: Happening,
-    /// Number of the friction surface: side gears, groups of planets, wheels; 0 for teeth.
+    /// Number of the friction surface: side gears, planet groups, wheels; 0 for teeth.
     pub place: u8,
     /// Time [s].
     pub time: f64,
@@ -38,7 +38,7 @@ pub struct Event {
     pub count: u32,
 }
 
-/// Number of events that a simulation remembers.
+/// Number of events that a simulation stores.
 pub const REMEMBERED: usize = 8;
 
 /// The last events, newest first.
@@ -47,15 +47,16 @@ pub struct Events {
     recent: [Event; REMEMBERED],
 }
 
-/// Point at which the motion paused: at an event on the way to a communication point, or at the start of a step whose inputs
-/// already act. The remaining interval still counts from the last communication point, so a pause does not change rounding.
+/// Point at which the motion paused: at an event on the way to a communication point, or at the start of a step whose
+/// inputs already act. The remaining interval still counts from the last communication point, so a pause does not
+/// change rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pause {
-    /// The last communication point on the integrator's clock [s].
+    /// Last communication point on the integrator's clock [s].
     pub now: f64,
-    /// Its time [s].
+    /// Simulation time of the last communication point [s].
     pub time: f64,
-    /// Inputs that act on the way.
+    /// Inputs that act until the next communication point.
     pub inputs: Inputs,
 }
 
@@ -65,17 +66,17 @@ finite! {
     Pause { now, time, inputs }
 }
 
-/// How far the motion goes in one call.
+/// Options of a call that advances the motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Way {
-    /// Whether it stops at the first event.
+    /// True if the motion stops at the first event.
     pub pauses: bool,
-    /// Whether more of the way to the next communication point follows.
+    /// True if the call ends before the next communication point.
     pub is_part: bool,
 }
 
 impl Event {
-    /// Number of the side (1 left, 2 right) or of the group of planets at which it happened; 0 for teeth.
+    /// Number of the side (1 left, 2 right) or of the planet group to which the event belongs; 0 for teeth.
     pub fn number(&self) -> i32 {
         let place = usize::from(self.place);
         let first = match self.what {
@@ -89,7 +90,7 @@ impl Event {
 }
 
 impl Events {
-    /// The last event.
+    /// Last event.
     pub fn last(&self) -> &Event {
         &self.recent[0]
     }
@@ -99,22 +100,22 @@ impl Events {
         self.last().count
     }
 
-    /// The first remembered event after event number `count`; `None` if that was the last one.
+    /// First remembered event after event number `count`, or `None` if that was the last one.
     pub fn after(&self, count: u32) -> Option<&Event> {
         let new = self.count().wrapping_sub(count);
         let is_new = |event: &&Event| self.count().wrapping_sub(event.count) < new;
         self.recent.iter().rev().find(is_new)
     }
 
-    /// Records what happens at `time` [s].
+    /// Records an event at `time` [s].
     pub fn record(&mut self, what: Happening, place: usize, time: f64) {
         let event = Event { what, place: place as u8, time, count: self.count().wrapping_add(1) };
         self.recent.rotate_right(1);
         self.recent[0] = event;
     }
 
-    /// Records at `time` [s] which bodies friction begins or ceases to hold, given its states `before` and `after`. Returns true if
-    /// there is an event.
+    /// Records an event at `time` [s] for each body that friction starts or stops holding between its states `before`
+    /// and `after`. Returns true if there is an event.
     pub fn record_friction(&mut self, [before, after]: [&[FrictionState; FRICTION_BODIES]; 2], time: f64) -> bool {
         let count = self.count();
         for i in 0..FRICTION_BODIES {
@@ -136,7 +137,7 @@ mod tests {
     use super::*;
     use crate::model::effect_kinds::Mode;
 
-    /// Numbers of the events that a reader finds who has seen event number `seen`.
+    /// Numbers of the events that a reader finds after event number `seen`.
     fn found(events: &Events, mut seen: u32) -> Vec<u32> {
         let mut all = Vec::new();
         while let Some(event) = events.after(seen) {
@@ -160,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_events_may_wrap() {
+    fn event_numbers_may_wrap() {
         let mut events = Events { recent: [Event { count: u32::MAX - 1, ..Event::default() }; REMEMBERED] };
         for _ in 0..3 {
             events.record(Happening::ToothBreaks, 0, 1.0);
@@ -169,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn only_bodies_that_friction_begins_or_ceases_to_hold_cause_events() {
+    fn only_bodies_that_friction_starts_or_stops_holding_cause_events() {
         let free = FrictionState::default();
         let held = FrictionState { stiffness: 1e5, ..free };
         let slides = FrictionState { mode: Mode::Forward, ..held };

@@ -1,7 +1,8 @@
-//! The ideal differential with effects on bodies: Willis' equation stays a constraint, the rest is integrated.
+//! Ideal differential with effects on bodies. Willis' equation is a constraint; the remaining degrees of freedom are
+//! integrated.
 //!
-//! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the force of the
-//! constraint, λ_s = J_s ω̇_s − Q_s.
+//! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the
+//! constraint force λ_s = J_s ω̇_s − Q_s.
 
 use super::energy_floor::energy_floor;
 use super::{Acted, Acting, Jacobian, State};
@@ -15,15 +16,15 @@ use crate::numeric::lanes;
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct IdealTorques {
-    /// Of the carrier's drive [N·m].
+    /// Torque of the carrier's drive [N·m].
     pub carrier: f64,
-    /// Of what imposes the spin [N·m].
+    /// Torque that imposes the spin [N·m].
     pub spin: f64,
-    /// Of the meshes on each side gear [N·m].
+    /// Torque of the meshes on each side gear [N·m].
     pub gears: [f64; 2],
 }
 
-/// The equations under given inputs.
+/// Equations of the ideal differential under given inputs.
 #[derive(Clone, Copy)]
 pub struct IdealEquations<'a> {
     /// Constants.
@@ -40,12 +41,12 @@ impl<'a> IdealEquations<'a> {
         PLANET + 1 + s
     }
 
-    /// Degrees of freedom.
+    /// Number of degrees of freedom.
     fn count(&self) -> usize {
         self.ideal.layout.count()
     }
 
-    /// Equations under `inputs` at `state`.
+    /// Equations under `inputs`, with friction and temperatures of `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
         let mut equations = Self { ideal, acting: Acting::without_friction(inputs, state) };
@@ -53,7 +54,7 @@ impl<'a> IdealEquations<'a> {
         equations
     }
 
-    /// Passes the inputs of `time` [s] after they were set to `of`.
+    /// Calls `of` with the inputs at `time` [s] after they were set.
     #[inline(always)]
     fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
         if self.acting.driven {
@@ -64,13 +65,13 @@ impl<'a> IdealEquations<'a> {
         }
     }
 
-    /// Inputs as they were set.
+    /// Inputs at the time at which they were set.
     #[inline(always)]
     fn now(&self) -> InputsNow<'_> {
         (&self.acting.inputs, &self.acting.input_derivatives.rates[0])
     }
 
-    /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
+    /// Forces, including commanded torques except those of imposed motions, and the accelerations of imposed motions.
     fn forces(
         &self,
         at: &Point<MOST>,
@@ -100,21 +101,21 @@ impl<'a> IdealEquations<'a> {
         (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
-    /// All positions and velocities, as effects use them, under inputs.
+    /// Positions, velocities and inputs, as passed to effects.
     #[inline]
     fn motion<'b>(&'b self, at: &'b Point<MOST>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
         let (layout, oil_viscosity) = (&self.ideal.layout, self.acting.oil_viscosity);
         BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
     }
 
-    /// Loads on all rubbing surfaces: without teeth, those of the brakes.
+    /// Loads on all rubbing surfaces. Without teeth, only brakes have loads.
     fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(inputs));
         all
     }
 
-    /// W Q + f u̇_c.
+    /// Accelerations W Q + f u̇_c.
     #[inline]
     fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
         let ideal = self.ideal;
@@ -125,7 +126,7 @@ impl<'a> IdealEquations<'a> {
         self.follow(free, imposed)
     }
 
-    /// W Q + f u̇_c for forces that do not act on planets, as those of half-shafts.
+    /// Accelerations W Q + f u̇_c for forces that do not act on planets, such as those of half-shafts.
     #[inline]
     fn accelerations_by_shafts(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
         let mut free = [0.0; MOST];
@@ -149,14 +150,14 @@ impl<'a> IdealEquations<'a> {
         free
     }
 
-    /// Constants of a scene in which nothing but half-shafts acts; `None` if other effects or dry friction act.
+    /// Constants of a scene in which only half-shafts act, or `None` if other effects or dry friction act.
     #[inline]
     fn linear(&self) -> Option<&'a Linear> {
         self.ideal.linear.as_deref().filter(|_| !self.rubs())
     }
 
-    /// Forces and imposed accelerations as [`Self::forces`] gives them if only half-shafts act. Calls `see` with the side, the torque
-    /// and the rate of the twist of each half-shaft.
+    /// Forces and imposed accelerations if only half-shafts act; [`Self::forces`] would return the same values. Calls
+    /// `see` with the side, the torque and the twist rate of each half-shaft.
     #[inline(always)]
     fn forces_of_shafts(
         &self,
@@ -178,7 +179,7 @@ impl<'a> IdealEquations<'a> {
         (sum, [rates.carrier_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
-    /// Adds the torques of inputs, and their power.
+    /// Adds the torques and the power of inputs.
     #[inline(always)]
     fn drive(
         &self,
@@ -219,7 +220,7 @@ impl<'a> IdealEquations<'a> {
         self.accelerations(&sum, &imposed)
     }
 
-    /// Accelerations under inputs; adds to the ledger rates.
+    /// Returns accelerations under inputs and adds to the ledger rates.
     fn evaluate_under(&self, at: &Point<MOST>, now: InputsNow, ledger_rates: &mut LedgerRates) -> [f64; MOST] {
         let (sum, imposed) = match self.linear() {
             Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
@@ -240,12 +241,12 @@ impl<'a> IdealEquations<'a> {
         a
     }
 
-    /// Writes the equations under inputs, linearised, to `lin`.
+    /// Writes the linearised equations under inputs to `lin`.
     fn linearise_under(&self, at: &Point<MOST>, now: InputsNow, lin: &mut Linearisation<MOST, LedgerRates>) {
         lin.ledger_rates = LedgerRates::default();
         lin.acceleration = self.evaluate_under(at, now, &mut lin.ledger_rates);
         if let Some(linear) = self.linear() {
-            // one by one, because a pair would be copied twice
+            // assigned individually, because a pair would be copied twice
             lin.by_position = linear.by_position;
             lin.by_velocity = linear.by_velocity;
             return;
@@ -271,7 +272,7 @@ impl<'a> IdealEquations<'a> {
         self.ideal.accelerations_by(&by_velocity, &imposed[1], &mut lin.by_velocity);
     }
 
-    /// Torques that follow from the constraint; `drive` is that of a carrier whose motion is not imposed.
+    /// Torques that follow from the constraint. `drive` is the torque on a carrier whose motion is not imposed.
     #[inline]
     fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], drive: f64) -> IdealTorques {
         let ideal = self.ideal;
@@ -298,7 +299,7 @@ impl<'a> IdealEquations<'a> {
         0.5 * (0..MOST).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
-    /// Energy of half-shafts and stuck friction [J].
+    /// Energy stored in half-shafts and stuck friction [J].
     fn stored_energy(&self, at: &Point<MOST>) -> f64 {
         let motion = self.motion(at, self.now());
         if self.linear().is_some() && self.acting.is_free() {
@@ -338,7 +339,7 @@ impl Acted<MOST> for IdealEquations<'_> {
         self.ideal.layout.has_ends()
     }
 
-    /// None: planets stick with the side gears.
+    /// Empty, because planets stick together with the side gears.
     fn sticking(&self) -> &[f64] {
         &[]
     }

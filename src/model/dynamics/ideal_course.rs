@@ -1,14 +1,14 @@
 //! Ideal gears without effects: the motion of a step in closed form.
 //!
-//! Under constant inputs speeds are linear and angles quadratic in time. Inputs with derivatives are parabolas of time, so that
-//! speeds are cubics and angles quartics; the work is the integral of torques times speeds.
+//! Under constant inputs, speeds are linear and angles quadratic in time. Inputs with derivatives are parabolas of
+//! time, so that speeds are cubics and angles quartics. The work is the integral of torques times speeds.
 
 use super::State;
 use crate::model::assembly::{Ideal, IdealMotion};
 use crate::model::scene::{CARRIER, Inputs, PLANET};
 
 impl Ideal {
-    /// Exact motion over `h` [s] under constant inputs.
+    /// Advances the motion by `h` [s] under constant inputs. The result is exact.
     pub fn advance(&self, state: &mut State, inputs: &Inputs, h: f64) {
         let m = self.motion(inputs);
         let v = state.v;
@@ -24,8 +24,8 @@ impl Ideal {
         self.constrain(&mut state.v);
     }
 
-    /// Exact motion over `h` [s] under inputs that are parabolas of time, with the accelerations and torques of `course` and their
-    /// derivatives.
+    /// Advances the motion by `h` [s] under inputs that are parabolas of time. The result is exact. `course` contains
+    /// accelerations and torques with their derivatives.
     #[inline]
     pub fn advance_along(&self, state: &mut State, course: &[IdealMotion; 3], h: f64) {
         let carrier = Course { speed: state.v[CARRIER], acceleration: course.each_ref().map(|m| m.carrier) };
@@ -38,7 +38,8 @@ impl Ideal {
         (state.v[CARRIER], state.v[PLANET]) = (carrier.speed_at(h), spin.speed_at(h));
     }
 
-    /// Turns all gears by the angles of the carrier and of the spin; returns that of the left side gear relative to the carrier.
+    /// Turns all gears by the angles of carrier and spin. Returns the angle of the left side gear relative to the
+    /// carrier.
     #[inline]
     fn turn(&self, state: &mut State, carrier: f64, spin: f64) -> f64 {
         let relative = self.ratio * spin;
@@ -51,7 +52,7 @@ impl Ideal {
         relative
     }
 
-    /// Gives imposed speeds the values of their `inputs`, and side gears the speeds by Willis' equation.
+    /// Sets imposed speeds to their `inputs`, and speeds of side gears by Willis' equation.
     pub fn impose(&self, state: &mut State, inputs: &Inputs) {
         if self.plan.carrier_imposed {
             state.v[CARRIER] = inputs.carrier_speed;
@@ -78,8 +79,8 @@ impl Course {
         self.speed + h * (a + h * (0.5 * b + h * (c * (1.0 / 6.0))))
     }
 
-    /// ∫ω dt, ∫ω t dt and ∫ω t²/2 dt from 0 to `h` [s]: the turned angle, and the factors of the derivatives of a torque in its
-    /// work.
+    /// ∫ω dt, ∫ω t dt and ∫ω t²/2 dt from 0 to `h` [s]: the angle turned, and the factors of a torque's derivatives in
+    /// its work.
     fn moments(&self, h: f64) -> [f64; 3] {
         let (v, [a, b, c]) = (self.speed, self.acceleration);
         [

@@ -1,4 +1,4 @@
-//! The ledger of a step: work and heat from their rates, and whether they balance with the energy.
+//! Ledger of a step: work and heat from their rates, and their balance with the energy.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,12 +7,12 @@ use crate::model::scene::FRICTION_BODIES;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 use crate::numeric::finite;
 
-/// Rates of the ledger.
+/// Rates of the ledger, and torques that steps record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LedgerRates {
     /// Net power of all inputs into the system [W].
     pub input: f64,
-    /// Power turned into heat by cause [W].
+    /// Power converted to heat, by cause [W].
     pub heat: [f64; HEATS],
     /// Torques of the half-shafts [N·m].
     pub shaft: [f64; 2],
@@ -22,13 +22,13 @@ pub struct LedgerRates {
     pub limit: [f64; FRICTION_BODIES],
 }
 
-/// Part of the kinetic energy that rounding may take from the balance of a step.
+/// Fraction of the kinetic energy by which rounding may disturb the balance of a step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
 finite!(LedgerRates { input, heat, shaft, drive, limit });
 
 impl LedgerRates {
-    /// Halfway between two.
+    /// Mean of two rates.
     pub fn mean(&self, other: &Self) -> Self {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         Self {
@@ -52,8 +52,8 @@ impl LedgerRates {
         }
     }
 
-    /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored, worked and turned
-    /// into heat. Of the kinetic energy, most of which nothing ever touches, only the rounding counts.
+    /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored energy, work
+    /// and heat. Only the rounding of the kinetic energy counts, because most of this energy is never exchanged.
     #[inline]
     pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> Imbalance {
         let simpson = |of: &dyn Fn(&Self) -> f64| h / 6.0 * (of(a) + 4.0 * of(m) + of(b));
@@ -66,14 +66,14 @@ impl LedgerRates {
     }
 }
 
-/// Simpson's rule on begin, middle and end of a step.
+/// Simpson's rule on start, middle and end of a step.
 #[inline]
 pub fn simpson<const N: usize>(step: &Step<N, LedgerRates>, of: impl Fn(&LedgerRates) -> f64) -> f64 {
     let [a, m, b] = &step.ledger_rates;
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 
-/// Adds work and heat of a step to the ledger; heat other than that of contact only where effects act.
+/// Adds work and heat of a step to the ledger. Without `all`, only contact produces heat.
 #[inline]
 pub fn add_to_ledger<const N: usize>(step: &Step<N, LedgerRates>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
     *work += simpson(step, |p| p.input);
@@ -88,7 +88,7 @@ mod tests {
     use crate::numeric::Finite;
 
     #[test]
-    fn rates_whose_limit_torques_are_no_numbers_are_not_finite() {
+    fn rates_with_a_limit_torque_that_is_not_finite_are_not_finite() {
         let mut rates = LedgerRates::default();
         assert!(rates.is_finite());
         rates.limit[FRICTION_BODIES - 1] = f64::NAN;

@@ -1,10 +1,15 @@
-//! The equations of motion, and the state they move. In the order of an evaluation:
+//! Equations of motion, and the state that they change. In the order of an evaluation:
 //!
-//! - `acting`: inputs and dry friction at all levels of gear contact;
-//! - `shape`, `planet_contact`, `bodies`, `dry_friction`, `equations`, `motion`: teeth, from the shape of the equations to what an
-//!   integrator sees; `ideal`: the same without teeth; `ideal_course`: without effects either, in closed form;
-//! - `ledger_rates`, `energy_floor`: powers that come with the forces, and the energy that a step does not resolve;
-//! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: what the steps leave behind.
+//! - `shape`: degrees of freedom of equations with teeth, and their indices;
+//! - `acting`: inputs and dry friction, with and without teeth;
+//! - `planet_contact`: loads of the meshes; `bodies`: their forces on gears, carrier, pins and seats; `dry_friction`:
+//!   friction under these loads;
+//! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
+//! - `motion`: interface of the equations to an integrator;
+//! - `ideal`: equations without teeth; `ideal_course`: motion of ideal gears without effects, in closed form;
+//! - `ledger_rates`, `energy_floor`: powers that are computed with the forces, and the energy that a step does not
+//!   resolve;
+//! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
 pub mod acting;
 mod bodies;
@@ -40,7 +45,8 @@ pub use pending_step::Clock;
 pub use shape::LARGEST;
 pub use state::State;
 
-/// Evaluates an expression with the equations of any model bound to `$equations`, `N` the most degrees of freedom they have.
+/// Evaluates an expression with the equations of any model bound to `$equations`. `N` is their maximum number of
+/// degrees of freedom.
 macro_rules! with_equations {
     ($model:expr, $state:expr, $inputs:expr, |$equations:ident| $body:expr) => {
         match &$model.gears {

@@ -1,4 +1,4 @@
-//! The equations with tooth contact as an integrator sees them: rates, natural magnitudes, energy, kinks and switches.
+//! Interface of the equations with tooth contact to an integrator: rates, error weights, energy, kinks and switches.
 
 use std::ops::Range;
 
@@ -10,15 +10,15 @@ use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
-/// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
+/// Approach below which errors of positions are absolute instead of relative [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;
-/// Largest approach of teeth that an iteration may reach from within the lash [rad], and the largest factor by which it
-/// may deepen one.
+/// Largest approach of teeth that an iteration may reach from within the backlash [rad].
 const FIRST_APPROACH: f64 = 5e-4;
+/// Largest factor by which an iteration may increase an approach of teeth.
 const APPROACH_GROWTH: f64 = 4.0;
-/// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
+/// Speed below which errors of velocities are absolute instead of relative [rad/s].
 const SPEED_FLOOR: f64 = 1.0;
-/// Twist below which that of a half-shaft is resolved absolutely [rad].
+/// Twist of a half-shaft below which its error is absolute instead of relative [rad].
 const TWIST_FLOOR: f64 = 1e-3;
 
 impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
@@ -29,7 +29,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         self.count()
     }
 
-    /// Planets and their pins.
+    /// Indices of planets and their pins.
     #[inline]
     fn inner(&self) -> Range<usize> {
         self.planets_and_pins()
@@ -128,7 +128,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         let [planet, side] = self.teeth.sin_base.map(|lever| lever * per_approach);
         let mut q = [planet; N];
         (q[0], q[1], q[CARRIER]) = (side, side, 1.0);
-        // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
+        // relative to the rolling speeds: impacts of teeth change the speed of a gear, but not its tolerance
         let carrier = SPEED_FLOOR + 2.0 * at.v[CARRIER].abs();
         let mut spin = 0.0f64;
         for g in 0..self.groups() {
@@ -172,7 +172,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
-        // pairs that come and go abruptly bring energy that no force gave
+        // pairs that enter and leave contact abruptly change the energy without work of a force
         if !self.teeth.contact.mesh.engagement.corner_contact() {
             return Imbalance::NONE;
         }

@@ -1,7 +1,7 @@
-//! The integrator's step beyond the present. Its continuous extension gives the motion at the present.
+//! The pending step: the integrator's step that contains the present. Its dense output gives the motion at the present.
 //!
-//! It has the integrator's own clock, which starts near the present, so that a double resolves steps as finely as they can get, and
-//! moves with completed steps only, so that these do not depend on when the host looks.
+//! The integrator has a separate clock. It starts near the present, so that a double resolves even the shortest steps.
+//! It advances only with completed steps, so that steps do not depend on the times that the host requests.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,28 +15,28 @@ use crate::numeric::Finite;
 pub struct Clock {
     /// End of the last completed step.
     pub time: f64,
-    /// The present, or the time to integrate to.
+    /// Present time, or the target time of an integration.
     pub now: f64,
-    /// When the equations end: a tooth breaks, or inputs change.
+    /// Time at which the equations end, because a tooth breaks or inputs change.
     pub end: f64,
-    /// When inputs are expected to change.
+    /// Time at which inputs are expected to change.
     pub expected: f64,
 }
 
 impl Clock {
-    /// A clock that starts now.
+    /// Clock that starts now.
     pub fn new(end: f64, expected: f64) -> Self {
         Self { time: 0.0, now: 0.0, end, expected }
     }
 
-    /// Starts anew at the end of the last completed step. Returns by how much it is set back.
+    /// Resets the clock to zero at the end of the last completed step. Returns the shift [s].
     pub fn set_back(&mut self) -> f64 {
         let by = self.time;
         *self = Self { time: 0.0, now: self.now - by, end: self.end - by, expected: self.expected - by };
         by
     }
 
-    /// Whether no time is missing; the end and what is expected may never come.
+    /// True if all times are valid. The end and the expected change may be infinite.
     pub fn is_valid(&self) -> bool {
         let Self { time, now, end, expected } = *self;
         [time, now].is_finite() && now >= time && !(end + expected).is_nan()
@@ -46,12 +46,12 @@ impl Clock {
 /// Positions and velocities of all degrees of freedom.
 type Motion = [[f64; MAX_DOF]; 2];
 
-/// A step that is not completed at the present time.
+/// Step that has passed the error test but is not completed, because it ends beyond the present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PendingStep {
     /// Inputs during the step.
     pub inputs: Inputs,
-    /// Beginning of the step, present time, and end of the equations.
+    /// Clock with the start of the step, the present, and the end of the equations.
     pub clock: Clock,
     attempt: Attempt,
     start: Motion,
@@ -62,7 +62,7 @@ pub struct PendingStep {
 }
 
 impl PendingStep {
-    /// Stores the step `pending` with its motion.
+    /// Stores the step `pending` with its dense output.
     pub fn set<const N: usize>(
         &mut self,
         (pending, extension): (&Pending<LedgerRates>, &Extension<N>),
@@ -79,7 +79,7 @@ impl PendingStep {
         }
     }
 
-    /// Restores the point and the pending step of `course`; its times are left as they are.
+    /// Restores the point and the pending step of `course`, but not its times.
     pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
         course.extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
@@ -88,7 +88,7 @@ impl PendingStep {
         course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0, jump: None });
     }
 
-    /// Gives degree of freedom `i` the motion of `first`.
+    /// Copies the motion of degree of freedom `first` to degree of freedom `i`.
     pub fn let_follow(&mut self, i: usize, first: usize) {
         let Self { start, end, coefficients: [one, two, three], .. } = self;
         for motion in [start, end, one, two, three] {
@@ -118,7 +118,7 @@ impl PendingStep {
         }
     }
 
-    /// Whether a simulation can continue from this step: all numbers are finite, and the step size is positive.
+    /// True if a simulation can continue from this step: all numbers are finite, and the step size is positive.
     pub fn is_valid(&self) -> bool {
         let Self { inputs, clock, attempt, start, end, coefficients, ledger_rates, energy } = self;
         start.is_finite()

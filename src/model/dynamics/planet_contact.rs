@@ -1,4 +1,5 @@
-//! Contact of the planets with both side gears, as the equations of motion see it. No other file of the model knows the kinds of contact.
+//! Contact of the planets with both side gears, in the equations of motion. No other file of the equations depends on
+//! the kinds of contact.
 
 use super::dry_friction::MeshLoads;
 use super::ledger_rates::LedgerRates;
@@ -22,14 +23,15 @@ impl Teeth {
         self.contact.in_detail || state.is_tooth_broken
     }
 
-    /// True if each mesh carries its load independently: no pairs move each other, and nothing is summed over the face.
-    pub fn carry_mesh_by_mesh(&self, state: &State) -> bool {
+    /// True if the loads of the meshes are independent: no tooth pair deflects another one, and nothing is summed over
+    /// the face.
+    pub fn have_independent_meshes(&self, state: &State) -> bool {
         !self.are_in_detail(state) && self.contact.bodies.is_none() && !self.layout.has_pins
     }
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// Present contact.
+    /// Contact in its present condition: broken tooth and oil viscosity.
     #[inline]
     pub(super) fn contact(&self) -> AnyContact<'_> {
         if S::MAY_ACT {
@@ -40,12 +42,12 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Gaps of the teeth as they are now.
+    /// Present gaps of the teeth.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
         self.teeth.contact.gaps(self.is_tooth_broken)
     }
 
-    /// True if flanks may not fit, or if bodies give way.
+    /// True if teeth have gaps, or if gear bodies are elastic.
     pub(in crate::model) fn is_open_or_elastic(&self) -> bool {
         self.gaps().is_some() || self.teeth.contact.bodies.is_some()
     }
@@ -55,8 +57,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.teeth.contact.friction(self.acting.oil_viscosity.map(|oil| oil.dynamic))
     }
 
-    /// A group before `g` whose meshes are in the same state to the last bit, so that its loads are those of `g`. Planets that are
-    /// simulated one by one move together until an event such as a broken tooth makes one of them differ.
+    /// Returns an earlier group whose meshes have exactly the state of the meshes of group `g`, so that both have the
+    /// same loads. Planets that are simulated individually move identically until an event, such as a broken tooth,
+    /// makes one of them differ.
     #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if self.groups() == 1 || self.teeth.contact.solid.is_some() {
@@ -71,14 +74,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Twin of group `g` under loads `L`; none in detail, where teeth of two planets may differ.
+    /// Twin of group `g` for loads of type `L`. Detailed loads have no twin, because the teeth of two planets may
+    /// differ.
     #[inline(always)]
     fn twin_under<L: MeshLoad>(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if L::PRESSES { None } else { self.twin(at, g) }
     }
 
-    /// Adds the forces of all meshes to `sum`, which is zero, and sets their heat; adds the dry friction that depends on them. Returns the
-    /// torques of the meshes on the side gears.
+    /// Adds the forces of all meshes to `sum`, which is zero, sets their heat, and adds the dry friction under them.
+    /// Returns the torques of the meshes on the side gears.
     #[inline(never)]
     pub(in crate::model) fn act_of_teeth(
         &self,
@@ -97,7 +101,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Loads of both meshes of each group of planets, as `write` finds them.
+    /// Loads of both meshes of each planet group, computed by `write`.
     #[inline(always)]
     fn loads<L: MeshLoad>(&self, at: &Point<N>, write: impl Fn(&PlanetState, &mut [L; 2])) -> S::ByGroup<[L; 2]> {
         let mut loads = S::ByGroup::filled([L::none(); 2]);
@@ -110,8 +114,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads
     }
 
-    /// Adds the forces of `loads`, sets their heat, and adds the dry friction under them; returns the torques of the meshes on the side
-    /// gears. Compiled once for each type of load.
+    /// Adds the forces of `loads`, sets their heat, and adds the dry friction under them. Returns the torques of the
+    /// meshes on the side gears. Not inlined, so that it is compiled once for each type of load.
     #[inline(never)]
     fn add_loads_and_friction<L: MeshLoad>(
         &self,
@@ -141,8 +145,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Adds the forces of all meshes and the dry friction under them, both with their derivatives; sets their heat. Returns the elastic
-    /// energy of all meshes [J].
+    /// Adds the forces of all meshes and the dry friction under them, both with their derivatives. Sets their heat.
+    /// Returns the elastic energy of all meshes [J].
     #[inline]
     pub(super) fn linearise_contact(
         &self,
@@ -154,16 +158,16 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
             let loads = self.loads(at, |state, to| contact.linearise(state, to));
             if S::MAY_ACT {
-                self.add_linearised_apart(&loads, at, sum, ledger_rates, j)
+                self.add_linearised_outlined(&loads, at, sum, ledger_rates, j)
             } else {
                 self.add_linearised(&loads, at, sum, ledger_rates, j)
             }
         })
     }
 
-    /// [`Self::add_linearised`], compiled once for each type of load.
+    /// [`Self::add_linearised`], not inlined, so that it is compiled once for each type of load.
     #[inline(never)]
-    fn add_linearised_apart<L: LinearisedLoad>(
+    fn add_linearised_outlined<L: LinearisedLoad>(
         &self,
         loads: &S::ByGroup<[L; 2]>,
         at: &Point<N>,
@@ -174,6 +178,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.add_linearised(loads, at, sum, ledger_rates, j)
     }
 
+    /// Adds the forces of `loads` and the dry friction under them, both with their derivatives. Sets their heat.
+    /// Returns the elastic energy of all meshes [J].
     #[inline(always)]
     fn add_linearised<L: LinearisedLoad>(
         &self,
@@ -199,7 +205,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.sum(|g| self.members(g) * (loads[g][0].energy() + loads[g][1].energy()))
     }
 
-    /// Forces of the meshes at rest, with their derivatives by position.
+    /// Adds the forces of the meshes at rest, with their derivatives with respect to positions.
     pub(super) fn static_contact(&self, at: &Point<N>, sum: &mut [f64; N], by_position: &mut Matrix<N>) {
         let still = &Point { q: at.q, v: [0.0; N] };
         with_contact!(S::MAY_ACT, self.contact(), contact => {
@@ -210,7 +216,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         });
     }
 
-    /// Torque that teeth on which no effect acts put on the gear of side `s` at rest, and its derivative by the gear's angle.
+    /// Torque of plain teeth on the gear of side `s` at rest, and its derivative with respect to the angle of the gear.
     pub(in crate::model) fn torque_of_plain_teeth(&self, s: usize, at: &Point<N>) -> [f64; 2] {
         let still = &Point { q: at.q, v: [0.0; N] };
         let arm = self.teeth.sin_base[1];
@@ -242,7 +248,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         (sides, planets)
     }
 
-    /// Loads on the rubbing surfaces of side gears and planets.
+    /// Loads on the rubbing surfaces of side gears and planets, or `None` if mesh loads are not detailed.
     pub(super) fn surfaces_pressed(&self, at: &Point<N>) -> Option<MeshLoads<S, N>> {
         with_contact!(S::MAY_ACT, self.contact(), contact => self.surfaces_pressed_by(&contact, at))
     }
@@ -270,8 +276,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.sum(|g| self.members(g) * energy[g])
     }
 
-    /// Elastic energy that the pairs of the mesh of group `g` with side `s` bring along which come or go between two points
-    /// [J]. Those of both sides may do so at once.
+    /// Elastic energy that tooth pairs of the mesh of group `g` with side `s` add when they enter or leave contact
+    /// between two points [J]. Pairs of both sides may do so at the same time.
     pub(in crate::model) fn energy_brought(&self, [before, after]: [&Point<N>; 2], g: usize, s: usize) -> f64 {
         let [from, to] = if s == 0 { [[before, before], [after, before]] } else { [[after, before], [after, after]] };
         let state = |at: [&Point<N>; 2]| {
@@ -282,7 +288,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         with_contact!(S::MAY_ACT, self.contact(), contact => contact.energy_gained(&state(from), &state(to)))
     }
 
-    /// Torques of the teeth of one planet of group `g` on both side gears, while nothing turns against anything else [N·m].
+    /// Torques of the teeth of one planet of group `g` on both side gears, without relative motion [N·m].
     pub(in crate::model) fn planet_torques(&self, at: &Point<N>, g: usize) -> [f64; 2] {
         let still = &Point { q: at.q, v: [0.0; N] };
         let side = self.teeth.sin_base[1];
@@ -296,7 +302,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads.map(|load| load.force()[Q])
     }
 
-    /// The fraction of a step of `h` [s] from `at` on after which a force has its first kink.
+    /// Fraction of a step of `h` [s] from `at` after which a force has its first kink.
     #[inline]
     pub(super) fn first_kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         with_contact!(S::MAY_ACT, self.contact(), contact => {
@@ -311,15 +317,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Calls `see` with each loaded tooth pair of the planets of group `g`, or with each loaded slice of it. Compiled once for
-    /// all callers.
+    /// Calls `see` for each loaded tooth pair of the planets of group `g`, or for each loaded slice of it. Compiled
+    /// once for all callers.
     #[inline(never)]
     pub fn visit_loads(&self, at: &Point<N>, g: usize, visit: &Visit, see: &mut Visitor) {
         let state = &self.planet_state(at, g);
         with_contact!(S::MAY_ACT, self.contact(), contact => contact.visit(state, visit, see));
     }
 
-    /// K_Hβ of the pair of group `g` of which `slice` is a loaded slice.
+    /// Face load factor K_Hβ of the tooth pair of group `g` to which the loaded `slice` belongs.
     pub(in crate::model) fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
         let state = &self.planet_state(at, g);
         with_contact!(S::MAY_ACT, self.contact(), contact => contact.face_load_factor(state, slice, pair))

@@ -1,14 +1,14 @@
-//! Rattle: flanks that nothing presses touch and part again and again. Each impact costs steps; they are counted here.
+//! Rattle: unloaded flanks touch and separate repeatedly. Impacts, and the steps spent on them, are counted here.
 
 use serde::{Deserialize, Serialize};
 
-/// Number of steps after an impact that belong to it: contact, parting, and the vibration that follows.
+/// Number of steps after an impact that belong to it: contact, separation, and the following vibration.
 const STEPS_OF_AN_IMPACT: u32 = 64;
 
-/// Counts of impacts and of the steps that they cost.
+/// Counts of impacts and of the steps spent on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rattle {
-    /// Number of times that flanks of a mesh touched after they had been apart.
+    /// Number of times that flanks of a mesh touched after a separation.
     pub impacts: u64,
     /// Number of steps that belong to impacts.
     pub steps: u64,
@@ -19,7 +19,7 @@ pub struct Rattle {
 }
 
 impl Rattle {
-    /// Adds a completed step, at whose end the meshes of the bits `touching` touch.
+    /// Adds a completed step. Bits of `touching` mark the meshes whose flanks touch at its end.
     #[inline]
     pub fn add_step(&mut self, touching: u8) {
         if touching & !self.touching != 0 {
@@ -41,10 +41,10 @@ mod tests {
     #[test]
     fn steps_near_impacts_are_counted_and_no_others() {
         let mut rattle = Rattle::default();
-        // loaded from the start on: one impact
+        // loaded from the start: one impact
         (0..1000).for_each(|_| rattle.add_step(0b11));
         assert_eq!((rattle.impacts, rattle.steps), (1, 64));
-        // the second mesh parts and touches every ten steps
+        // the second mesh separates and touches every ten steps
         (0..1000).for_each(|k| rattle.add_step(if k % 10 < 5 { 0b01 } else { 0b11 }));
         assert_eq!(rattle.impacts, 101);
         assert_eq!(rattle.steps, 64 + 995);

@@ -1,27 +1,28 @@
-//! Shapes of the equations with teeth: which degrees of freedom there are, and the index of each.
+//! Shapes of the equations with teeth: their degrees of freedom, and the index of each.
 //!
-//! A shape whose sizes are known at compile time lets loops unroll and needs no tests; the layout of a scene gives the sizes of any
-//! other. The steps of frequent scenes are compiled for shapes of their own.
+//! If the sizes of a shape are known at compile time, loops unroll and need no tests. Steps of frequent scenes are
+//! monomorphised for such shapes. For all other scenes, the layout gives the sizes at run time.
 
 use std::ops::{Index, IndexMut};
 
 use crate::model::scene::{ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
-/// Degrees of freedom of plain teeth with planets that are alike.
+/// Number of degrees of freedom of plain teeth with identical planets.
 pub const LEAST: usize = 4;
-/// Degrees of freedom of plain teeth with two planets that differ.
+/// Number of degrees of freedom of plain teeth with two planets that differ.
 pub const DIFFERENT: usize = 5;
-/// Degrees of freedom with planets that are alike and half-shafts that twist.
+/// Number of degrees of freedom with identical planets and half-shafts that twist.
 pub const WITH_ENDS: usize = 6;
-/// Degrees of freedom up to which teeth of other shapes need only small matrices, a whole number of vectors of any width.
+/// Maximum number of degrees of freedom for which other shapes use small matrices. It is a multiple of any vector
+/// width.
 pub const MEDIUM: usize = 8;
-/// Degrees of freedom that every scene fits in, a whole number of vectors of any width.
+/// Number of degrees of freedom that fits every scene. It is a multiple of any vector width.
 pub const LARGEST: usize = 16;
 
-// another attached body may need a larger number, which no scene would report
+// otherwise another attached body could exceed this number unnoticed
 const _: () = assert!(MAX_DOF <= LARGEST);
 
-/// A value of each group of planets.
+/// A value for each planet group.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {
     /// `value` for each group.
     fn filled(value: T) -> Self;
@@ -34,24 +35,24 @@ impl<T: Copy, const G: usize> ByGroup<T> for [T; G] {
     }
 }
 
-/// A shape with at most `N` degrees of freedom.
+/// Shape of equations with at most `N` degrees of freedom.
 pub trait Shape<const N: usize>: Copy {
-    /// Values of the groups of planets.
+    /// Values of the planet groups.
     type ByGroup<T: Copy>: ByGroup<T>;
     /// True if effects may act.
     const MAY_ACT: bool;
-    /// True if inputs may change while they act.
+    /// True if inputs may change with time.
     const MAY_CHANGE: bool;
-    /// True if the steps are compiled for this shape, with the meshes as a part of them.
+    /// True if steps are monomorphised for this shape, with the meshes inlined.
     const HAS_OWN_STEPS: bool;
     /// True if steps of fixed size are compiled.
     const HAS_FIXED_STEPS: bool;
     /// True if the method `radau` is compiled.
     const HAS_RADAU: bool;
 
-    /// Degrees of freedom.
+    /// Number of degrees of freedom.
     fn count(layout: &Layout) -> usize;
-    /// Groups of planets.
+    /// Number of planet groups.
     fn groups(layout: &Layout) -> usize;
     /// Index of the planets of group `g`.
     fn planet(layout: &Layout, g: usize) -> usize;
@@ -63,28 +64,28 @@ pub trait Shape<const N: usize>: Copy {
     fn end(layout: &Layout, s: usize) -> usize;
     /// True if a body is attached.
     fn is_attached(layout: &Layout) -> bool;
-    /// Sets the rates of the twists of attached bodies from the velocities `v`.
+    /// Sets the twist rates of attached bodies from the velocities `v`.
     fn set_twist_rates(layout: &Layout, v: &[f64; N], rates: &mut [f64; N]);
-    /// Turns the derivatives by these rates, in a row, into those by velocities.
+    /// Converts derivatives with respect to twist rates, in a row, to derivatives with respect to velocities.
     fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]);
 }
 
-/// Planets in `G` groups, with ends of half-shafts or without; effects act if `ACT`, and inputs change while they act if `CHANGE`. Nothing
-/// else moves.
+/// Shape with planets in `G` groups, and with ends of half-shafts if `HAS_ENDS`. Effects may act if `ACT`, and inputs
+/// may change with time if `CHANGE`. There are no other degrees of freedom.
 #[derive(Clone, Copy)]
 pub struct Compact<const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool>;
 
-/// Any teeth.
+/// Shape of any teeth, whose sizes are known at run time.
 #[derive(Clone, Copy)]
 pub struct Any;
 
 /// Plain teeth with planets in `G` groups, on which no effect acts.
 pub type Plain<const G: usize> = Compact<G, false, false, false>;
-/// The same with planets that are alike, under inputs that change.
+/// Plain teeth with identical planets, under inputs that change with time.
 pub type PlainDriven = Compact<1, false, false, true>;
 /// Teeth with effects and planets in `G` groups.
 pub type WithEffects<const G: usize> = Compact<G, false, true, true>;
-/// Teeth with effects, planets that are alike, and half-shafts that twist.
+/// Teeth with effects, identical planets, and half-shafts that twist.
 pub type WithEnds = Compact<1, true, true, true>;
 
 impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool> Shape<N>
@@ -183,7 +184,8 @@ impl<const N: usize> Shape<N> for Any {
     }
 }
 
-/// Sets the rates of the twists of `attached` bodies, each with the one it turns against, from the velocities `v`.
+/// Sets the twist rates of `attached` bodies from the velocities `v`. Each body comes with the body against which it
+/// turns.
 #[inline(always)]
 fn set_twist_rates(attached: impl Iterator<Item = (usize, usize)>, v: &[f64], rates: &mut [f64]) {
     for (i, to) in attached {
@@ -191,7 +193,8 @@ fn set_twist_rates(attached: impl Iterator<Item = (usize, usize)>, v: &[f64], ra
     }
 }
 
-/// Turns derivatives by these rates into those by velocities, in a row.
+/// Converts derivatives with respect to the twist rates of `attached` bodies, in a row, to derivatives with respect to
+/// velocities.
 #[inline(always)]
 fn turn_twist_rates(attached: impl Iterator<Item = (usize, usize)>, row: &mut [f64]) {
     for (i, to) in attached {
@@ -200,15 +203,15 @@ fn turn_twist_rates(attached: impl Iterator<Item = (usize, usize)>, row: &mut [f
     }
 }
 
-/// For any number of attached bodies, compiled once.
+/// Twist rates of any number of attached bodies, compiled once.
 impl Layout {
-    /// Sets the rates of all twists from the velocities `v`.
+    /// Sets all twist rates from the velocities `v`.
     #[inline(never)]
     pub fn set_twist_rates(&self, v: &[f64], rates: &mut [f64]) {
         set_twist_rates(self.attached(), v, rates);
     }
 
-    /// Turns the derivatives by these rates, in a row, into those by velocities.
+    /// Converts derivatives with respect to twist rates, in a row, to derivatives with respect to velocities.
     #[inline(never)]
     pub fn turn_twist_rates(&self, row: &mut [f64]) {
         turn_twist_rates(self.attached(), row);

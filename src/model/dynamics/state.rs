@@ -1,5 +1,5 @@
-//! All that changes while a simulation runs, except the damage of teeth and values over mesh cycles (`Watched`). The state is
-//! small and `Copy`, so that a snapshot is an assignment.
+//! State of a simulation: all that changes during a run, except the damage of teeth and values over mesh cycles
+//! (`Watched`). The state is small and `Copy`, so that a snapshot is an assignment.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,13 +28,13 @@ pub struct State {
     pub q: [f64; MAX_DOF],
     /// Velocities [rad/s; seats m/s].
     pub v: [f64; MAX_DOF],
-    /// Number of whole periods taken out of each position: tooth pitches, for the carrier turns.
+    /// Number of whole periods removed from each position: tooth pitches for gears, turns for the carrier.
     pub whole_periods: [i64; MAX_DOF],
     /// Step-size control.
     pub control: Control,
     /// Solver statistics.
     pub statistics: Statistics,
-    /// Impacts of flanks, and the steps that they cost.
+    /// Impacts of flanks, and the steps spent on them.
     pub rattle: Rattle,
     /// Work of all inputs since the start [J].
     pub work: f64,
@@ -46,30 +46,31 @@ pub struct State {
     pub friction: [FrictionState; FRICTION_BODIES],
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
     pub torque_means: TorqueMeans,
-    /// Whether the tooth of the tooth fault is broken.
+    /// True if the tooth of the tooth fault is broken.
     pub is_tooth_broken: bool,
-    /// Command of the lock as it acted in the last step, from 0 to 1.
+    /// Lock command that acted in the last step, from 0 to 1.
     pub lock: f64,
-    /// Command of the carrier's speed as it acted in the last step [rad/s].
+    /// Carrier speed command that acted in the last step [rad/s].
     pub carrier_command: f64,
-    /// Derivatives of the inputs, where the host set them.
+    /// Derivatives of the inputs, if the host has set them.
     pub input_derivatives: Option<InputDerivatives>,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// Time since which inputs hold [s]: the integration last began anew then, after a change of inputs or another one.
+    /// Time of the last change of the inputs or of anything else [s]. Inputs are constant since then.
     pub held_since: Option<f64>,
-    /// Time for which they had held before [s]: between the last two changes.
+    /// Time between the last two such changes [s]; infinite before the second one.
     pub held_before: f64,
-    /// The integrator's step that contains the present time. Work, heat, friction and damage are those at the beginning of it.
+    /// Step of the integrator that contains the present. Work, heat, friction and damage are those at the start of this
+    /// step.
     pub pending_step: Option<PendingStep>,
-    /// The last events.
+    /// Last events.
     pub events: Events,
-    /// From where the way to the next communication point is reckoned, after a stop on it.
+    /// Pause between two communication points, which tells from where the remaining interval counts.
     pub pause: Option<Pause>,
 }
 
 impl State {
-    /// A state at rest at `time` [s] with all quantities zero; `first_step` is the first step size [s].
+    /// State at rest at `time` [s] with all quantities zero; `first_step` is the first step size [s].
     pub fn at_rest(time: f64, first_step: f64) -> Self {
         Self {
             time,
@@ -103,22 +104,23 @@ impl State {
         self.time
     }
 
-    /// Sets the time to `time` [s], that of the integrator's clock; the motion is already there.
+    /// Sets the time to `time` [s], as given by the integrator's clock. The motion must already be there.
     pub fn move_with_clock(&mut self, time: f64) {
         self.time = time;
     }
 
-    /// Sets the time to `time` [s], as given by a host that integrates the motion itself.
+    /// Sets the time to `time` [s], as given by a host whose solver integrates the motion.
     pub fn follow_host(&mut self, time: f64) {
         self.time = time;
     }
 
-    /// A copy with another time [s], other positions and other velocities.
+    /// Returns a copy with another time [s], other positions and other velocities.
     pub fn elsewhere(&self, time: f64, q: [f64; MAX_DOF], v: [f64; MAX_DOF]) -> Self {
         Self { time, q, v, ..*self }
     }
 
-    /// Moves the first `n` degrees of freedom to `until` [s] if the pending step contains this time. Returns whether it does.
+    /// Moves the first `n` degrees of freedom to `until` [s] if the pending step contains this time. Returns true if it
+    /// does.
     #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
         let Some(pending_step) = &mut self.pending_step else { return false };
@@ -133,18 +135,18 @@ impl State {
         true
     }
 
-    /// The first `N` degrees of freedom; all, if there are fewer.
+    /// First `N` degrees of freedom, or all if there are fewer.
     pub fn point<const N: usize>(&self) -> Point<N> {
         Point::of([&self.q, &self.v])
     }
 
-    /// Sets the first `N` degrees of freedom; all, if there are fewer.
+    /// Sets the first `N` degrees of freedom, or all if there are fewer.
     pub fn set_point<const N: usize>(&mut self, point: &Point<N>) {
         point.write([&mut self.q, &mut self.v]);
     }
 
-    /// Whether all planets of `layout` move alike and only plain teeth act on them. Then `teeth`, with all planets in one group,
-    /// gives the same motion.
+    /// True if all planets of `layout` move identically and only plain teeth act on them. Then `teeth`, with all
+    /// planets in one group, gives the same motion.
     pub fn planets_move_alike(&self, teeth: &Teeth, layout: &Layout) -> bool {
         let alike = |i: usize| {
             self.q[i] == self.q[PLANET]
@@ -164,12 +166,12 @@ impl State {
         }
     }
 
-    /// Moves whole periods of each position into its counter.
+    /// Moves whole periods of each position into a counter.
     ///
-    /// The anchors of dry friction move along with their bodies.
+    /// Anchors of dry friction are shifted together with their bodies.
     pub fn wrap(&mut self, periods: &[f64; MAX_DOF], layout: &Layout) {
         for (i, period) in periods.iter().enumerate().take(layout.count()) {
-            // rarely anything to do
+            // the usual case
             if self.q[i].abs() < *period {
                 continue;
             }
@@ -182,7 +184,7 @@ impl State {
         }
     }
 
-    /// Moves the anchors of all friction whose position includes that of degree of freedom `i`.
+    /// Shifts the anchors of all friction whose position depends on degree of freedom `i`.
     fn move_anchors(&mut self, i: usize, by: f64, layout: &Layout) {
         let planet = i.wrapping_sub(layout.planet(0));
         if i < CARRIER {
@@ -196,20 +198,21 @@ impl State {
         }
     }
 
-    /// Position `i` with its whole periods.
+    /// Position `i`, including its whole periods.
     pub fn position(&self, i: usize, periods: &[f64; MAX_DOF]) -> f64 {
         let count = self.whole_periods[i];
         if count == 0 { self.q[i] } else { self.q[i] + count as f64 * periods[i] }
     }
 
-    /// Whether the motion of ideal gears is finite: side gears, carrier, first planet and work.
+    /// True if the motion of ideal gears is finite: side gears, carrier, first planet and work.
     pub fn is_motion_finite(&self) -> bool {
         // a sum is not finite if a term is not
         let sum = |x: &[f64]| x.iter().sum::<f64>();
         (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.work).is_finite()
     }
 
-    /// Whether a simulation can continue from this state: all numbers finite and within their ranges, pending step included.
+    /// True if a simulation can continue from this state: all numbers, including those of the pending step, are finite
+    /// and within their ranges.
     pub fn is_valid(&self) -> bool {
         self.is_valid_without_pending_step()
             && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
@@ -218,8 +221,8 @@ impl State {
             && self.pause.is_finite()
     }
 
-    /// Checks all but the pending step, the events and the pause, for the end of an integration. There the pending step is
-    /// finite, because it has passed the error test.
+    /// True if all numbers are valid, except those of pending step, events and pause, which are not checked. This
+    /// suffices after an integration, because its pending step has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
         let Self {
             time,
@@ -262,18 +265,20 @@ impl State {
 }
 
 impl BodyEffects {
-    /// Whether more than plain teeth act in `state`: effects of the scene, a broken tooth, a lock that is commanded or still
-    /// holds.
+    /// True if more than plain teeth acts in `state`: effects of the scene, a broken tooth, a lock that is commanded or
+    /// still holds.
     pub fn act_in(&self, state: &State) -> bool {
         self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
     }
 
-    /// Whether forces of gears without teeth follow from a formula in `state`: no effect acts on bodies, and inputs are constant.
+    /// True if the forces of ideal gears have a closed form in `state`: no effect acts on bodies, and inputs are
+    /// constant.
     pub fn have_closed_form(&self, state: &State) -> bool {
         !self.act_in(state) && state.input_derivatives.is_none()
     }
 
-    /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that still holds.
+    /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that
+    /// still holds.
     pub fn may_rub_in(&self, state: &State) -> bool {
         self.has_friction || state.lock > 0.0 || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
@@ -297,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_whose_friction_or_mean_torques_contain_no_number_is_not_valid() {
+    fn a_state_whose_friction_or_mean_torques_are_not_finite_is_invalid() {
         for bad in [f64::NAN, f64::INFINITY] {
             let mut states = [State::at_rest(0.0, 1e-3); 5];
             states[0].friction[2].stiffness = bad;
@@ -310,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_whose_events_or_pause_contain_no_number_is_not_valid() {
+    fn a_state_whose_events_or_pause_are_not_finite_is_invalid() {
         let mut good = State::at_rest(0.0, 1e-3);
         good.pause = Some(Pause { now: 0.0, time: 0.0, inputs: Inputs::ZERO });
         assert!(good.is_valid());

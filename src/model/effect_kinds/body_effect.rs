@@ -1,11 +1,11 @@
-//! What an effect on bodies sees, and what it adds.
+//! Effects on bodies: the motion that they depend on, and the forces and derivatives that they add.
 
 use std::fmt::Debug;
 
 use crate::integrate::Matrix;
 use crate::model::scene::{Inputs, Layout, Viscosity};
 
-/// Positions and velocities of all degrees of freedom, and what the host commands.
+/// Positions and velocities of all degrees of freedom, and the commands of the host.
 pub struct BodyMotion<'a> {
     /// Positions.
     pub q: &'a [f64],
@@ -15,21 +15,21 @@ pub struct BodyMotion<'a> {
     pub layout: &'a Layout,
     /// Inputs.
     pub inputs: &'a Inputs,
-    /// How fast they change [per s].
+    /// Rates of the inputs [per s].
     pub input_rates: &'a Inputs,
-    /// Viscosity of the oil, where effects ask for it.
+    /// Viscosity of the oil, if an effect needs it.
     pub oil_viscosity: Option<Viscosity>,
 }
 
-/// Forces and torques by degree of freedom (on each planet singly), and heat by cause.
+/// Forces and torques by degree of freedom, for a single planet of each group, and heat by cause.
 pub struct Action<'a> {
     /// Sums of forces.
     pub force: &'a mut [f64],
-    /// Acceleration of a carrier whose motion is imposed, commanded so far [rad/s²].
+    /// Acceleration of an imposed carrier, summed over all contributions [rad/s²].
     pub imposed: &'a mut f64,
-    /// Torque of the carrier's drive beyond its command [N·m].
+    /// Torque of the carrier's drive in addition to its command [N·m].
     pub drive: &'a mut f64,
-    /// Heat by its index in the ledger [W].
+    /// Heat rates by their index in the ledger [W].
     pub heat: &'a mut [f64],
 }
 
@@ -46,7 +46,8 @@ pub struct Slopes<'a> {
 }
 
 impl<'a> Slopes<'a> {
-    /// Derivatives that are added to these; `imposed` stands apart, so that the compiler knows what effects cannot touch.
+    /// Collects derivatives in these matrices. `imposed` is a separate argument, so the compiler knows which values
+    /// effects cannot change.
     #[inline]
     pub fn new<const N: usize>(
         [by_position, by_velocity]: [&'a mut Matrix<N>; 2],
@@ -73,25 +74,25 @@ impl<'a> Slopes<'a> {
     }
 }
 
-/// An effect that acts on bodies, apart from the teeth.
+/// Effect that acts on bodies instead of teeth.
 pub trait BodyEffect: Debug + Send + Sync {
     /// Adds forces and heat.
     fn act(&self, at: &BodyMotion, out: &mut Action);
     /// Adds the exact derivatives of the forces.
     fn slopes(&self, at: &BodyMotion, out: &mut Slopes);
-    /// Whether it is part of the structure that carries static loads.
+    /// True if the effect is part of the structure that supports static loads.
     fn is_structure(&self) -> bool {
         false
     }
-    /// Whether it scales the speed or the torque that the carrier is given.
+    /// True if the effect scales the commanded speed or torque of the carrier.
     fn scales_carrier_inputs(&self) -> bool {
         false
     }
-    /// Index of its heat in the ledger if it is nothing but the torques of half-shafts; `None` for all other effects.
+    /// Index of its heat in the ledger if the effect consists only of half-shaft torques, `None` otherwise.
     fn heat_of_half_shafts(&self) -> Option<usize> {
         None
     }
-    /// Energy it stores [J].
+    /// Stored energy [J].
     fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0
     }

@@ -1,37 +1,40 @@
-//! Dry friction that sticks: a spring while a body is held, a limit torque while it slides.
+//! Dry friction with sticking: a spring while a body is held, a limit torque while it slides.
 //!
-//! While stuck T = k (z + τ ω) with the rotation z since the body stopped, while sliding T = ±T_max (P. R. Dahl's and
-//! Jenkins' element: a spring in series with a Coulomb slider). The rotation z is a position of the model less an anchor,
-//! so that sticking adds no state and a constant load is held without creep. While sliding the spring drags the anchor
-//! along, step by step, so that a body stops with the torque that the spring has then, never with more. The integrator
-//! ends a step at each transition; the energy that the spring loses there is heat.
+//! While the body is stuck, T = k (z + τ ω) with the rotation z since it stopped. While it slides, T = ±T_max. This is
+//! the element of P. R. Dahl and of Jenkins: a spring in series with a Coulomb slider. The rotation z is a position of
+//! the model minus an anchor, so sticking adds no state, and a constant load is held without creep. While the body
+//! slides, the spring drags the anchor along, step by step. A body therefore stops with the present torque of the
+//! spring, never with more. The integrator ends a step at each transition. The energy that the spring loses at a
+//! transition becomes heat.
 
 use super::body_friction::BodyFriction;
 use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::numeric::TAU;
 
-/// Damping of the spring over its stiffness τ, where the source gives none [s].
+/// Damping of the spring over its stiffness τ if the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
-/// How closely a step ends at the limit torque, relative to it.
+/// Tolerance of the limit torque at the end of a step, relative to the limit torque.
 const LIMIT_TOLERANCE: f64 = 1e-5;
-/// How closely a step ends at zero speed [rad/s]. The error norm resolves speeds of bodies that stop to the same value: its
-/// floor is 1 rad/s, and the start value of the tolerance is 1e-6.
+/// Tolerance of zero speed at the end of a step [rad/s]. The error norm resolves speeds of bodies that stop to the same
+/// value: its floor is 1 rad/s, and the start value of the tolerance is 1e-6.
 pub const SPEED_TOLERANCE: f64 = 1e-6;
-/// Largest torque of the damping when a body begins to stick, relative to the limit torque: beyond the limit, the body would
-/// slide again at once. Weak and stiff friction stops at lower speeds than [`SPEED_TOLERANCE`] for this reason.
+/// Largest damping torque when a body begins to stick, relative to the limit torque. With a damping torque above the
+/// limit, the body would slide again immediately. For weak and stiff friction, the speed tolerance is therefore smaller
+/// than [`SPEED_TOLERANCE`].
 const DAMPED_SHARE: f64 = 0.5;
-/// Least limit torque that holds a body [N·m]. A spring of 1e5 N·m/rad has this torque at a twist of 1e-14 rad, which is the
-/// rounding of angles; stiffer springs have more, see [`DryFriction::torque_resolution`].
+/// Smallest limit torque that holds a body [N·m]. A spring of 1e5 N·m/rad has this torque at a twist of 1e-14 rad,
+/// which is the rounding of angles. For stiffer springs the smallest torque is larger, see
+/// [`DryFriction::torque_resolution`].
 const NOTHING: f64 = 1e-9;
-/// Rounding of the position of a body, relative to it: half a unit in the last place for each of the angles of carrier, side gear
-/// and half-shaft, and for their sum.
+/// Relative rounding of the position of a body: half a unit in the last place for each of the angles of carrier, side
+/// gear and half-shaft, and for their sum.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// Torque beyond the limit at which a body that stands still begins to slide, as a fraction of the tolerance. Steps end at half
-/// the tolerance.
-const STANDING: f64 = 0.25;
-/// Parts of a step within which a switch is looked for.
+/// Torque beyond the limit at which a body at standstill begins to slide, as a fraction of the tolerance. Steps end at
+/// half the tolerance.
+const STANDSTILL_TOLERANCE: f64 = 0.25;
+/// Range of step fractions within which a switch is located.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
-/// Friction on a body: its parts, and the sources that know how they slide.
+/// Friction on a body: its parts, and the sources with their laws of sliding.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction<'a> {
     of: &'a BodyFriction,
@@ -45,7 +48,7 @@ impl<'a> DryFriction<'a> {
         Self { of, sources }
     }
 
-    /// Whether there is any source.
+    /// True if there is any source.
     #[inline]
     pub fn is_on(&self) -> bool {
         self.of.is_on()
@@ -56,13 +59,15 @@ impl<'a> DryFriction<'a> {
         self.of.parts().iter().map(move |part| (part, &sources[usize::from(part.source)]))
     }
 
-    /// Limit torque of a body that slides at `speed` in its direction [N·m], and its slope by speed.
+    /// Limit torque of a body that slides at `speed` [rad/s] in its direction [N·m], and the derivative with respect to
+    /// speed.
     #[inline]
     pub fn sliding_limit(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        if self.of.feels_slip { self.limit_at(speed, by) } else { [self.of.limit(by), 0.0] }
+        if self.of.varies_with_slip { self.limit_at(speed, by) } else { [self.of.limit(by), 0.0] }
     }
 
-    /// The same of friction that changes with slip: apart, as other friction has no need of it.
+    /// Evaluates [`Self::sliding_limit`] for friction that changes with slip. It is `inline(never)` to keep the code of
+    /// other friction small.
     #[inline(never)]
     fn limit_at(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         self.parts().fold([0.0; 2], |[torque, slope], (part, source)| {
@@ -71,10 +76,10 @@ impl<'a> DryFriction<'a> {
         })
     }
 
-    /// Slopes of the same by thrust and load.
+    /// Derivatives of [`Self::sliding_limit`] with respect to thrust and load.
     #[inline]
     pub fn limit_slopes(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        if self.of.feels_slip { self.limit_slopes_at(speed, by) } else { self.of.limit_slopes() }
+        if self.of.varies_with_slip { self.limit_slopes_at(speed, by) } else { self.of.limit_slopes() }
     }
 
     #[inline(never)]
@@ -89,7 +94,7 @@ impl<'a> DryFriction<'a> {
         self.parts().map(|(part, source)| source.static_ratio * part.at(by)).sum()
     }
 
-    /// Torque against the motion.
+    /// Torque against the motion [N·m].
     pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => state.stiffness * (slip.position - state.anchor + self.of.damping_time * slip.speed),
@@ -97,7 +102,8 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Slopes of the torque by position and speed; those by loads are [`Self::limit_slopes`].
+    /// Derivatives of the torque with respect to position and speed. [`Self::limit_slopes`] returns the derivatives
+    /// with respect to loads.
     pub fn torque_slopes(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> [f64; 2] {
         match state.mode {
             Mode::Stuck => [state.stiffness, self.of.damping_time * state.stiffness],
@@ -105,7 +111,7 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Torque against the motion; adds its heat to the causes, `count` bodies alike.
+    /// Returns the torque against the motion [N·m], and adds the heat of `count` identical bodies to its causes.
     pub fn act(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) -> f64 {
         if state.mode == Mode::Stuck {
             let power = state.stiffness * self.of.damping_time * slip.speed * slip.speed;
@@ -114,10 +120,12 @@ impl<'a> DryFriction<'a> {
         }
         let direction = state.mode.direction();
         let slides = (direction * slip.speed, count * direction * slip.speed);
-        direction * if self.of.feels_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
+        direction
+            * if self.of.varies_with_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
     }
 
-    /// Limit torque of a body that slides at `speed`; adds its heat, `sliding` times the torque of each part, to the causes.
+    /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each part
+    /// to the heat of its cause.
     #[inline(never)]
     fn rub_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
         self.parts().fold(0.0, |limit, (part, source)| {
@@ -127,13 +135,13 @@ impl<'a> DryFriction<'a> {
         })
     }
 
-    /// Returns true if the loads decide whether a switch is due, or to which state: while stuck, and once the speed of sliding
-    /// has reached zero.
+    /// Returns true if the loads decide on a switch or on the mode after it: while the body is stuck, and as soon as
+    /// its sliding speed has reached zero.
     pub fn awaits_load(&self, state: &FrictionState, slip: &Slip) -> bool {
         state.mode.direction() * slip.speed <= 0.0
     }
 
-    /// Shares `amount` out to the causes in proportion to their limit torques.
+    /// Distributes the heat `amount` [J or W] to the causes in proportion to their limit torques.
     fn add_heat(&self, amount: f64, by: &SurfaceLoad, heat: &mut [f64]) {
         let whole = self.of.limit(by);
         for part in self.of.parts() {
@@ -148,34 +156,35 @@ impl<'a> DryFriction<'a> {
         if state.mode == Mode::Stuck { 0.5 * state.stiffness * z * z } else { 0.0 }
     }
 
-    /// Torque of the spring that rounding of the position produces [N·m]. The angles of which the position is the sum are up
-    /// to a turn large, even if the position is small.
+    /// Spring torque that corresponds to the rounding of the position [N·m]. The position is a sum of angles of up to
+    /// one turn, so its rounding error does not shrink with it.
     fn torque_resolution(&self, slip: &Slip) -> f64 {
         NOTHING.max(self.of.stiffness * ROUNDING * slip.position.abs().max(TAU))
     }
 
-    /// Returns true if a body stands still. Then its torque decides whether it begins to slide, and not its speed. The torque of
-    /// other friction than a commanded one changes with the motion itself, so its bodies stand at a speed of exactly zero only.
-    fn stands(&self, slip: &Slip) -> bool {
+    /// Returns true if a body is at standstill: its torque, not its speed, then decides whether it begins to slide.
+    /// Commanded friction allows a tolerance of the speed. The torque of other friction changes with the motion itself,
+    /// so its bodies are at standstill only if their speed is exactly zero.
+    fn is_at_standstill(&self, slip: &Slip) -> bool {
         slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE
     }
 
     /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m].
     fn excess(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         let torque = self.torque(state, slip, by);
-        // a spring past its limit that is being unwound is cut back, it does not slide; a body that stands still when
-        // its limit is lowered slides to where it is driven
-        let sense = if self.stands(slip) { torque } else { slip.speed };
+        // an overwound spring that is being unwound is shortened instead of released; a body at standstill slides in
+        // the direction of its torque when its limit is lowered
+        let sense = if self.is_at_standstill(slip) { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
     }
 
-    /// How closely a step ends at zero speed under the loads `by` [rad/s].
+    /// Tolerance of zero speed at the end of a step under the loads `by` [rad/s].
     fn speed_tolerance(&self, by: &SurfaceLoad) -> f64 {
         let damping = self.of.stiffness * self.of.damping_time;
         SPEED_TOLERANCE.min(DAMPED_SHARE * self.breakaway(by) / damping)
     }
 
-    /// Distance past the switch, as a fraction of the tolerance: negative before it, above 1 too far.
+    /// Distance past the switch, as a fraction of the tolerance: negative before the switch, above 1 too far beyond it.
     fn overshoot(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => {
@@ -186,7 +195,8 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// The fraction of a step after which it ends on a switch; `None` if there is no switch or it is near enough.
+    /// Returns the fraction of a step at which it must end to meet a switch. Returns `None` without a switch, or if the
+    /// step ends within its tolerance.
     pub fn crossing(
         &self,
         state: &FrictionState,
@@ -203,13 +213,14 @@ impl<'a> DryFriction<'a> {
         if after <= 1.0 {
             return None;
         }
-        // aim at the middle of the tolerance; that of a sliding body is the tolerance under the loads at the end
+        // aim at the middle of the tolerance; the tolerance of a sliding body depends on the loads at the end
         let by = if state.mode == Mode::Stuck { start.1 } else { end.1 };
         let before = self.overshoot(state, start.0, by).min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
-    /// The same of a held body whose limit is a command: it may fall within the step, even to nothing.
+    /// Evaluates [`Self::crossing`] for a held body whose limit is commanded. The limit may fall within the step, even
+    /// to zero.
     fn crossing_of_command(
         &self,
         state: &FrictionState,
@@ -223,18 +234,21 @@ impl<'a> DryFriction<'a> {
         (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
-    /// The state after the switch that is due, if any. A sliding body that stands, where a host's event or a jump of an imposed
-    /// speed may put it, sticks if it `stops`, that is, if nothing accelerates it further in the direction of sliding.
+    /// Returns the state after the switch that is due, if any. An event of the host or a jump of an imposed speed may
+    /// bring a sliding body to standstill. The body then sticks if `stops` is true, that is, if nothing accelerates it
+    /// further in the direction of sliding.
     fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
         let due = match state.mode {
-            // a body that has just stopped may have the limit torque to the last bit
-            Mode::Stuck => self.overshoot(state, slip, by) > if self.stands(slip) { STANDING } else { 0.0 },
+            // a body that has just stopped may have exactly the limit torque
+            Mode::Stuck => {
+                self.overshoot(state, slip, by) > if self.is_at_standstill(slip) { STANDSTILL_TOLERANCE } else { 0.0 }
+            }
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
-        let stops = stops && self.stands(slip) && slip.speed.abs() <= self.speed_tolerance(by);
+        let stops = stops && self.is_at_standstill(slip) && slip.speed.abs() <= self.speed_tolerance(by);
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {
@@ -245,7 +259,7 @@ impl<'a> DryFriction<'a> {
                 }
             }
             _ if holds && (due || stops) => after.mode = Mode::Stuck,
-            // a command of no torque holds nothing
+            // a commanded torque of zero holds nothing
             mode if due => after.mode = mode.reversed(),
             _ => {}
         }
@@ -257,7 +271,8 @@ impl<'a> DryFriction<'a> {
         self.switched(state, slip, by, stops) != *state
     }
 
-    /// Switches if a switch is due; see [`Self::switched`] for `stops`. The energy that the springs of `count` bodies lose is heat.
+    /// Switches if a switch is due; see [`Self::switched`] for `stops`. The energy that the springs of `count` bodies
+    /// lose becomes heat.
     pub fn settle(
         &self,
         state: &mut FrictionState,
@@ -273,14 +288,16 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Anchor of a body that has slid to `position` [rad]: the spring, wound to the limit torque [N·m], drags it along.
-    /// Where the limit rises faster than the motion winds the spring, the torque of the spring stays below it.
+    /// Anchor of a body that has slid to `position` [rad]. The spring, wound to the limit torque `limit` [N·m], drags
+    /// the anchor along. If the limit rises faster than the motion winds the spring, the spring torque stays below the
+    /// limit.
     pub fn drag(&self, anchor: f64, position: f64, limit: f64) -> f64 {
         let most = limit / self.of.stiffness;
         position - (position - anchor).max(-most).min(most)
     }
 
-    /// Distance from the switch, positive before it: torque left while stuck [N·m], speed while sliding [rad/s].
+    /// Distance to the switch, positive before it: the remaining torque while stuck [N·m], the speed while sliding
+    /// [rad/s].
     pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => self.breakaway(by) - self.torque(state, slip, by).abs(),
@@ -288,7 +305,8 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Adapts the state to this stiffness; on a body without friction before, it starts here.
+    /// Adapts the state to the present stiffness. If the body had no friction before, friction starts at its present
+    /// position.
     pub fn adapt(&self, state: &mut FrictionState, slip: &Slip, heat: &mut [f64], count: f64) {
         if state.stiffness == self.of.stiffness {
             return;
@@ -303,7 +321,8 @@ impl<'a> DryFriction<'a> {
                     _ => Mode::Stuck,
                 };
             }
-            // a spring that becomes stiffer keeps its torque, one that becomes softer its twist: neither gains energy
+            // a spring that becomes stiffer keeps its torque, and one that becomes softer keeps its twist, so neither
+            // gains energy
             state.anchor = slip.position - wound * (state.stiffness / self.of.stiffness).min(1.0);
         } else {
             *state = FrictionState::default();

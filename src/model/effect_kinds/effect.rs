@@ -1,4 +1,4 @@
-//! What an effect declares: its parameters, its rows of the interface, its heat, its readings, and what it does.
+//! Declaration of an effect: its parameters, interface rows, heat and readings, and its actions in a scene.
 
 use std::fmt::Debug;
 
@@ -14,7 +14,7 @@ use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
 use crate::problem::Problem;
 
-/// Whether this build has effects at all; one without proves that an effect that is off costs nothing.
+/// True if this build contains effects. A build without them proves that an effect that is off costs nothing.
 pub const BUILT: bool = cfg!(feature = "effects");
 
 /// Access to an input.
@@ -25,18 +25,18 @@ pub type InputField = fn(&mut Inputs) -> &mut f64;
 pub struct Heat {
     /// Name of the output.
     pub output: &'static str,
-    /// What it is.
+    /// Description in the interface.
     pub description: &'static str,
-    /// Whether it arises at the wheels, beyond the torque that `power.out` counts.
+    /// True if the heat arises at the wheels, beyond the point where `power.out` is counted.
     pub at_wheels: bool,
 }
 
-/// When a reading changes.
+/// Times at which a reading changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Changes {
-    /// At any instant: it follows from the state.
+    /// At any instant, because the reading follows from the state.
     Always,
-    /// With accepted steps: it is part of the ledger.
+    /// At the end of accepted steps, because the reading is part of the ledger.
     ByStep,
 }
 
@@ -49,13 +49,13 @@ pub struct Reading {
     pub unit: Unit,
     /// Unit in which it is displayed.
     pub display: Option<DisplayUnit>,
-    /// When it changes.
+    /// Times at which the reading changes.
     pub changes: Changes,
-    /// What it is.
+    /// Description in the interface.
     pub description: &'static str,
 }
 
-/// The output of a friction's p·v.
+/// Output for the p·v of rubbing surfaces.
 pub const fn pv_reading(name: &'static str, description: &'static str) -> Reading {
     Reading { name, unit: W_PER_M2, display: Some(W_PER_MM2), changes: Changes::Always, description }
 }
@@ -63,20 +63,20 @@ pub const fn pv_reading(name: &'static str, description: &'static str) -> Readin
 /// Representations of tooth contact that an effect needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Needs {
-    /// Those it works with.
+    /// Representations with which the effect works.
     pub contacts: &'static [GearContact],
-    /// Why.
+    /// Reason, for messages.
     pub why: &'static str,
 }
 
-/// What effects see of a scene when they are set up.
+/// Scene data from which effects are set up.
 #[derive(Clone, Copy)]
 pub struct Setting<'a> {
     /// Drives and representation.
     pub scene: &'a Scene,
-    /// Gears as given,
+    /// Given data of the gears.
     pub geometry: &'a GearSpec,
-    /// and as they follow from it.
+    /// Gear pair that follows from `geometry`.
     pub pair: &'a Pair,
     /// Material.
     pub material: &'a Material,
@@ -86,18 +86,18 @@ pub struct Setting<'a> {
     pub inertia: &'a InertiaSpec,
     /// Contact law.
     pub contact: &'a ContactSpec,
-    /// Teeth of all gears, where they are given one by one.
+    /// Teeth of all gears, if they are given individually.
     pub teeth: Option<&'a [GearTeeth]>,
-    /// Whether the effect is switched on.
+    /// True if the effect is switched on.
     pub on: bool,
     /// Index of the effect's heat in the ledger.
     pub heat_index: usize,
 }
 
-/// What readings follow from.
+/// Scene and motion at an instant, from which readings follow.
 #[derive(Clone, Copy)]
 pub struct Instant<'a> {
-    /// Whether the effect is switched on.
+    /// True if the effect is switched on.
     pub on: bool,
     /// Plan of the scene.
     pub plan: &'a Plan,
@@ -107,21 +107,22 @@ pub struct Instant<'a> {
     pub shaft_torque: [f64; 2],
 }
 
-/// What an effect declares. The type that declares is the struct of its parameters; its `Default` are their start values.
+/// Declaration of an effect. It is implemented by the struct of the effect's parameters, whose `Default` gives their
+/// start values.
 pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeOwned {
-    /// What its switch switches.
+    /// Description of its switch in the interface.
     const DESCRIPTION: &'static str;
     /// Its heat.
     const HEAT: Option<Heat> = None;
-    /// Its own outputs.
+    /// Its outputs in addition to heat.
     const READINGS: &'static [Reading] = &[];
-    /// Representations of tooth contact it needs; `None` works with all.
+    /// Representations of tooth contact that the effect needs. With `None` it works with all of them.
     const NEEDS: Option<Needs> = None;
-    /// Whether it may act although its switch is off.
+    /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
-    /// Condition under which a scene can feel its switch, as of a row; none: always.
+    /// Condition under which its switch has any influence, in the form of a row's condition. `None` means always.
     const WHEN: Option<&'static str> = None;
-    /// Values that make it visible in an example: names of variables, values in SI.
+    /// Values that make the effect visible in an example: names of variables with values in SI units.
     const EXAMPLE: &'static [(&'static str, f64)] = &[];
 
     /// Start values of its parameters.
@@ -138,22 +139,22 @@ pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeO
     }
 }
 
-/// What an effect does in a scene.
+/// Actions of an effect in a scene.
 pub trait Effect {
-    /// Adds what is wrong with its parameters.
+    /// Adds the problems of its parameters to `found`.
     fn check(&self, _setting: &Setting, _found: &mut Vec<Problem>) {}
 
-    /// What is unusual about it.
+    /// Warnings about unusual parameters.
     fn warnings(&self, _setting: &Setting) -> Vec<Problem> {
         Vec::new()
     }
 
-    /// Degrees of freedom it requires.
+    /// Degrees of freedom that the effect requires.
     fn requests(&self, _setting: &Setting) -> Requests {
         Requests::default()
     }
 
-    /// Sets up what it does to single teeth.
+    /// Adds the effect's influence on single teeth to `teeth`.
     fn on_teeth(&self, _setting: &Setting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
         Ok(())
     }
@@ -168,7 +169,7 @@ pub trait Effect {
         None
     }
 
-    /// Whether it depends on the viscosity of the oil at its temperature.
+    /// True if the effect depends on the viscosity of the oil at its temperature.
     fn is_oiled(&self) -> bool {
         false
     }

@@ -9,11 +9,11 @@ use crate::model::thermal::NODES;
 /// Friction on each kind of body.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
-    /// On each side gear.
+    /// Friction on each side gear.
     pub side: BodyFriction,
-    /// On each planet.
+    /// Friction on each planet.
     pub planet: BodyFriction,
-    /// On left and right wheel.
+    /// Friction on the left and the right wheel.
     pub wheel: [BodyFriction; 2],
     wheel_limit: Option<fn(&Inputs) -> [f64; 2]>,
 }
@@ -27,8 +27,8 @@ impl Friction {
         wheel_limit: None,
     };
 
-    /// Friction of `sources` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their derivatives.
-    /// Brakes that are off add none.
+    /// Friction of `sources` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their
+    /// derivatives. Brakes that are off add no friction.
     pub fn new(
         sources: &[FrictionSource],
         (lock, temperatures): (f64, &[f64; NODES]),
@@ -53,17 +53,18 @@ impl Friction {
         all
     }
 
-    /// Adds source number `index`, pressed by `part` of its force, with `factor` times the friction.
+    /// Adds source number `index`. `part` is the applied fraction of its full force, and `factor` multiplies its
+    /// friction.
     fn add(&mut self, (index, source): (u16, &FrictionSource), part: f64, factor: f64) {
-        let feels_slip = source.feels_slip();
+        let varies_with_slip = source.varies_with_slip();
         let none = FrictionPart { heat_index: source.heat_index, source: index, ..FrictionPart::NONE };
         let SideFriction { constant, per_thrust, per_torque, stiffness, .. } = source.side;
         let side = FrictionPart { constant, per_thrust, per_load: per_torque, ..none };
-        self.side.push(&[side.times(part * factor)], part * stiffness, feels_slip);
+        self.side.push(&[side.times(part * factor)], part * stiffness, varies_with_slip);
         let PlanetFriction { per_pin_force: per_load, per_thrust, stiffness, .. } = source.planet;
         let pin = FrictionPart { per_load, surface: SurfaceKind::Pin, ..none };
         let washer = FrictionPart { per_thrust, surface: SurfaceKind::PlanetWasher, ..none };
-        if feels_slip {
+        if varies_with_slip {
             self.planet.push(&[pin, washer].map(|of| of.times(part * factor)), part * stiffness, true);
         } else {
             self.planet.push(&[FrictionPart { per_thrust, ..pin }.times(part * factor)], part * stiffness, false);
@@ -89,13 +90,13 @@ impl Friction {
                     surface: SurfaceKind::Wheel,
                     ..FrictionPart::NONE
                 };
-                self.wheel[s].push(&[part.times(factor)], wheel.stiffness, source.feels_slip());
+                self.wheel[s].push(&[part.times(factor)], wheel.stiffness, source.varies_with_slip());
             }
         }
         self.wheel_limit = Some(wheel.limit);
     }
 
-    /// Friction on body `i`, counted among those that may stick.
+    /// Friction on body `i` of the bodies that may stick.
     #[inline]
     pub fn on(&self, i: usize) -> &BodyFriction {
         match i {
@@ -105,7 +106,8 @@ impl Friction {
         }
     }
 
-    /// Bodies with friction, each a bit at its number among those that may stick; `planets` groups of planets may.
+    /// Bit mask of the bodies with friction, by their numbers among the bodies that may stick. `planets` is the number
+    /// of planet groups.
     #[inline]
     pub fn bodies(&self, planets: usize) -> u32 {
         let of = |bits: u32, friction: &BodyFriction| if friction.is_on() { bits } else { 0 };
@@ -114,12 +116,12 @@ impl Friction {
         sides | of(1 << FRICTION_WHEELS, &self.wheel[0]) | of(2 << FRICTION_WHEELS, &self.wheel[1])
     }
 
-    /// Whether anything may stick.
+    /// True if any body has friction.
     pub fn is_any(&self) -> bool {
         self.side.is_on() || self.planet.is_on() || self.wheel[0].is_on() || self.wheel[1].is_on()
     }
 
-    /// Whether limit torques depend on the loads of the meshes.
+    /// True if limit torques depend on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
         self.side.depends_on_load() || self.planet.depends_on_load()
     }

@@ -1,22 +1,22 @@
-//! Part of the dry friction on a body that one surface contributes, and what it depends on: the load on the surface, and how the
-//! body moves against it.
+//! Contribution of one surface to the dry friction on a body. It depends on the load on the surface and on the slip of
+//! the body.
 
 use super::{FrictionSource, SurfaceKind};
 
-/// Limit torque of one surface. How it slides is known to its source.
+/// Limit torque of one surface. The law of sliding is in its source.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionPart {
-    /// Constant part [N·m].
+    /// Constant torque [N·m].
     pub constant: f64,
-    /// Per thrust [m].
+    /// Torque per thrust [m].
     pub per_thrust: f64,
-    /// Per load.
+    /// Torque per load, in N·m over the unit of the load.
     pub per_load: f64,
-    /// Index of its heat.
+    /// Index of its heat in the ledger.
     pub heat_index: usize,
     /// Number of its source.
     pub source: u16,
-    /// Which surface of it.
+    /// Surface of the source.
     pub surface: SurfaceKind,
 }
 
@@ -25,7 +25,7 @@ impl FrictionPart {
     pub const NONE: Self =
         Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, heat_index: 0, source: 0, surface: SurfaceKind::Side };
 
-    /// The same with `factor` times the friction.
+    /// Returns the part with `factor` times the friction.
     pub fn times(self, factor: f64) -> Self {
         let Self { constant, per_thrust, per_load, .. } = self;
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load, ..self }
@@ -36,8 +36,9 @@ impl FrictionPart {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
-    /// Limit torque of a surface of `source` while the body slides at `speed` in its direction [N·m], and its slope by speed.
-    /// Apart: friction that does not change with slip has no need of it.
+    /// Limit torque of a surface of `source` [N·m] while the body slides at `speed` [rad/s] in its direction, and the
+    /// derivative with respect to speed. It is `inline(never)` to keep the code of friction without slip dependence
+    /// small.
     #[inline(never)]
     pub(super) fn sliding(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         let ([value, slope], kinetic) = (source.law(self.surface).factor(speed), self.at(by));
@@ -48,7 +49,7 @@ impl FrictionPart {
         [factor * torque, factor * by_speed + by_pv * pressure * torque]
     }
 
-    /// Slopes of the same by thrust and load.
+    /// Derivatives of the torque of [`Self::sliding`] with respect to thrust and load.
     #[inline(never)]
     pub(super) fn slopes(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         let [value, _] = source.law(self.surface).factor(speed);
@@ -66,8 +67,8 @@ impl FrictionPart {
 pub struct SurfaceLoad {
     /// Thrust on a side gear, or on a planet [N].
     pub thrust: f64,
-    /// Magnitude of the torque of the meshes on a side gear [N·m], of the force across a planet's pin [N], or limit
-    /// torque of a wheel [N·m].
+    /// Magnitude of the mesh torque on a side gear [N·m] or of the force across a planet's pin [N], or the limit torque
+    /// of a wheel [N·m].
     pub load: f64,
 }
 

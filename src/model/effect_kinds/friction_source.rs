@@ -1,38 +1,39 @@
-//! What an effect contributes to the dry friction of a body: limit torques, by what presses the surfaces.
+//! Contribution of an effect to the dry friction of bodies: limit torques that depend on the loads on the surfaces.
 
 use super::{Pressed, PvLimit, SlipLaw, SlipSpec};
 use crate::model::scene::Inputs;
 use crate::model::thermal::{NODES, OIL};
 
-/// Dry friction between a side gear and the carrier: a limit torque made of a constant and of the loads of the meshes.
+/// Dry friction between a side gear and the carrier. The limit torque is a constant plus parts in proportion to the
+/// mesh loads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SideFriction {
-    /// Constant part [N·m].
+    /// Constant torque [N·m].
     pub constant: f64,
-    /// Per thrust on the side gear [m].
+    /// Torque per thrust on the side gear [m].
     pub per_thrust: f64,
-    /// Per torque of the meshes on the side gear.
+    /// Torque per mesh torque on the side gear.
     pub per_torque: f64,
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,
     /// Mean radius of the surface [m].
     pub radius: f64,
-    /// What presses it.
+    /// Pressure on the surface.
     pub pressed: Pressed,
 }
 
 /// Dry friction between a planet and its pin and seat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanetFriction {
-    /// Per force across the pin [m].
+    /// Torque per force across the pin [m].
     pub per_pin_force: f64,
-    /// Per thrust on the planet [m].
+    /// Torque per thrust on the planet [m].
     pub per_thrust: f64,
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,
     /// Radii of pin and washer [m].
     pub radius: [f64; 2],
-    /// What presses them.
+    /// Pressures on pin and washer.
     pub pressed: [Pressed; 2],
 }
 
@@ -47,52 +48,52 @@ pub struct WheelFriction {
     pub damping_time: [f64; 2],
     /// Mean radius of the surface [m].
     pub radius: f64,
-    /// What presses it; the load is its limit torque.
+    /// Pressure on the surface, whose load is the limit torque.
     pub pressed: Pressed,
 }
 
-/// The surfaces that a source may have.
+/// Surfaces that a source may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
-    /// Between side gear and carrier.
+    /// Surface between side gear and carrier.
     Side,
-    /// Pin of a planet.
+    /// Surface between a planet and its pin.
     Pin,
-    /// Washer of a planet.
+    /// Surface of a planet's washer.
     PlanetWasher,
-    /// Brake of a wheel.
+    /// Surface of a wheel's brake.
     Wheel,
 }
 
-/// Where the temperature of a surface is found.
+/// Origin of the temperature of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SurfaceTemperature {
-    /// At a node of the thermal network.
+    /// Temperature of a node of the thermal network.
     Node(usize),
-    /// It is given [K].
+    /// Given temperature [K].
     Given(f64),
 }
 
-/// What one effect contributes to the dry friction of bodies.
+/// Contribution of one effect to the dry friction of bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionSource {
     /// Name of the effect.
     pub effect: &'static str,
     /// Index of its heat in the ledger.
     pub heat_index: usize,
-    /// On each side gear.
+    /// Friction on each side gear.
     pub side: SideFriction,
-    /// On each planet.
+    /// Friction on each planet.
     pub planet: PlanetFriction,
-    /// On the wheels.
+    /// Friction on the wheels.
     pub wheel: Option<WheelFriction>,
-    /// Limit while stuck over limit while sliding.
+    /// Limit torque while stuck over limit torque while sliding.
     pub static_ratio: f64,
-    /// How it slides.
+    /// Parameters of sliding.
     pub sliding: SlipSpec,
-    /// Where its temperature is found.
+    /// Origin of the temperature of its surfaces.
     pub temperature: SurfaceTemperature,
-    /// Whether the command of the lock presses it.
+    /// True if the command of the lock presses the surfaces.
     pub by_lock: bool,
 }
 
@@ -113,7 +114,7 @@ impl FrictionSource {
         }
     }
 
-    /// Its friction at the `temperatures` of all nodes [K], over that at the reference.
+    /// Friction at the `temperatures` of all nodes [K], relative to the friction at the reference temperature.
     pub fn factor(&self, temperatures: &[f64; NODES]) -> f64 {
         self.sliding.factor_at(match self.temperature {
             SurfaceTemperature::Node(node) => temperatures[node],
@@ -121,7 +122,7 @@ impl FrictionSource {
         })
     }
 
-    /// Mean radius of a surface [m], and what presses it.
+    /// Mean radius of a surface [m], and the pressure on it.
     fn surface(&self, kind: SurfaceKind) -> (f64, Pressed) {
         let PlanetFriction { radius: [pin, washer], pressed: [on_pin, on_washer], .. } = self.planet;
         match kind {
@@ -132,29 +133,29 @@ impl FrictionSource {
         }
     }
 
-    /// Friction by speed on a surface.
+    /// Law of friction over slip speed on a surface.
     pub fn law(&self, kind: SurfaceKind) -> SlipLaw {
         let SlipSpec { stribeck_speed, slip_slope, .. } = self.sliding;
         SlipLaw { radius: self.surface(kind).0, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
     }
 
-    /// What presses a surface.
+    /// Pressure on a surface.
     pub fn pressed(&self, kind: SurfaceKind) -> Pressed {
         self.surface(kind).1
     }
 
-    /// The limit of p·v, where friction changes at one.
+    /// Limit of p·v at which friction changes, if there is one.
     pub fn pv_limit(&self) -> Option<PvLimit> {
         let SlipSpec { pv_limit: limit, beyond_limit: beyond, .. } = self.sliding;
         Some(PvLimit { limit, beyond }).filter(PvLimit::acts)
     }
 
-    /// Whether its friction changes with slip.
-    pub fn feels_slip(&self) -> bool {
+    /// True if friction changes with slip.
+    pub fn varies_with_slip(&self) -> bool {
         !self.law(SurfaceKind::Side).is_constant() || self.pv_limit().is_some()
     }
 
-    /// Whether the loads of the meshes matter.
+    /// True if friction depends on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
         let (s, p) = (&self.side, &self.planet);
         [s.per_thrust, s.per_torque, p.per_pin_force, p.per_thrust].iter().any(|x| *x != 0.0)

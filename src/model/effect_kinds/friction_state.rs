@@ -1,10 +1,10 @@
-//! State of the dry friction on a body: stuck or sliding, and where its spring is anchored.
+//! State of the dry friction on a body: stuck or sliding, and the anchor of its spring.
 
 use serde::{Deserialize, Serialize};
 
 use crate::numeric::finite;
 
-/// Whether a body sticks, or in which direction it slides.
+/// Mode of a body: stuck, or sliding in one direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// Held by the spring from its anchor.
@@ -26,7 +26,7 @@ impl Mode {
         }
     }
 
-    /// The other direction of sliding.
+    /// Opposite direction of sliding.
     pub fn reversed(self) -> Self {
         match self {
             Mode::Stuck => Mode::Stuck,
@@ -41,9 +41,9 @@ impl Mode {
 pub struct FrictionState {
     /// Stuck or sliding.
     pub mode: Mode,
-    /// Position at which the spring is relaxed [rad]; while sliding, where it would be.
+    /// Position at which the spring is relaxed, or would be relaxed while the body slides [rad].
     pub anchor: f64,
-    /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
+    /// Stiffness for which the anchor is valid [N·m/rad]; 0 if no friction acts.
     pub stiffness: f64,
 }
 

@@ -1,5 +1,5 @@
-//! What an effect may declare (`effect`) and do: forces on bodies (`body_effect`), dry friction that sticks (`friction_source`,
-//! `friction`, `dry_friction`), changes to single teeth (`teeth`).
+//! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`), dry friction with
+//! sticking (`friction_source`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
 
 pub mod body_effect;
 pub mod body_friction;

@@ -1,28 +1,30 @@
-//! Pressure times speed of a rubbing surface, and how friction changes beyond a limit of p v.
+//! Pressure times speed of a rubbing surface, and the change of friction beyond a limit of p v.
 //!
 //! ```text
 //! p v = ω (P + P_F F + P_L L)      friction × g(p v),   g = 1 up to the limit,   g = b from 1.05 × the limit
 //! ```
 //!
-//! with the slip speed ω, the thrust F and the load L on the surface. A normal force N on the area A at the radius r has p =
-//! N/A and v = ω r. A friction torque T = μ N r has p v = T ω/(μ A). From the limit (u = 0) to 1.05 × the limit (u = 1) the factor
-//! is g = 1 + (b − 1) u² (3 − 2u), so that it has a derivative everywhere. Temperature changes μ, not N, and so not p v.
+//! with the slip speed ω, the thrust F and the load L on the surface. A normal force N on the area A at the radius r
+//! has p = N/A and v = ω r, so a friction torque T = μ N r has p v = T ω/(μ A). From the limit (u = 0) to 1.05 × the
+//! limit (u = 1) the factor is g = 1 + (b − 1) u² (3 − 2u), which is differentiable everywhere. Temperature changes μ
+//! but not N, so it does not change p v.
 //!
-//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can bear.
+//! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can
+//! bear.
 
 use super::SurfaceLoad;
 
-/// Width of the band in which friction changes, as a part of the limit.
+/// Width of the band in which friction changes, as a fraction of the limit.
 const BAND: f64 = 0.05;
 
 /// Pressure times radius of a surface [N/m], linear in thrust and load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pressed {
-    /// Constant part [N/m].
+    /// Constant value [N/m].
     pub constant: f64,
-    /// Per thrust [1/m].
+    /// Value per thrust [1/m].
     pub per_thrust: f64,
-    /// Per load, in N/m over the unit of the load.
+    /// Value per load, in N/m over the unit of the load.
     pub per_load: f64,
 }
 
@@ -35,7 +37,7 @@ impl Pressed {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
-    /// `factor` times the pressure.
+    /// Returns `factor` times the pressure.
     pub fn times(self, factor: f64) -> Self {
         let Self { constant, per_thrust, per_load } = self;
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load }
@@ -45,19 +47,19 @@ impl Pressed {
 /// Limit of p·v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PvLimit {
-    /// Largest p·v at which friction is as given [W/m²].
+    /// Largest p·v at which friction has its given value [W/m²].
     pub limit: f64,
-    /// b: friction beyond the band over that up to the limit.
+    /// b: friction beyond the band over friction up to the limit.
     pub beyond: f64,
 }
 
 impl PvLimit {
-    /// Whether friction changes at the limit.
+    /// True if friction changes at the limit.
     pub fn acts(&self) -> bool {
         self.limit > 0.0 && self.beyond != 1.0
     }
 
-    /// g and its slope [m²/W] at `pv` [W/m²].
+    /// g at `pv` [W/m²], and its derivative [m²/W].
     pub fn factor(&self, pv: f64) -> [f64; 2] {
         let width = BAND * self.limit;
         let u = (pv - self.limit) / width;
@@ -72,10 +74,10 @@ impl PvLimit {
     }
 }
 
-/// A rubbing surface of a side, or of a group of planets.
+/// Rubbing surface of a side, or of a group of planets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
-    /// Between side gear and carrier: its washer, or its clutch pack.
+    /// Surface between a side gear and the carrier: washer or clutch pack.
     Side(usize),
     /// Pin of a planet.
     Pin(usize),
@@ -125,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn torque_and_slopes_below_within_and_beyond_the_band_are_those_of_formula_and_differences() {
+    fn torque_matches_its_formula_and_slopes_match_differences_below_within_and_beyond_the_band() {
         let source = source();
         for (share, factor) in [(0.7, 1.0), (1.01, 0.9584), (1.025, 0.8), (1.04, 0.6416), (2.0, 0.6)] {
             let (by, speed) = at_share(share);

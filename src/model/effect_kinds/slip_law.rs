@@ -1,13 +1,13 @@
-//! How dry friction changes with the speed of sliding: what a Stribeck curve makes of a limit torque.
+//! Change of dry friction with slip speed: a Stribeck curve that multiplies the limit torque.
 //!
 //! ```text
 //! φ(v) = 1 + (s − 1) exp(−v/v_S) + k v
 //! ```
 //!
-//! times the kinetic torque, with the speed v at the mean radius, the static ratio s, the Stribeck speed v_S and the slope k.
-//! With v_S > 0 friction begins to slide at the torque at which it breaks loose. With v_S = 0 it jumps from s to 1. A falling
-//! φ makes friction judder, a rising one damps: dT/dω = T_k r φ′(v). Friction never falls below a part of its kinetic value
-//! ([`LEAST`]), which it meets smoothly.
+//! multiplies the kinetic torque, with the speed v at the mean radius, the static ratio s, the Stribeck speed v_S and
+//! the slope k. With v_S > 0, sliding begins at the breakaway torque. With v_S = 0, friction jumps from s to 1. A
+//! falling φ causes judder and a rising φ damps it, because dT/dω = T_k r φ′(v). Friction never falls below a fraction
+//! of its kinetic value ([`LEAST`]), which it approaches smoothly.
 //!
 //! Sources: L. C. Bo and D. Pavelescu, Wear 82 (1982), p. 277, with the exponent 1; the clutch of the Modelica Standard
 //! Library, Mechanics.Rotational.Components.Clutch, for μ over slip.
@@ -15,15 +15,15 @@
 use crate::friction::smooth;
 use crate::numeric::Dual;
 
-/// Least part of the kinetic value; down to twice this the curve is unchanged.
+/// Smallest fraction of the kinetic value. Down to twice this fraction, the curve is unchanged.
 const LEAST: f64 = 0.1;
 
-/// Friction over its kinetic value, by slip speed.
+/// Friction over its kinetic value, as a function of slip speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipLaw {
     /// Radius at which the surface slides [m].
     pub radius: f64,
-    /// Static over kinetic value, less 1.
+    /// Static over kinetic value, minus 1.
     pub excess: f64,
     /// Stribeck speed v_S [m/s]; 0 = no curve.
     pub stribeck_speed: f64,
@@ -32,10 +32,10 @@ pub struct SlipLaw {
 }
 
 impl SlipLaw {
-    /// The same at all speeds.
+    /// Friction that does not change with speed.
     pub const CONSTANT: Self = Self { radius: 0.0, excess: 0.0, stribeck_speed: 0.0, slope: 0.0 };
 
-    /// Whether speed makes no difference.
+    /// True if speed has no influence.
     pub fn is_constant(&self) -> bool {
         (self.excess == 0.0 || self.stribeck_speed == 0.0) && self.slope == 0.0
     }
@@ -64,7 +64,7 @@ mod tests {
     const CLUTCH: SlipLaw = SlipLaw { radius: 0.05, excess: 0.2, stribeck_speed: 0.1, slope: -0.01 };
 
     #[test]
-    fn the_curve_is_that_of_its_formula_and_its_slope_that_of_differences() {
+    fn the_curve_matches_its_formula_and_its_slope_matches_differences() {
         for speed in [1e-3, 1.0, 20.0, 300.0] {
             let v = 0.05 * speed;
             let expected = 1.0 + 0.2 * (-v / 0.1_f64).exp() - 0.01 * v;
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn it_begins_at_the_static_value_and_never_falls_below_its_least() {
+    fn the_curve_begins_at_the_static_value_and_never_falls_below_its_lower_limit() {
         assert_eq!(CLUTCH.factor(0.0), [1.2, 0.0]);
         assert!((CLUTCH.factor(1e-9)[0] - 1.2).abs() < 1e-9);
         assert_eq!(CLUTCH.factor(1e6), [LEAST, 0.0]);

@@ -1,42 +1,44 @@
-//! Parameters of dry friction by slip speed, temperature and p·v, which several effects have.
+//! Parameters by which dry friction depends on slip speed, temperature and p·v. Several effects use them.
 //!
-//! Over temperature the values are those at the reference times a factor: linear between three points, constant beyond them.
+//! A factor describes the dependence on temperature, relative to the friction at the reference temperature. It is
+//! linear between three temperatures and constant beyond them.
 
 use crate::problem::Problem;
 
 spec! {
-    /// How dry friction slides, and how it changes with temperature.
+    /// Dependence of dry friction on slip speed, temperature and p·v.
     pub struct SlipSpec {
-        /// Stribeck speed, at which the static excess has fallen to 1/e [m/s]; 0 = friction jumps from static to kinetic.
+        /// Stribeck speed, at which the static excess has fallen to 1/e [m/s]; 0 = friction jumps from static to
+        /// kinetic.
         pub stribeck_speed: f64 = 0.0,
         /// Change of the kinetic friction per speed, over its value at standstill [s/m].
         pub slip_slope: f64 = 0.0,
         /// Temperature of the cold point [K].
         pub cold: f64 = 253.15,
-        /// Friction there over that at the reference.
+        /// Friction at the cold point over friction at the reference.
         pub cold_factor: f64 = 1.0,
         /// Temperature at which friction has its given values [K].
         pub reference: f64 = 353.15,
         /// Temperature of the hot point [K].
         pub hot: f64 = 473.15,
-        /// Friction there over that at the reference.
+        /// Friction at the hot point over friction at the reference.
         pub hot_factor: f64 = 1.0,
-        /// Limit of pressure × speed [W/m²]; 0 = none.
+        /// Limit of pressure × speed [W/m²]; 0 for no limit.
         pub pv_limit: f64 = 0.0,
-        /// Friction beyond that limit over that below it.
+        /// Friction beyond `pv_limit` over friction below it.
         pub beyond_limit: f64 = 1.0,
     }
 }
 
 impl SlipSpec {
-    /// Whether friction changes with temperature.
-    pub fn feels_temperature(&self) -> bool {
+    /// True if friction changes with temperature.
+    pub fn varies_with_temperature(&self) -> bool {
         self.cold_factor != 1.0 || self.hot_factor != 1.0
     }
 
-    /// Friction at `temperature` [K] over that at the reference.
+    /// Friction at `temperature` [K] over friction at the reference.
     pub fn factor_at(&self, temperature: f64) -> f64 {
-        if !self.feels_temperature() {
+        if !self.varies_with_temperature() {
             return 1.0;
         }
         let (end, factor) =
@@ -44,31 +46,32 @@ impl SlipSpec {
         1.0 + (factor - 1.0) * ((temperature - self.reference) / (end - self.reference)).min(1.0)
     }
 
-    /// What is wrong with the order of its temperatures, where they act; `names` of the cold, reference and hot one.
+    /// Problem if the temperatures do not increase and friction depends on them. The argument contains the variable
+    /// names of the cold, reference and hot temperatures.
     pub fn problem(&self, [cold, reference, hot]: [&'static str; 3]) -> Option<Problem> {
-        if !self.feels_temperature() {
+        if !self.varies_with_temperature() {
             return None;
         }
         if self.cold >= self.reference {
             let (this, other) = (self.cold, self.reference);
             return Some(problem!(
                 cold,
-                "{this} K is not below {reference} = {other} K; points of friction over \
-                                        temperature stand in order"
+                "{this} K is not below {reference} = {other} K; the cold, reference and hot \
+                 temperatures of friction must increase"
             ));
         }
         let (this, other) = (self.hot, self.reference);
         (this <= other).then(|| {
             problem!(
                 hot,
-                "{this} K is not above {reference} = {other} K; points of friction over temperature stand in \
-                           order"
+                "{this} K is not above {reference} = {other} K; the cold, reference and hot temperatures of \
+                 friction must increase"
             )
         })
     }
 }
 
-/// Rows of the friction by slip speed and temperature of an effect: its name, and its field.
+/// Rows of the dry-friction parameters of an effect, from its name and its field of type [`SlipSpec`].
 macro_rules! slip_rows {
     ($effect:literal, $field:ident) => {{
         use $crate::declaration::{row, units};
@@ -124,7 +127,7 @@ macro_rules! slip_rows {
     }};
 }
 
-/// Adds what is wrong with the temperatures of an effect's friction.
+/// Adds the problem of an effect's friction temperatures, if there is one.
 macro_rules! check_slip {
     ($effect:literal, $sliding:expr, $found:expr) => {
         $found.extend($sliding.problem([

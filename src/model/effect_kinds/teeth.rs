@@ -1,20 +1,21 @@
-//! What effects do to single teeth: gaps of their pairs, loads that differ over the face, friction along the flanks.
+//! Influence of effects on single teeth: gaps of their pairs, loads that differ over the face, friction along the
+//! flanks.
 
 use std::sync::Arc;
 
 use crate::contact::{FlankGaps, ToothFriction};
 
-/// What effects do to single teeth.
+/// Influence of effects on single teeth.
 #[derive(Clone, Debug, Default)]
 pub struct ToothEffects {
-    /// Gaps of tooth pairs, while intact and once a tooth is broken.
+    /// Gaps of tooth pairs: with intact teeth, and after a tooth has broken.
     pub gaps: [Option<Arc<FlankGaps>>; 2],
-    /// Whether planets differ, so that none may stand for another.
+    /// True if planets differ, so each of them must be simulated.
     pub individual: bool,
-    /// Whether loads differ over the face.
+    /// True if loads differ over the face.
     pub sliced: bool,
-    /// Whether the bodies of the gears are elastic.
-    pub on_bodies: bool,
+    /// True if the gear bodies are elastic.
+    pub elastic_bodies: bool,
 }
 
 /// Friction along the flanks.

@@ -1,7 +1,9 @@
-//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two on the side gears.
+//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two terms on the side
+//! gears.
 //!
-//! In their plainest form: load-independent bearing torque, viscous drag, and churning with the square of the speed. With `viscosity_from_oil` b grows with the dynamic viscosity of the oil over that at a
-//! reference temperature.
+//! The terms are a load-independent bearing torque, viscous drag, and churning with the square of the speed. With
+//! `viscosity_from_oil`, b is proportional to the dynamic viscosity of the oil and has its given value at a reference
+//! temperature.
 //!
 //! Two carrier bearings under the load F and a lip seal on each side gear's shaft add to T₀:
 //!
@@ -11,13 +13,13 @@
 //! side gears  k d            k = 3.737 N for fluorocarbon rubber, 2.429 N for nitrile rubber (ISO/TR 14179-1:2001)
 //! ```
 //!
-//! With `churning_from_geometry` c is that of a smooth disc, its rim and both sides, by ISO/TR 14179-1:2001:
+//! With `churning_from_geometry`, c is the value of a smooth disc with its rim and both sides, by ISO/TR 14179-1:2001:
 //!
 //! ```text
 //! P = f_g ν n³ D^4.7 (7.37 L + 1.474 D) / (A_g 10²⁶)     P [kW], ν [mm²/s], n [1/min], D and L [mm], A_g = 0.2
 //! ```
 //!
-//! with the dip factor f_g = immersed depth / D: 0 where the disc runs dry, 1 where it is submerged.
+//! with the dip factor f_g = immersed depth / D: 0 if the disc runs dry, 1 if it is submerged.
 
 use crate::declaration::units::{self, DEG_C, DEG_PER_S, MM, RPM};
 use crate::declaration::{Parameter, Row, row};
@@ -49,17 +51,17 @@ spec! {
         pub side_torque: f64 = 0.0,
         /// Viscous drag on each side gear [N·m·s/rad].
         pub side_viscous: f64 = 0.0,
-        /// Speed ω₀: bearing torque has built up to tanh 1 = 76 % there [rad/s].
+        /// Speed ω₀ at which the bearing torque has built up to tanh 1 = 76 % [rad/s].
         pub breakaway_speed: f64 = 0.1,
-        /// Whether viscous drag follows the viscosity of `oil` at its temperature.
+        /// True if viscous drag follows the viscosity of `oil` at its temperature.
         pub viscosity_from_oil: bool = false,
-        /// Temperature at which viscous drag is as given [K].
+        /// Temperature at which viscous drag has its given value [K].
         pub reference_temperature: f64 = 353.15,
-        /// Churning from the carrier's size and the oil; otherwise as given.
+        /// True if churning follows from the carrier's size and the oil; otherwise it is given.
         pub churning_from_geometry: bool = false,
         /// Outside diameter of crown wheel and case D [m].
         pub carrier_diameter: f64 = 0.2,
-        /// Their width L [m].
+        /// Width of crown wheel and case L [m].
         pub carrier_width: f64 = 0.05,
         /// Immersed depth over the diameter, f_g.
         pub oil_level: f64 = 0.3,
@@ -157,7 +159,7 @@ impl Declare for BearingDragSpec {
 }
 
 impl BearingDragSpec {
-    /// Whether the carrier churns oil by its size.
+    /// True if churning follows from the carrier's size.
     fn churns_by_size(&self) -> bool {
         self.churning_from_geometry && self.oil_level > 0.0
     }
@@ -166,7 +168,7 @@ impl BearingDragSpec {
     fn churning_per_viscosity(&self) -> f64 {
         let [diameter, width] = [self.carrier_diameter, self.carrier_width].map(|length| MM.show(length));
         let power = libm::pow(diameter, EXPONENT) * (RIM * width + SIDES * diameter) / (ARRANGEMENT * 1e26);
-        // 1 m²/s is 10⁶ mm²/s, 1 kW is 10³ W, and n goes into P = c ω³ with its third power
+        // 1 m²/s is 10⁶ mm²/s, 1 kW is 10³ W, and n enters P = c ω³ with its third power
         1e9 * RPM.factor * RPM.factor * RPM.factor * self.oil_level * power
     }
 }
@@ -180,7 +182,8 @@ impl Effect for BearingDragSpec {
         }
         vec![Problem::new(
             "effects.bearing_drag",
-            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or switch the effect off",
+            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
+             switch the effect off",
         )]
     }
 
@@ -197,16 +200,16 @@ impl Effect for BearingDragSpec {
 #[derive(Clone, Copy, Debug)]
 struct Drag {
     on: [Resistance; 2],
-    /// Speed ω₀: the constant part is at tanh 1 = 76 % there [rad/s].
+    /// Speed ω₀ at which the constant torque has reached tanh 1 = 76 % [rad/s].
     breakaway_speed: f64,
     /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
     churning_per_viscosity: f64,
-    /// Viscosity of the oil at which viscous drag is as given, where it follows the oil [Pa·s].
+    /// Viscosity of the oil at which viscous drag has its given value [Pa·s], if viscous drag depends on the oil.
     reference: Option<f64>,
     heat_index: usize,
 }
 
-/// What resists the rotation of the carrier, or of a side gear.
+/// Resistance to the rotation of the carrier or of a side gear.
 #[derive(Clone, Copy, Debug)]
 struct Resistance {
     /// Torque of bearings and seals [N·m].
@@ -241,7 +244,7 @@ impl Drag {
         }
     }
 
-    /// What resists in this `oil`: apart, as most scenes have none.
+    /// Resistance at the viscosity of `oil`. It is `#[cold]`, because in most scenes nothing depends on the oil.
     #[cold]
     fn in_oil(&self, oil: Viscosity, is_carrier: bool) -> Resistance {
         let mut on = self.on[usize::from(!is_carrier)];
@@ -254,7 +257,8 @@ impl Drag {
         on
     }
 
-    /// Torque against the rotation of carrier or side gear at the speed `v` [rad/s], and its slope by the speed.
+    /// Torque against the rotation of carrier or side gear at the speed `v` [rad/s], and the derivative with respect to
+    /// the speed.
     #[inline]
     fn drag(&self, oil: Option<Viscosity>, is_carrier: bool, v: f64) -> (f64, f64) {
         let warmed;
@@ -350,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_those_of_the_torques() {
+    fn slopes_match_the_torques() {
         let spec = BearingDragSpec {
             churning_from_geometry: true,
             viscosity_from_oil: true,

@@ -1,5 +1,5 @@
-//! Elastic bodies of the gears under their teeth (`contact::bodies`, `contact::shared`): side gears on their splines, planets on
-//! their pins, by the bores `geometry.side_bore` and `geometry.planet_bore`.
+//! Elastic gear bodies under the teeth (`contact::bodies`, `contact::shared`). Side gears are held by splines in the
+//! bore `geometry.side_bore`, and planets by pins in the bore `geometry.planet_bore`.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use crate::model::scene::GearContact;
 use crate::numeric::sin;
 use crate::problem::Problem;
 
-/// It has no parameters of its own: geometry and material say all.
+/// Parameters of the effect: none, because geometry and material determine it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyComplianceSpec {}
 
@@ -26,29 +26,31 @@ impl Declare for BodyComplianceSpec {
     }
 }
 
-/// A bore that takes torque and is narrower than this part of the root circle at the toe decides how far the gear gives way.
+/// Ratio of bore to root circle at the toe below which a bore that transmits torque dominates the compliance of the
+/// gear.
 const NARROW: f64 = 0.5;
 
-/// Names of the bores, gears and what holds them.
+/// Names of the bores, of the gears, and of the parts that hold them.
 const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
 
-/// What is assumed of the bore of gear `i`, where it is none, or a side gear's so narrow that it decides the deflection: pins take no
-/// torque.
+/// Warning about the assumption for gear `i` if it has no bore, or if the bore of a side gear is so narrow that it
+/// dominates the compliance. A narrow bore of a planet does not, because pins transmit no torque.
 fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     let [name, gear, holder] = BORES[i];
     let bore = [setting.geometry.planet_bore, setting.geometry.side_bore][i];
     let toe = 2.0 * setting.pair.inner_cone * sin(setting.pair.gears[i].root);
     let text = if bore == 0.0 {
         format!(
-            "0 mm: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two modules below \
-             the roots; that is about as stiff as on the widest bore, {:.3} mm; give the diameter of the {holder} if it has one",
+            "0 mm: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two \
+             modules below the roots; that is about as stiff as on the widest bore, {:.3} mm; give the diameter of \
+             the {holder} if it has one",
             Support::widest(setting.pair, i) * 1e3
         )
     } else if i == 1 && bore < NARROW * toe {
         format!(
-            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: all torque of the {gear} goes through a {holder} as \
-             thin as that, and the gear turns on it with 1/diameter^2; if the gear is in one piece with its {holder}, or the bore \
-             is a mere hole in it, set 0",
+            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: all torque of the {gear} passes \
+             through a {holder} of this diameter, and its elastic rotation grows with 1/diameter^2; if the gear and \
+             its {holder} are one piece, or the bore is only a hole, set 0",
             bore * 1e3,
             toe * 1e3
         )
@@ -76,7 +78,7 @@ impl Effect for BodyComplianceSpec {
     }
 
     fn on_teeth(&self, _: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
-        teeth.on_bodies = true;
+        teeth.elastic_bodies = true;
         Ok(())
     }
 }

@@ -67,7 +67,8 @@ impl Effect for HalfShaftSpec {
     }
 
     fn requests(&self, setting: &Setting) -> Requests {
-        // an end without inertia passes its load on at once: the shaft has a static twist, and the end is no degree of freedom
+        // an end without inertia passes its load on without delay, so the shaft has a static twist and its end has no
+        // degree of freedom
         let end = [setting.inertia.left_end, setting.inertia.right_end];
         Requests { shafts: end.map(|inertia| setting.on && inertia > 0.0), ..Requests::default() }
     }
@@ -84,7 +85,7 @@ impl Effect for HalfShaftSpec {
             if at.plan.shafts[s] {
                 out[s] = at.motion.q[at.motion.layout.end(s)];
             } else if at.on && self.stiffness[s] > 0.0 {
-                // the end is no degree of freedom: the twist is static
+                // the end has no degree of freedom, so the twist is static
                 out[s] = at.shaft_torque[s] / self.stiffness[s];
             }
         }
@@ -109,7 +110,7 @@ pub struct HalfShafts {
 }
 
 impl HalfShafts {
-    /// Half-shafts of `plan`. Stiffness and damping are 0 on a side whose end is no degree of freedom.
+    /// Half-shafts of `plan`. Stiffness and damping are 0 on a side whose end has no degree of freedom.
     pub fn new(spec: &HalfShaftSpec, plan: &Plan) -> Self {
         let of = |values: [f64; 2]| [0, 1].map(|s| if plan.shafts[s] { values[s] } else { 0.0 });
         Self { stiffness: of(spec.stiffness), damping: of(spec.damping) }

@@ -1,6 +1,6 @@
-//! Clutch packs between side gears and carrier: T_max = preload + κ |T_s| with the torque T_s of the meshes on the side
-//! gear (ramps and thrust press the plates in proportion to it), times what slip speed makes of it
-//! (`effect_kinds::slip_law`): a friction that falls with speed judders.
+//! Clutch packs between side gears and carrier: T_max = preload + κ |T_s|. T_s is the torque of the meshes on the side
+//! gear; ramps and thrust press the plates in proportion to it. A factor for the slip speed multiplies T_max
+//! (`effect_kinds::slip_law`). Friction that falls with speed causes judder.
 //!
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
@@ -32,7 +32,7 @@ spec! {
         pub friction_area: f64 = 0.05,
         /// Coefficient of friction of the plates.
         pub plate_coefficient: f64 = 0.1,
-        /// How they slide.
+        /// Sliding of the plates.
         pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
@@ -102,7 +102,7 @@ impl Effect for LimitedSlipSpec {
         found.push(problem!(
             "limited_slip.torque_coefficient",
             "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
-             it must be 0 (preload alone), or choose lumped or tooth",
+             it must be 0 (preload only), or choose lumped or tooth",
             self.torque_coefficient
         ));
     }
@@ -112,15 +112,15 @@ impl Effect for LimitedSlipSpec {
         let problem = || {
             Problem::new(
                 "effects.limited_slip",
-                "the clutches have no torque: set limited_slip.preload, limited_slip.torque_coefficient or both, or switch the \
-                 effect off",
+                "the clutches have no torque: set limited_slip.preload, limited_slip.torque_coefficient or both, or \
+                 switch the effect off",
             )
         };
         if has_torque { Vec::new() } else { vec![problem()] }
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
-        // a torque μ N r presses with N/A = T/(μ A r)
+        // a friction torque T = μ N r needs the pressure N/A = T/(μ A r)
         let per_torque = 1.0 / (self.plate_coefficient * self.friction_area);
         let pressed = Pressed { constant: self.preload, per_load: self.torque_coefficient, ..Pressed::NONE };
         let side = SideFriction {

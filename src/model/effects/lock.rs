@@ -1,11 +1,11 @@
-//! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
+//! Lock between both side gears and the carrier: a clutch that is pressed from outside, with T_max = command × torque.
 
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::{Parameter, Row, row, units};
 use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};
 
 spec! {
-    /// A lock between side gears and carrier, by command.
+    /// Lock between side gears and carrier, controlled by a command.
     pub struct LockSpec {
         /// Torque that each side holds at full command [N·m].
         pub torque: f64 = 5e3,
@@ -29,7 +29,7 @@ impl Declare for LockSpec {
     }
 
     fn inputs() -> Vec<Row<InputField>> {
-        // a build without effects accepts no command for it
+        // a build without effects accepts no command for the lock
         let most = if BUILT { 1.0 } else { 0.0 };
         let row = row("lock.command", "Command of the differential lock: 0 open, 1 locked");
         vec![row.command(units::ONE, most, |i| &mut i.lock)]

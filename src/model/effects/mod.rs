@@ -1,5 +1,5 @@
-//! The effects, one file and one line in the list each. From the list follow parameters, switches, rows, heat, readings
-//! and the terms that act in a scene. `effect_kinds` defines what an effect may declare and do;
+//! Effects, each with one file and one line in the list. Parameters, switches, rows, heat, readings and the terms that
+//! act in a scene follow from this list. `effect_kinds` defines what an effect may declare and do;
 //! `docs/inside/architecture.md` shows how to add one.
 
 mod bearing_drag;
@@ -25,24 +25,24 @@ use crate::declaration::{Parameter, Row, row};
 use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Reading};
 
-/// An effect as the rest of the program sees it.
+/// Entry of an effect in the list [`EFFECTS`].
 #[derive(Clone, Copy, Debug)]
 pub struct EffectEntry {
     /// Name, as in `effects.NAME` and `NAME.parameter`.
     pub name: &'static str,
-    /// What it is.
+    /// Description in the interface.
     pub description: &'static str,
-    /// Name of its switch; `None` where an input commands it.
+    /// Name of its switch; `None` if an input commands the effect.
     pub switch: Option<&'static str>,
-    /// Representations of tooth contact it needs; `None` works with all.
+    /// Representations of tooth contact that the effect needs. With `None` it works with all of them.
     pub needs: Option<Needs>,
-    /// Whether it may act although its switch is off.
+    /// True if the effect may act although its switch is off.
     pub may_act_unswitched: bool,
     /// Its heat.
     pub heat: Option<Heat>,
-    /// Its own outputs.
+    /// Its outputs in addition to heat.
     pub readings: &'static [Reading],
-    /// Values that make it visible in an example.
+    /// Values that make the effect visible in an example.
     pub example: &'static [(&'static str, f64)],
 }
 
@@ -61,7 +61,8 @@ impl EffectEntry {
     }
 }
 
-/// Rows of an effect's parameters as parts of all parameters, each with the switch without which it does nothing.
+/// Rows of an effect's parameters within the parameters of all effects. Each row names the switch without which it has
+/// no influence.
 fn within<E: Declare + 'static>(
     switch: Option<&'static str>,
     group: fn(&mut EffectParameters) -> &mut E,
@@ -119,7 +120,7 @@ macro_rules! effects {
             $(EffectEntry::new::<$commanded>(stringify!($command), None),)+
         ];
 
-        /// Each effect, whether it is on, and its parameters.
+        /// Returns each effect with the state of its switch and its parameters.
         pub fn configured<'a>(
             effects: &Effects,
             parameters: &'a EffectParameters,

@@ -1,8 +1,8 @@
-//! Pins that bend and a case that gives way, in series with the teeth.
+//! Elastic pins and an elastic case, in series with the teeth.
 //!
-//! A planet turns about the carrier's axis by β beyond its carrier: T = k_p r² (β + τ β̇), r = R_m cosδ_p the distance of
-//! its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w + τ ẇ). Linear springs
-//! with damping proportional to stiffness.
+//! A planet leads its carrier by the angle β about the carrier's axis: T = k_p r² (β + τ β̇), where r = R_m cosδ_p is
+//! the distance of its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w +
+//! τ ẇ). The springs are linear, with damping proportional to stiffness.
 
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, row};
@@ -15,7 +15,7 @@ use crate::numeric::cos;
 use crate::problem::Problem;
 
 spec! {
-    /// What gives way in series with the teeth.
+    /// Compliance of pins and case, in series with the teeth.
     pub struct PinComplianceSpec {
         /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
         pub pin_stiffness: f64 = 5e8,

@@ -1,15 +1,15 @@
-//! Thrust washers and pins: what gives an open differential its torque bias.
+//! Friction of thrust washers and pins, which gives an open differential its torque bias.
 //!
-//! Dry friction T = μ F r on each surface, with the thrust of all meshes on the side gear, both meshes' thrust on the
-//! planet and the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer
-//! 2011, section 10.2 on locking values). A planet's washer also bears its centrifugal force m r ω², with mass and centre
-//! of mass of its solid. Slip speed changes μ as `effect_kinds::slip_law` tells.
+//! Dry friction T = μ F r acts on each surface. F is the thrust of all meshes on the side gear, the thrust of both
+//! meshes on the planet, or the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd
+//! ed., Springer 2011, section 10.2 on locking values). A planet's washer also bears its centrifugal force m r ω², with
+//! mass and centre of mass of its solid. Slip speed changes μ as described in `effect_kinds::slip_law`.
 //!
-//! The radii are given, or follow from the gears (`radii_from_geometry`). A pin fills its bore; without a bore it has
-//! four fifths of the radius of the root circle at the toe, where a gear is thinnest. A washer spans the back face of its
-//! gear, from pin or shaft to the root circle at the heel, and acts at the mean of both radii: that of uniform wear, p r =
-//! constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). Of the study's gears the rule gives 8.0,
-//! 13.5 and 22.8 mm, where the start values are 8, 14 and 22 mm.
+//! The radii are given, or follow from the gears (`radii_from_geometry`). A pin fills its bore. Without a bore, its
+//! radius is four fifths of the radius of the root circle at the toe, where a gear is thinnest. A washer spans the back
+//! face of its gear, from pin or shaft to the root circle at the heel. It acts at the mean of both radii, as with
+//! uniform wear, p r = constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). For the study's
+//! gears, this rule gives 8.0, 13.5 and 22.8 mm; the start values are 8, 14 and 22 mm.
 
 use crate::declaration::units::{self, CM2, MM};
 use crate::declaration::{Parameter, Row, row};
@@ -23,11 +23,11 @@ use crate::model::thermal::WASHERS;
 use crate::numeric::sin;
 use crate::problem::{Problem, told_apart};
 
-/// Radius of a pin or shaft over that of the root circle at the toe, where the gear has no bore.
+/// Radius of a pin or shaft over the radius of the root circle at the toe, for gears without a bore.
 const PIN_IN_ROOT: f64 = 0.8;
-/// A pin this much narrower than its bore, relative to it, does not belong to it: clearances are a tenth of that.
+/// Relative difference up to which a pin may be narrower than its bore. Clearances are a tenth of this.
 const CLEARANCE: f64 = 0.05;
-/// Radii that differ by less, relative to them, are equal.
+/// Relative difference below which radii are equal.
 const ROUNDING: f64 = 1e-9;
 /// Millimetres per metre.
 const PER_MM: f64 = 1e3;
@@ -39,7 +39,7 @@ spec! {
         pub coefficient: f64 = 0.05,
         /// Coefficient of the pins μ_p.
         pub pin_coefficient: f64 = 0.05,
-        /// Radii from the gears; otherwise as given below.
+        /// True if the radii follow from the gears; otherwise the values below apply.
         pub radii_from_geometry: bool = false,
         /// Radius of the pins [m], if not from the gears.
         pub pin_radius: f64 = 8e-3,
@@ -53,11 +53,12 @@ spec! {
         pub side_washer_area: f64 = 2e-3,
         /// Projected area of a planet's bore on its pin, diameter × length [m²].
         pub pin_area: f64 = 3e-4,
-        /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
+        /// Stiffness of a side gear's washer until it slips [N·m/rad]. The stiffness of the planets follows with the
+        /// square of the gear ratio.
         pub stiffness: f64 = 1e5,
         /// Breakaway torque of a stuck surface over its sliding torque.
         pub static_ratio: f64 = 1.0,
-        /// How surfaces slide.
+        /// Sliding of the surfaces.
         pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
@@ -146,7 +147,7 @@ fn toe_root(pair: &Pair, i: usize) -> f64 {
     pair.inner_cone * sin(pair.gears[i].root)
 }
 
-/// Radius of the back face of gear `i` [m]: that of the root circle at the heel.
+/// Radius of the back face of gear `i`, which ends at the root circle at the heel [m].
 fn back_face(pair: &Pair, i: usize) -> f64 {
     pair.outer_cone * sin(pair.gears[i].root)
 }
@@ -162,7 +163,7 @@ impl ThrustFrictionSpec {
     /// Warning about a pin that does not fit the planet.
     fn misfit_of_pin(&self, setting: &Setting) -> Option<Problem> {
         let (pin, bore) = (self.pin_radius, 0.5 * setting.geometry.planet_bore);
-        // a radius of 0 takes the friction of a surface out
+        // a radius of 0 switches the friction of a surface off
         if pin == 0.0 {
             return None;
         }
@@ -187,21 +188,21 @@ impl ThrustFrictionSpec {
         } else if radius >= face {
             Some(misfitting(names[i], radius, &format!("is not less than the {gear}'s back face,"), face))
         } else if radius <= 0.5 * bore {
-            Some(misfitting(names[i], radius, &format!("lies within the {gear}'s bore of radius"), 0.5 * bore))
+            Some(misfitting(names[i], radius, &format!("is within the {gear}'s bore of radius"), 0.5 * bore))
         } else {
             None
         }
     }
 }
 
-/// Warning about a radius that does not fit another [m], and `what` is wrong with it.
+/// Warning about a radius [m] that does not fit another one; `what` describes the misfit.
 fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Problem {
     let [radius, other] = told_apart([radius * PER_MM, other * PER_MM], 3);
     problem!(name, "{radius} mm {what} {other} mm; {HINT}")
 }
 
-/// What to do about radii that do not fit.
-const HINT: &str = "set it to the gears, or thrust_friction.radii_from_geometry = true";
+/// Advice for radii that do not fit.
+const HINT: &str = "fit it to the gears, or set thrust_friction.radii_from_geometry = true";
 
 impl Effect for ThrustFrictionSpec {
     fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
@@ -287,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pin_fills_its_bore_and_washers_lie_around_the_bores() {
+    fn a_pin_fills_its_bore_and_washers_surround_the_bores() {
         let mut p = scaled(1.0);
         p.specs.thrust_friction.radii_from_geometry = true;
         (p.geometry.planet_bore, p.geometry.side_bore) = (14e-3, 30e-3);

@@ -94,7 +94,7 @@ impl Effect for ToothErrorSpec {
             ("tooth_errors.side_tip_relief", self.side_tip_relief != 0.0),
         ];
         let what =
-            "solid teeth take crowning and misalignment alone: it must be 0, or choose scene.gear_contact = tooth";
+            "solid teeth support only crowning and misalignment: it must be 0, or choose scene.gear_contact = tooth";
         found.extend(unsupported.into_iter().filter(|&(_, given)| given).map(|(name, _)| Problem::new(name, what)));
     }
 
@@ -104,7 +104,7 @@ impl Effect for ToothErrorSpec {
         }
         vec![Problem::new(
             "tooth_errors.accuracy_grade",
-            "the gears lie outside the ranges for which ISO 17485 gives its tolerances \
+            "the gears are outside the ranges for which ISO 17485 gives its tolerances \
              (mean module 1 to 50 mm, tolerance diameter 5 to 2500 mm, 5 to 400 teeth)",
         )]
     }

@@ -1,4 +1,4 @@
-//! A tooth that loses a piece while running, at a time or by `fault.trigger` (`contact::errors::Chip`).
+//! Tooth that loses a piece during a run, at a given time or by `fault.trigger` (`contact::errors::Chip`).
 
 use std::sync::Arc;
 
@@ -63,8 +63,8 @@ impl Effect for ToothFaultSpec {
         if !law.is_of_teeth() && self.missing_fraction <= 0.5 {
             found.push(problem!(
                 "tooth_fault.missing_fraction",
-                "{}: contact.law = {} acts at the middle of the face alone and sees only a piece of more than \
-                 0.5 of it; choose line or line_weber, or a larger piece",
+                "{}: contact.law = {} acts only at the middle of the face, which a piece of at most 0.5 of the face \
+                 does not reach; choose line or line_weber, or a larger piece",
                 self.missing_fraction,
                 law.literal()
             ));

@@ -1,4 +1,4 @@
-//! Friction along the flanks (`friction`), in the meshes slice by slice.
+//! Friction along the flanks (`friction`), evaluated slice by slice in the meshes.
 
 use crate::contact::tooth_friction;
 use crate::declaration::units::{self, MILLI_PA_S, UM};

@@ -1,8 +1,8 @@
-//! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the heat of
-//! the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
+//! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the
+//! heat of the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
 //!
-//! Frictions whose values depend on temperature (`effect_kinds::slip_spec`) feel that of their node. Without this effect all
-//! nodes have the temperature `oil.temperature`.
+//! Friction that depends on temperature (`effect_kinds::slip_spec`) uses the temperature of its node. Without this
+//! effect, all nodes have the temperature `oil.temperature`.
 
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units::{self, DEG_C};
@@ -17,7 +17,8 @@ spec! {
     pub struct WarmUpSpec {
         /// Temperature around the case [K].
         pub ambient: f64 = 293.15,
-        /// Whether the oil keeps the temperature `oil.temperature`, as from a cooler or by the host.
+        /// True if the oil has the given temperature `oil.temperature`, as with a cooler. The host may change it by an
+        /// input.
         pub sump_given: bool = false,
         /// Heat capacity of the oil [J/K].
         pub oil_capacity: f64 = 1800.0,
@@ -31,7 +32,7 @@ spec! {
         pub case_capacity: f64 = 6000.0,
         /// Conductance from the gears to the oil [W/K].
         pub gears_to_oil: f64 = 20.0,
-        /// Its growth per carrier speed [W·s/(K·rad)].
+        /// Growth of `gears_to_oil` per carrier speed [W·s/(K·rad)].
         pub gears_to_oil_per_speed: f64 = 0.2,
         /// Conductance from the clutch packs to the oil [W/K].
         pub clutch_to_oil: f64 = 10.0,
@@ -41,17 +42,17 @@ spec! {
         pub oil_to_case: f64 = 30.0,
         /// Conductance from the case to ambient [W/K].
         pub case_to_ambient: f64 = 10.0,
-        /// Its growth per carrier speed [W·s/(K·rad)].
+        /// Growth of `case_to_ambient` per carrier speed [W·s/(K·rad)].
         pub case_to_ambient_per_speed: f64 = 0.1,
-        /// Share of the heat of teeth, washers and clutches that goes into the oil at once.
+        /// Share of the heat of teeth, washers and clutches that enters the oil directly.
         pub oil_share: f64 = 0.0,
-        /// What the gears are above the oil at the start [K].
+        /// Temperature of the gears minus that of the oil at the start [K].
         pub gears_above_oil: f64 = 0.0,
-        /// What the clutch packs are above the oil at the start [K].
+        /// Temperature of the clutch packs minus that of the oil at the start [K].
         pub clutch_above_oil: f64 = 0.0,
-        /// What washers and pins are above the oil at the start [K].
+        /// Temperature of washers and pins minus that of the oil at the start [K].
         pub washers_above_oil: f64 = 0.0,
-        /// What the case is above the oil at the start [K].
+        /// Temperature of the case minus that of the oil at the start [K].
         pub case_above_oil: f64 = 0.0,
         /// Length of the cycle whose mean heats balance at a start with steady heat [s].
         pub cycle: f64 = 1.0,
@@ -168,11 +169,11 @@ impl Declare for WarmUpSpec {
     }
 }
 
-/// Inputs of the temperatures outside.
+/// Input that changes the ambient temperature.
 pub const AMBIENT_CHANGE: &str = "warm_up.ambient_change";
-/// See [`AMBIENT_CHANGE`].
+/// Input that changes the temperature of a given sump.
 pub const SUMP_CHANGE: &str = "warm_up.sump_change";
-/// Largest change of either [K].
+/// Largest change of both temperatures [K].
 const MOST_CHANGE: f64 = 500.0;
 
 impl Effect for WarmUpSpec {
@@ -183,8 +184,8 @@ impl Effect for WarmUpSpec {
             if !(coldest..=hottest).contains(&temperature) {
                 found.push(problem!(
                     name,
-                    "{above} K: with oil.temperature = {} K this node would begin at {temperature} K; it must be within {coldest} \
-                     to {hottest} K",
+                    "{above} K: with oil.temperature = {} K this node would begin at {temperature} K; it must be \
+                     within {coldest} to {hottest} K",
                     setting.oil.temperature
                 ));
             }
@@ -193,7 +194,7 @@ impl Effect for WarmUpSpec {
 }
 
 impl WarmUpSpec {
-    /// What nodes are above the oil at the start [K], in their order, by name.
+    /// Names and values of the temperatures above the oil at the start [K], in the order of the nodes.
     fn above_oil(&self) -> [(&'static str, f64); NODES - 1] {
         [
             ("warm_up.gears_above_oil", self.gears_above_oil),
@@ -212,7 +213,7 @@ impl WarmUpSpec {
         temperatures
     }
 
-    /// Where the heat `output` of the ledger enters: shares of the nodes.
+    /// Shares of the nodes in the heat `output` of the ledger.
     fn shares(&self, output: &str) -> [f64; NODES] {
         let mut shares = [0.0; NODES];
         let node = match output {
@@ -229,7 +230,8 @@ impl WarmUpSpec {
         shares
     }
 
-    /// The network, with gears of `mass` [kg] and a sump at `oil` [K] where that is given, for the heats `outputs` of the ledger.
+    /// Network with gears of `mass` [kg], for the heats `outputs` of the ledger. A given sump has the temperature `oil`
+    /// [K].
     pub fn network<const H: usize>(&self, mass: f64, oil: f64, outputs: [&str; H]) -> Network<H> {
         let constant = |at_rest| Conductance { at_rest, per_speed: 0.0 };
         let gears = Conductance { at_rest: self.gears_to_oil, per_speed: self.gears_to_oil_per_speed };

@@ -1,13 +1,13 @@
 //! Brakes at the wheels: dry friction between wheel and ground that opposes rotation and holds a wheel at standstill.
 //!
-//! While the wheel slips T = ±T_brake; at standstill a spring holds it up to that torque, T = k (z + τ ω) with the rotation
-//! z since it stopped (`effect_kinds::dry_friction`). The wheel is the end of the half-shaft where that has one, the side
-//! gear with its rigid end otherwise. The damping of the spring is critical for the inertia J of the end alone,
-//! τ = 2 √(J/k), so that a wheel comes to rest without ringing; without an end it is that of all dry friction. Slip speed
-//! changes T_brake as `effect_kinds::slip_law` tells.
+//! While the wheel slips, T = ±T_brake. At standstill, a spring holds the wheel up to this torque, T = k (z + τ ω) with
+//! the rotation z since it stopped (`effect_kinds::dry_friction`). The wheel is the end of the half-shaft if it has
+//! one, and otherwise the side gear with its rigid end. The damping of the spring is critical for the inertia J of the
+//! end, τ = 2 √(J/k), so a wheel comes to rest without ringing. Without an inertia of the end, τ has the value of all
+//! dry friction. Slip speed changes T_brake as described in `effect_kinds::slip_law`.
 //!
-//! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
-//! of a locked mode, so that both wheels may be braked while speeds are imposed.
+//! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl
+//! instead of a locked mode. Both wheels may therefore be braked while speeds are imposed.
 
 use crate::declaration::units::{self, CM2, DEG_C, MM};
 use crate::declaration::{Parameter, Row, row};
@@ -24,7 +24,7 @@ spec! {
     pub struct WheelBrakeSpec {
         /// Stiffness of a brake at standstill [N·m/rad].
         pub stiffness: f64 = 1e5,
-        /// Breakaway torque at standstill over the torque that is commanded.
+        /// Breakaway torque at standstill over the commanded torque.
         pub static_ratio: f64 = 1.0,
         /// Mean radius of the linings [m].
         pub mean_radius: f64 = 0.12,
@@ -34,12 +34,12 @@ spec! {
         pub lining_coefficient: f64 = 0.4,
         /// Temperature of the linings [K].
         pub temperature: f64 = 353.15,
-        /// How they slide.
+        /// Sliding of the linings.
         pub sliding: SlipSpec = SlipSpec::default(),
     }
 }
 
-/// Far beyond any brake, near enough that no intermediate result overflows [N·m].
+/// Largest brake torque: far above that of any brake, but small enough that no intermediate result overflows [N·m].
 const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
@@ -120,7 +120,7 @@ impl Effect for WheelBrakeSpec {
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
             radius: self.mean_radius,
-            // a torque μ N r presses with N/A = T/(μ A r)
+            // a friction torque T = μ N r needs the pressure N/A = T/(μ A r)
             pressed: Pressed { per_load: 1.0 / (self.lining_coefficient * self.friction_area), ..Pressed::NONE },
         };
         let Self { static_ratio, sliding, .. } = *self;

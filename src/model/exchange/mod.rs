@@ -1,4 +1,8 @@
-//! Model exchange, in which a solver of the host integrates the states; and derivatives of what can be read.
+//! Model exchange, in which the host's solver integrates the states, and sensitivities:
+//!
+//! - `states`: continuous states and event indicators; `rates`: the equations of motion as functions of the states;
+//! - `steps`: completed steps and events;
+//! - `sensitivity`: directional derivatives of rates and outputs.
 
 mod rates;
 mod sensitivity;

@@ -4,7 +4,7 @@ use crate::integrate::{Point, SecondOrder};
 use crate::model::dynamics::with_equations;
 use crate::model::run::Simulation;
 
-/// The point of the first `n` of positions `q` and velocities `v`.
+/// Point with the first `n` of positions `q` and velocities `v`.
 fn first<const N: usize>(n: usize, q: &[f64], v: &[f64]) -> Point<N> {
     let mut point = Point::ZERO;
     point.q[..n].copy_from_slice(&q[..n]);
@@ -18,8 +18,8 @@ impl Simulation {
         self.model.ideal.plan.layout().count()
     }
 
-    /// The equations of motion, for other solvers: rates of positions and accelerations [rad/s,
-    /// rad/s², m/s²] at the first n of positions `q` and velocities `v`, under the present inputs.
+    /// Equations of motion, for other solvers: rates of positions and accelerations [rad/s, rad/s², m/s²] at the first
+    /// n of positions `q` and velocities `v`, under the present inputs.
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
@@ -30,8 +30,8 @@ impl Simulation {
         });
     }
 
-    /// Derivatives of the results of [`Self::rates`] by positions and velocities: 2n rows of 2n columns, row by row,
-    /// ordered (positions, velocities).
+    /// Derivatives of the results of [`Self::rates`] with respect to positions and velocities: 2n rows of 2n columns,
+    /// row by row, ordered (positions, velocities).
     pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
@@ -52,7 +52,7 @@ impl Simulation {
         });
     }
 
-    /// The same simulation at positions `q` and velocities `v`, for its outputs there; its ledger is unchanged.
+    /// Returns a copy at positions `q` and velocities `v`, for its outputs there. The ledger is unchanged.
     pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
         let mut moved = self.clone();
         let n = self.degrees_of_freedom();

@@ -1,8 +1,10 @@
-//! Sensitivity of the model: rates of the state by the exact Jacobian, and directional derivatives of what is read.
+//! Sensitivities of the model: derivatives of state rates by the exact Jacobian, and directional derivatives of
+//! outputs.
 //!
-//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds follow
-//! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
-//! with points 3e-5 of the natural magnitudes apart, teeth that just touch are still straight lines to 1e-7.
+//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds
+//! follow the direction themselves. Forces are evaluated at four points along it, for central differences of order 4.
+//! The points are 3e-5 of the natural magnitudes apart, so that even the forces of teeth that just touch are straight
+//! lines to within 1e-7.
 
 use super::states::STATES;
 use crate::integrate::SecondOrder;
@@ -21,25 +23,25 @@ use crate::model::setup::{HEATS, STEP_READINGS};
 use crate::model::thermal::network::Rates;
 use crate::model::thermal::{NODES, Network};
 
-/// Distance of neighbouring points along a direction, in natural magnitudes.
+/// Distance between neighbouring points along a direction, in natural magnitudes.
 const APART: f64 = 3e-5;
-/// Central differences of order 4: places of the points as multiples of their distance, and their weights.
+/// Central differences of order 4: positions of the points in multiples of their distance, and their weights.
 const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
 
-/// A change of everything that motion and forces depend on.
+/// Change of everything on which motion and forces depend.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction {
-    /// Of the positions.
+    /// Change of the positions.
     pub q: [f64; MAX_DOF],
-    /// Of the velocities.
+    /// Change of the velocities.
     pub v: [f64; MAX_DOF],
-    /// Of the inputs.
+    /// Change of the inputs.
     pub inputs: Inputs,
-    /// Of the rates of the inputs.
+    /// Change of the rates of the inputs.
     pub rates: Inputs,
-    /// Of the command that the carrier follows [rad/s].
+    /// Change of the command that the carrier follows [rad/s].
     pub carrier_command: f64,
-    /// Changes of the temperatures of the nodes [K], which change only with time.
+    /// Change of the temperatures of the nodes [K]. They change only with time.
     pub temperatures: [f64; NODES],
 }
 
@@ -54,7 +56,7 @@ impl Direction {
         temperatures: [0.0; NODES],
     };
 
-    /// Whether positions or velocities change.
+    /// True if positions or velocities change.
     fn moves(&self) -> bool {
         self.carrier_command != 0.0 || self.q.iter().chain(&self.v).any(|change| *change != 0.0)
     }
@@ -67,9 +69,9 @@ pub struct StencilReadings<T> {
 }
 
 impl<T> StencilReadings<T> {
-    /// Derivative of a value of the readings.
+    /// Derivative of the value `of` the readings.
     pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
-        // the slope of a constant is exactly 0
+        // differences from the first value, so that the slope of a constant is exactly 0
         let first = of(&self.read[0]);
         let sum: f64 = STENCIL.iter().zip(&self.read).map(|((_, weight), read)| weight * (of(read) - first)).sum();
         sum / self.apart
@@ -96,7 +98,7 @@ impl Simulation {
         slopes
     }
 
-    /// Derivatives of the accelerations by the inputs alone.
+    /// Derivatives of the accelerations along the inputs of `direction`.
     fn input_acceleration_slopes(&self, direction: &Direction) -> [f64; MAX_DOF] {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut input_acceleration_slopes = [0.0; MAX_DOF];
@@ -109,7 +111,7 @@ impl Simulation {
         input_acceleration_slopes
     }
 
-    /// The direction in which state and inputs change with time, without temperatures.
+    /// Direction in which state and inputs change with time, without temperatures.
     pub fn time_direction(&self) -> Direction {
         let mut direction = Direction::NONE;
         let Direction { q, v, .. } = &mut direction;
@@ -137,7 +139,7 @@ impl Simulation {
         Motion { mesh_frequency: sense * slopes.mesh_frequency, ..slopes }
     }
 
-    /// Forces along `direction`. Meshes do not change where nothing moves, so they are left out there.
+    /// Forces along `direction`. If nothing moves, the meshes do not change and are left out.
     pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
         if direction.moves() {
             self.along(direction, |displaced| displaced.forces_of_state(Extent::Parts))
@@ -166,7 +168,7 @@ impl Simulation {
         StencilReadings { read, apart }
     }
 
-    /// Rates of what moves continuously in the ledger: heat, temperatures, and heat stored and given off.
+    /// Rates of the continuous values of the ledger: heat, temperatures, and heat stored and given off.
     pub fn ledger_rates(&self) -> LedgerReadings {
         let (inputs, state) = (&self.inputs, &self.state);
         let heat = with_equations!(self.model, state, inputs, |equations| equations.evaluate(&state.point()).1.heat);
@@ -180,7 +182,7 @@ impl Simulation {
         LedgerReadings { heat, readings, ..LedgerReadings::default() }
     }
 
-    /// Rates of temperatures while `heat` arises [W].
+    /// Rates of the temperatures under the heat flows `heat` [W].
     fn thermal_rates(&self, network: &Network<HEATS>, heat: &[f64; HEATS]) -> Rates {
         let changes = self.inputs.changes_outside();
         let around = network.around.changed(changes);
@@ -189,7 +191,7 @@ impl Simulation {
         network.rates(&self.state.thermal, heat, self.state.v[CARRIER].abs(), (around, sump))
     }
 
-    /// Sets all of `displaced` that follows `direction`.
+    /// Moves `displaced` to the point at `factor` times `direction`.
     fn displace(&self, displaced: &mut Self, direction: &Direction, factor: f64) {
         let (from, state) = (&self.state, &mut displaced.state);
         for i in 0..MAX_DOF {
@@ -208,7 +210,7 @@ impl Simulation {
         }
     }
 
-    /// The largest change in `direction`, in natural magnitudes.
+    /// Largest change in `direction`, in natural magnitudes.
     fn natural_size(&self, direction: &Direction) -> f64 {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
@@ -223,7 +225,7 @@ impl Simulation {
         largest
     }
 
-    /// The direction in which states and inputs change by `states` and `inputs`; imposed motions follow their commands.
+    /// Direction in which states and inputs change by `states` and `inputs`. Imposed motions follow their commands.
     pub fn direction(&self, states: &[f64; STATES], inputs: &Inputs) -> Direction {
         let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
         self.set_from_states(states, &mut direction.q, &mut direction.v);
@@ -244,7 +246,7 @@ impl Simulation {
         direction
     }
 
-    /// Derivative of the speed of an imposed carrier where its angle changes by `angle` and its command by `command`.
+    /// Derivative of the speed of an imposed carrier if its angle changes by `angle` and its command by `command`.
     fn carrier_speed_slope(&self, angle: f64, command: f64) -> f64 {
         let at = |place: f64| {
             let mut state = self.state;

@@ -1,5 +1,5 @@
-//! What a solver of the host reads: continuous states, which are the same in every scene, one pair for each body; their rates; and
-//! event indicators. The host sees positions unwrapped.
+//! Values for the host's solver: continuous states, their rates, and event indicators. The states are the same in every
+//! scene: position and velocity of each body. Positions are unwrapped.
 
 use crate::model::assembly::Gears;
 use crate::model::dynamics::with_equations;
@@ -7,10 +7,10 @@ use crate::model::dynamics::{Acted, Largest};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
 
-/// A body with a position and a velocity among the states.
+/// Body whose position and velocity are states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
-    /// Side gear; its angle is counted from the carrier.
+    /// Side gear; its angle is relative to the carrier.
     Side(usize),
     /// Carrier.
     Carrier,
@@ -18,13 +18,13 @@ pub enum Body {
     Seat(usize),
     /// Planet on its pin.
     Planet(usize),
-    /// Pin; its angle is counted from the carrier, its speed is not.
+    /// Pin; its angle is relative to the carrier, but its speed is absolute.
     Pin(usize),
-    /// Attached body, such as the wheel-side end of a half-shaft; its position is the twist, its speed its own.
+    /// Attached body, such as the wheel-side end of a half-shaft; its position is the twist, but its speed is absolute.
     Attached(usize),
 }
 
-/// The bodies, in the order of the states.
+/// Bodies in the order of the states.
 pub const BODIES: [Body; MAX_DOF] = {
     use Body::*;
     let mut all = [Carrier; MAX_DOF];
@@ -47,15 +47,16 @@ pub const BODIES: [Body; MAX_DOF] = {
     all
 };
 
-/// States: positions of all bodies, then their velocities.
+/// Number of states: positions of all bodies, then their velocities.
 pub const STATES: usize = 2 * MAX_DOF;
-/// Event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets and wheels.
+/// Number of event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets
+/// and wheels.
 pub const INDICATORS: usize = 4 * MAX_PLANETS + FRICTION_PLANETS + MAX_PLANETS + 2;
-/// Indicator of an event that cannot come.
+/// Indicator of an event that cannot occur.
 const NEVER: f64 = 1.0;
 
 impl Body {
-    /// Its degree of freedom in a scene; none where it does not move independently.
+    /// Degree of freedom of the body in a scene, or `None` if it does not move independently.
     fn freedom(self, plan: &Plan) -> Option<usize> {
         let layout = plan.layout();
         match self {
@@ -70,14 +71,14 @@ impl Body {
 }
 
 impl Simulation {
-    /// All states; 0 of bodies that do not move independently.
+    /// All states; 0 for bodies that do not move independently.
     pub fn states(&self) -> [f64; STATES] {
         let present = self.with_inputs_applied();
         let state = &present.as_ref().unwrap_or(self).state;
         self.states_of(|i| state.position(i, &self.model.periods), &state.v)
     }
 
-    /// Their rates.
+    /// Rates of all states.
     pub fn state_rates(&self) -> [f64; STATES] {
         let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
         let present = self.with_inputs_applied();
@@ -86,7 +87,7 @@ impl Simulation {
         self.states_of(|i| dq[i], &dv)
     }
 
-    /// States of positions and velocities by degree of freedom.
+    /// States from positions and velocities by degree of freedom.
     pub fn states_of(&self, position: impl Fn(usize) -> f64, v: &[f64; MAX_DOF]) -> [f64; STATES] {
         let mut states = [0.0; STATES];
         for (k, body) in BODIES.iter().enumerate() {
@@ -97,7 +98,8 @@ impl Simulation {
         states
     }
 
-    /// Sets positions and velocities by degree of freedom from states. Where planets move as one, the first of them counts.
+    /// Sets positions and velocities by degree of freedom from states. If planets move as one group, the first of them
+    /// counts.
     pub(super) fn set_from_states(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
         let plan = &self.model.ideal.plan;
         for (k, body) in BODIES.iter().enumerate().rev() {
@@ -107,8 +109,8 @@ impl Simulation {
         }
     }
 
-    /// Event indicators: approach of flanks [m], positive where they press; distance of dry friction from its
-    /// switch [N·m while stuck, rad/s while sliding].
+    /// Event indicators: approach of flanks [m], positive if they press on each other; distance of dry friction from
+    /// its switch [N·m while stuck, rad/s while sliding].
     pub fn indicators(&self) -> [f64; INDICATORS] {
         let mut indicators = [NEVER; INDICATORS];
         let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);

@@ -1,7 +1,7 @@
-//! Steps and events of model exchange, in which a solver of the host integrates the states.
+//! Steps and events of model exchange, in which the host's solver integrates the states.
 //!
-//! Motions that are imposed follow their commands at once; their states have no effect. Trial steps of the host's solver leave no
-//! trace: ledger, friction and teeth record completed steps, and change at events.
+//! Imposed motions follow their commands immediately; their states have no effect. Trial steps of the host's solver
+//! leave no trace: only completed steps are recorded, and friction and teeth switch only at events.
 
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
@@ -16,19 +16,20 @@ use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
 /// Result of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Update {
-    /// Whether states have changed.
+    /// True if states have changed.
     pub states_changed: bool,
-    /// Time of the next event that is known already [s].
+    /// Time of the next event, if it is already known [s].
     pub next: Option<f64>,
 }
 
 impl Simulation {
-    /// From now on the host's solver integrates the states.
+    /// Starts model exchange: from now on, the host's solver integrates the states.
     pub fn start_model_exchange(&mut self) {
         self.accept(self.inputs);
     }
 
-    /// Records the present state as accepted; free speeds have followed the jumps of imposed ones up to `followed`.
+    /// Records the present state as the end of a completed step. Free speeds have responded to jumps of imposed speeds
+    /// up to the commands `followed`.
     fn accept(&mut self, followed: Inputs) {
         let State { q, v, .. } = self.state;
         self.accepted = Some(Accepted { time: self.state.time(), q, v, inputs: self.inputs, followed });
@@ -40,13 +41,13 @@ impl Simulation {
         self.state.follow_host(time);
     }
 
-    /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
+    /// Moves to `states`. Imposed motions follow their commands. A pending step is completed up to the present first.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
         complete(&self.model, (&mut self.state, &mut self.watched));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
-            // periods without end are never counted
+            // a period may be infinite, and its count is then 0
             let count = self.state.whole_periods[i];
             self.state.q[i] = if count == 0 { q[i] } else { q[i] - count as f64 * self.model.periods[i] };
         }
@@ -54,7 +55,7 @@ impl Simulation {
         self.follow_commands();
     }
 
-    /// Moves to `states`, which differ in positions only, at an event. The energy of this jump is work of the host.
+    /// Moves to `states` at an event, if they differ only in positions. The energy of this jump is work of the host.
     pub fn jump_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
         self.complete_step_to_event()?;
         let stored = |simulation: &Self, from: &Accepted| {
@@ -76,7 +77,7 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Records the step from the last completed one to here. Returns whether an event is due.
+    /// Records the step from the last completed step to the present. Returns true if an event is due.
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
@@ -93,7 +94,7 @@ impl Simulation {
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
                 let (_, first) = equations.under(&from.inputs, &InputDerivatives::ZERO).evaluate(&start);
                 let (_, last) = equations.evaluate(&end);
-                // the motion in between is the host's: for stiff teeth no curve through both ends describes it
+                // the motion in between is unknown: for stiff teeth, no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
                 let State { work, heat, thermal, torque_means, .. } = state;
@@ -107,7 +108,7 @@ impl Simulation {
                 }
                 let mut anchors = equations.acting().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);
-                equations.acting_mut().anchor(&anchors);
+                equations.acting_mut().set_anchors(&anchors);
                 is_due = equations.is_friction_due(&end, 0.0);
                 state.friction = equations.acting().friction_state;
                 outcome
@@ -130,12 +131,12 @@ impl Simulation {
         self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
     }
 
-    /// Time of the next event that is known already [s].
+    /// Time of the next event, if it is already known [s].
     pub fn next_event(&self) -> Option<f64> {
         next_change(&self.model, &self.state)
     }
 
-    /// Completes the step up to an event: events whose time is known come without a step that is completed.
+    /// Completes the step up to an event. The host does not complete a step before an event whose time is known.
     fn complete_step_to_event(&mut self) -> Result<(), StepFailure> {
         if self.accepted.is_some_and(|from| from.time < self.state.time()) {
             self.complete_step()?;
@@ -143,7 +144,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// An event: commands, friction and teeth change to what is due.
+    /// Handles an event: applies the changes of commands, friction and teeth that are due.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         self.complete_step_to_event()?;
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);

@@ -1,4 +1,5 @@
-//! Forces, torques and powers at an instant, and the ratios that follow from them: what outputs read, computed when asked for.
+//! Forces, torques and powers at an instant, and the ratios that follow from them. They are computed when outputs
+//! request them.
 
 use super::pv::each_pv;
 use crate::contact::ToothLoad;
@@ -16,27 +17,27 @@ use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
 use crate::numeric::{sin, sqrt};
 
-/// How much of the forces is computed.
+/// Extent to which forces are computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Extent {
     /// Torques, accelerations and powers of the bodies; meshes stay zero.
     Bodies,
-    /// The meshes' normal forces as well.
+    /// Normal forces of the meshes in addition.
     Loads,
-    /// Their parts in space as well, which cost as much as all others.
+    /// Spatial components of the normal forces in addition, which cost as much as all other forces.
     Parts,
 }
 
-/// Forces, torques and accelerations: one evaluation of the tooth forces.
+/// Forces, torques and accelerations from one evaluation of the tooth forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces {
     /// Carrier acceleration [rad/s²].
     pub carrier_acceleration: f64,
     /// Side gear accelerations [rad/s²].
     pub side_acceleration: [f64; 2],
-    /// Torque the drive delivers to the carrier [N·m].
+    /// Torque that the drive delivers to the carrier [N·m].
     pub carrier_torque: f64,
-    /// Torque the half-shafts deliver to the wheels [N·m].
+    /// Torque that the half-shafts deliver to the wheels [N·m].
     pub shaft_torque: [f64; 2],
     /// Torque of all meshes on a side gear, referred to its outer pitch circle [N].
     pub side_tangential: [f64; 2],
@@ -44,9 +45,9 @@ pub struct Forces {
     pub side_normal: [f64; 2],
     /// Thrust of all meshes on a side gear, away from the apex [N].
     pub side_thrust: [f64; 2],
-    /// Torque that imposes the spin, all planets together [N·m].
+    /// Torque that imposes the spin, summed over all planets [N·m].
     pub spin_torque: f64,
-    /// Meshes, by planet and side.
+    /// Forces of the meshes, by planet and side.
     pub mesh: [[MeshForces; 2]; MAX_PLANETS],
     /// Resultant of a planet's mesh forces across its pin [N].
     pub pin_force: [f64; MAX_PLANETS],
@@ -56,31 +57,31 @@ pub struct Forces {
     pub power_in: f64,
     /// Power delivered to the wheels [W].
     pub power_out: f64,
-    /// Sum of the powers of those ports that feed: carrier, left wheel, right wheel and spin drive [W].
+    /// Sum of the powers of all ports that feed power in: carrier, left wheel, right wheel and spin drive [W].
     pub power_fed: f64,
     /// Power turned into heat within the differential [W].
     pub power_loss: f64,
-    /// Signed torque bias ratio T_slow/T_fast, slow and fast in the sense of the torques, over the last whole mesh cycle
-    /// where shafts twist; 1 below 1e-3 N·m in sum.
+    /// Signed torque bias ratio T_slow/T_fast, with slow and fast in the sense of the torques. If shafts twist, it is
+    /// the ratio of means over the last whole mesh cycle. It is 1 if the sum of the torques is below 1e-3 N·m.
     pub torque_bias_ratio: f64,
-    /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 below 1e-3 N·m in
-    /// sum.
+    /// Locking value |ΔT|/|T_L + T_R|. If shafts twist, it follows from means over the last whole mesh cycle. It is 0
+    /// if the sum of the torques is below 1e-3 N·m.
     pub locking_value: f64,
     /// Readings of the effects that change at any instant.
     pub readings: [f64; INSTANT_READINGS],
-    /// Whether thrusts, tangential and pin forces are in it: the parts of normal forces in space.
+    /// True if the spatial components of normal forces are included: thrusts, tangential and pin forces.
     pub has_parts: bool,
 }
 
-/// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 where the sum of the torques is below
-/// [`LEAST_TORQUE`]. The sum's sign decides which side is fast. If the sum vanishes, only rounding would decide, and its result
-/// would depend on the level of gear contact.
+/// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 if the sum of the torques is below
+/// [`LEAST_TORQUE`]. The sign of the sum decides which side is fast. For a sum near 0, rounding would decide, and the
+/// result would depend on the representation of gear contact.
 ///
-/// The fast side is the one ahead in the sense in which the torques act, (ω_L − ω_R)(T_L + T_R) > 0 for the left one,
-/// forward or backward, in drive or overrun, and whether or not the carrier turns. Friction turns the power
-/// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat, so that it always takes torque from that side: a bias by friction is 1 or more.
-/// Where both turn alike, as far as dry friction tells speeds apart, the side that carries less is the fast one: it would
-/// be ahead if it slipped.
+/// The fast side is ahead in the sense of the torques: the left side is fast if (ω_L − ω_R)(T_L + T_R) > 0. This is
+/// valid forward and backward, in drive and overrun, and with the carrier turning or at rest. Friction turns the power
+/// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat. It therefore always takes torque from the fast side, and a bias by friction
+/// is at least 1. If both sides have the same speed within the tolerance of dry friction, the side with less torque is
+/// the fast one, because it would be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
     // a torque that is NaN has no bias
@@ -95,26 +96,26 @@ pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     (ratio, ((torque[0] - torque[1]).abs() / sum.abs()).min(MOST_BIAS))
 }
 
-/// Difference of speeds up to which sides turn alike [rad/s].
+/// Difference of speeds up to which both sides turn equally fast [rad/s].
 const ALIKE: f64 = SPEED_TOLERANCE;
-/// Sum of the shaft torques below which there is no bias [N·m].
+/// Sum of the shaft torques below which no bias is computed [N·m].
 const LEAST_TORQUE: f64 = 1e-3;
 /// Largest magnitude of the torque bias ratio and of the locking value.
 const MOST_BIAS: f64 = 1e6;
 
-/// Share of the power fed in that is not lost, not below 0; 1 if nothing is fed. Bodies and teeth that store energy and give it
-/// back cause no loss.
+/// Fraction of the power fed in that is not lost, at least 0; 1 if no power is fed in. Energy that bodies and teeth
+/// store and return is not lost.
 pub fn efficiency(forces: &Forces) -> f64 {
     let fed = forces.power_fed;
     if fed > 0.0 { (1.0 - forces.power_loss / fed).max(0.0) } else { 1.0 }
 }
 
-/// One mesh (a planet with one side gear).
+/// Forces of one mesh (a planet with one side gear).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshForces {
     /// Sum of the normal forces of its tooth pairs [N].
     pub normal: f64,
-    /// Tooth pairs carrying load.
+    /// Number of loaded tooth pairs.
     pub pairs: f64,
     /// Thrust on the side gear, along its axis away from the apex [N].
     pub side_thrust: f64,
@@ -130,7 +131,7 @@ impl MeshForces {
     fn add(&mut self, load: &ToothLoad) {
         let [planet, side, forward] = load.parts;
         self.normal += load.normal;
-        // a slice counts by its share of the face, so that pairs stay whole numbers where loads do not differ over it
+        // a slice counts with its share of the face, so pairs are whole numbers if loads do not differ over the face
         self.pairs += if load.normal > 0.0 { load.share } else { 0.0 };
         self.side_thrust += load.normal * side;
         self.planet_thrust += load.normal * planet;
@@ -138,7 +139,7 @@ impl MeshForces {
     }
 }
 
-/// Sums over meshes and sides that all levels share, from `out.mesh` of all planets.
+/// Computes the sums over meshes and sides from `out.mesh` of all planets, for all representations of gear contact.
 fn add_up(out: &mut Forces, planets: usize) {
     for i in 0..planets {
         let mesh = out.mesh[i];
@@ -154,7 +155,8 @@ fn add_up(out: &mut Forces, planets: usize) {
     }
 }
 
-/// Powers from torques and speeds; heat is given. `ends` are the speeds at which torques are handed to the wheels.
+/// Computes the powers from torques, speeds and the given `heat` [W]. `ends` are the speeds at which torques are
+/// delivered to the wheels [rad/s].
 fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
     let v = &state.v;
     let drives = [out.carrier_torque * v[CARRIER], out.spin_torque * v[plan.layout().planet(0)]];
@@ -179,12 +181,13 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
-    // flanks without a flash, or with one that nobody computes, are as warm as their gears
+    // without a computed flash temperature, flanks are as warm as their gears
     let strength = &mut out.readings[const { places_of("strength", Changes::Always) }];
     strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
 }
 
-/// Raises the readings of p·v to the largest of each effect's surfaces. Apart, for small stacks.
+/// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
+/// frames small.
 #[inline(never)]
 fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Acted<N>, at: &Point<N>) {
     each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
@@ -199,7 +202,7 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
     heat.iter().zip(HEATS_WITHIN).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
 }
 
-/// Forces of the differential with teeth, as far as they are asked for.
+/// Forces of the differential with teeth, to the requested `extent`.
 pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, extent): (&State, Extent)) -> Forces {
     let has_parts = extent == Extent::Parts;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
@@ -245,14 +248,14 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
             }
             if let Some(strength) = model.strength() {
-                // damping is spread over the face in another way than the elastic load
+                // damping is distributed over the face differently from the elastic load
                 equations.loads_over_the_face(point, g, s, |load, line_load| {
                     if let Some(line_load) = line_load {
                         strength.add_pressure_at_ends(&mut stress[g][s], load, line_load);
                     }
                 });
                 if let Some(law) = equations.flank_friction() {
-                    // one slice stands for its pair, whose whole face is searched
+                    // one slice represents its pair, because the whole face is searched
                     let mut last = None;
                     equations.slices(point, g, s, |slice| {
                         if last.replace(slice.name) != Some(slice.name) {
@@ -277,14 +280,14 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     out
 }
 
-/// Accelerations and torques at an instant, of one evaluation.
+/// Accelerations and torques at an instant, from one evaluation.
 struct ForcesAtInstant {
     acceleration: [f64; LARGEST],
-    /// Torques of the meshes on the side gears, alone [N·m].
+    /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],
     /// Torque of the carrier's drive [N·m].
     carrier_torque: f64,
-    /// Torque of what imposes the spin, all planets together [N·m].
+    /// Torque that imposes the spin, summed over all planets [N·m].
     spin_torque: f64,
     ledger_rates: LedgerRates,
 }
@@ -308,7 +311,8 @@ impl Largest<'_> {
     }
 }
 
-/// Meshes of gears without teeth: a side gear's torque shared equally, acting at the pitch point.
+/// Computes the meshes of gears without teeth. The torque of a side gear is shared equally between its meshes and acts
+/// at the pitch points.
 fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f64; 2]) {
     let mut mesh = [MeshForces::default(); 2];
     for s in 0..2 {
@@ -328,7 +332,7 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
     add_up(out, planets);
 }
 
-/// Forces of gears without teeth from the accelerations of carrier and sides, and torques.
+/// Forces of gears without teeth, from torques and the accelerations of carrier and sides.
 fn without_teeth(
     model: &Model,
     (inputs, state): (&Inputs, &State),
@@ -383,7 +387,7 @@ mod tests {
 
     #[test]
     fn a_bias_by_friction_is_the_same_in_drive_and_overrun_forward_and_backward_and_from_side_to_side() {
-        // the wheels share 1000 N·m; friction takes 55 N·m from the one that is ahead and gives it to the other
+        // the wheels share 1000 N·m; friction moves 27.5 N·m from the wheel that is ahead to the other wheel
         for torque in [1000.0, -1000.0] {
             for carrier in [50.0, -50.0, 0.0] {
                 for spin in [2.5, -2.5] {
@@ -409,9 +413,9 @@ mod tests {
     }
 
     #[test]
-    fn sides_that_turn_alike_have_the_ratio_of_the_larger_to_the_smaller_torque() {
+    fn sides_of_equal_speed_have_the_ratio_of_the_larger_to_the_smaller_torque() {
         for torque in [[900.0, 100.0], [100.0, 900.0], [-900.0, -100.0], [-100.0, -900.0]] {
-            // a locked differential trembles
+            // the speeds of a locked differential differ by small vibrations
             for apart in [0.0, 1e-9, -1e-9] {
                 assert_eq!(bias(torque, [3.0 + apart, 3.0]), (9.0, 0.8));
             }
@@ -419,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn no_torque_is_no_bias_and_a_side_without_torque_has_the_largest() {
+    fn zero_torque_has_no_bias_and_a_side_without_torque_has_the_largest_bias() {
         assert_eq!(bias([0.0, 0.0], [1.0, 2.0]), (1.0, 0.0));
         for rounding in [1e-13, -1e-9, 9e-4] {
             assert_eq!(bias([-50.0, 50.0 + rounding], [22.0, 20.0]), (1.0, 0.0));

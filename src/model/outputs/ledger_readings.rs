@@ -1,4 +1,4 @@
-//! The ledger as it is read.
+//! Readings of the ledger.
 
 use crate::model::setup::{HEATS, STEP_READINGS};
 
@@ -9,7 +9,7 @@ pub struct LedgerReadings {
     pub heat: [f64; HEATS],
     /// Readings of the effects that change with accepted steps.
     pub readings: [f64; STEP_READINGS],
-    /// Side gears, groups of planets, and wheels that dry friction holds: their numbers.
+    /// Numbers of side gears, planet groups and wheels that dry friction holds.
     pub held: [f64; 3],
     /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
     pub energy_residual: f64,

@@ -1,5 +1,5 @@
-//! Loads of the tooth pairs of a planet at an instant, as they are read: of single pairs or slices, of the face at any cone distance, and
-//! of whole pairs with how evenly each is spread over its face.
+//! Loads of a planet's tooth pairs at an instant: for single pairs or slices, for any cone distance of the face, and
+//! for whole pairs with the distribution of each load over its face.
 
 use crate::contact::ToothLoad;
 use crate::contact::detailed::SliceLoad;
@@ -15,8 +15,8 @@ impl Largest<'_> {
         self.visit_loads(at, g, &Visit { sides: s..s + 1, directions: Some(pair) }, &mut |load, _| visit(load));
     }
 
-    /// Visits every loaded tooth pair without directions, with its load per width [N/m] at any cone distance [m] where this differs
-    /// over the face.
+    /// Visits every loaded tooth pair without directions. If loads differ over the face, `visit` also receives a
+    /// function that returns the load per width [N/m] at any cone distance [m].
     pub fn loads_over_the_face(
         &self,
         at: &Point<LARGEST>,
@@ -32,7 +32,7 @@ impl Largest<'_> {
         });
     }
 
-    /// Visits every loaded slice of the face where loads are summed over it, each pair's one after the other.
+    /// Visits every loaded slice if loads are summed over the face. The slices of a pair follow one another.
     pub fn slices(&self, at: &Point<LARGEST>, g: usize, s: usize, mut visit: impl FnMut(&SliceLoad)) {
         self.visit_loads(at, g, &Visit { sides: s..s + 1, directions: None }, &mut |_, slice| {
             if let Some(slice) = slice {
@@ -43,11 +43,11 @@ impl Largest<'_> {
 
     /// Visits every loaded tooth pair of group `g` as a whole, with its side.
     pub fn pair_loads(&self, pair: &Pair, at: &Point<LARGEST>, g: usize, mut visit: impl FnMut(usize, &PairLoad)) {
-        // slices of a pair come one after the other
+        // the slices of a pair follow one another
         let mut open: Option<(usize, [usize; 2], PairLoad)> = None;
         let mut close = |side: usize, load: &mut PairLoad| {
             if self.is_sliced() {
-                // the pressure where the load is the largest, be it between slices or at an end
+                // pressure at the position of the largest load, which may be between slices or at an end
                 let mean = load.moment / self.teeth.contact.detailed.moment_of_face();
                 load.steepest = load.steepest.max(load.face_factor * mean);
             }

@@ -1,4 +1,4 @@
-//! What can be read from a simulation: motion from the state, forces by one evaluation of the teeth, the ledger.
+//! Readings of a simulation: motion from the state, forces from one evaluation of the teeth, and the ledger.
 
 pub mod forces;
 pub mod ledger_readings;

@@ -2,20 +2,22 @@
 
 use crate::model::scene::MAX_PLANETS;
 
-/// Angles and speeds: read straight from the state.
+/// Angles and speeds, read directly from the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Carrier angle since the start [rad].
     pub carrier_angle: f64,
     /// Carrier speed [rad/s].
     pub carrier_speed: f64,
-    /// Side gear angles, left and right [rad]; 0 as assembled, teeth in mid-gap: lash and deflection are in it.
+    /// Side gear angles, left and right [rad]. They are 0 as assembled, with teeth in mid-gap, and include lash and
+    /// deflection.
     pub side_angle: [f64; 2],
     /// Side gear speeds, left and right [rad/s].
     pub side_speed: [f64; 2],
-    /// Angles of the wheels, left and right [rad]: of the end of a half-shaft that is a body of its own, of the side gear otherwise.
+    /// Angles of the wheels, left and right [rad]: of the half-shaft end if it is a separate body, and of the side gear
+    /// otherwise.
     pub wheel_angle: [f64; 2],
-    /// Their speeds [rad/s].
+    /// Speeds of the wheels, left and right [rad/s].
     pub wheel_speed: [f64; 2],
     /// Spin angles of the planets relative to the carrier since the start [rad].
     pub spin_angle: [f64; MAX_PLANETS],

@@ -1,13 +1,13 @@
-//! Loaded tooth pairs of a mesh at an instant: their place on the planet's flank, force and pressure.
+//! Loaded tooth pairs of a mesh at an instant: their position on the planet's flank, force and pressure.
 //!
-//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ = cosδ_b
-//! cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar angle of the
-//! corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
+//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ =
+//! cosδ_b cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar
+//! angle of the corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
 //!
-//! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair has an
-//! even w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or displacements
-//! that differ over the face, w follows from the law at the depth of each place. For solid teeth w is interpolated linearly
-//! between the loaded sections, and extrapolated to toe and heel down to zero.
+//! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair
+//! has a uniform w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or
+//! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth w is
+//! interpolated linearly between the loaded sections, and extrapolated to toe and heel down to zero.
 
 use crate::contact::shared::MOST_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};
@@ -16,11 +16,11 @@ use crate::integrate::Point;
 use crate::model::dynamics::{LARGEST, Largest};
 use crate::strength::LineContact;
 
-/// Number of pairs that are read. With a contact ratio below 3 no mesh has more pairs on its path.
+/// Number of pairs that are reported. With a contact ratio below 3, no mesh has more pairs on its path.
 const PAIRS: usize = 3;
-/// Largest number of sections of a pair of solid teeth.
+/// Maximum number of sections of a pair of solid teeth.
 const SECTIONS: usize = 8;
-/// A load with more than this share of the face stands for the whole face.
+/// Share of the face above which a load represents the whole face.
 const WHOLE: f64 = 1.0 - 1e-9;
 /// Tooth number that means no pair.
 const NONE: f64 = -1.0;
@@ -28,7 +28,7 @@ const NONE: f64 = -1.0;
 /// A loaded tooth pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairLine {
-    /// Number of the planet's tooth, from 0; -1 where there is no pair.
+    /// Number of the planet's tooth, from 0; -1 without a pair.
     pub tooth: f64,
     /// Normal force [N], negative on the coast flank.
     pub force: f64,
@@ -53,7 +53,7 @@ struct Gathered {
     flank: Flank,
     teeth: [usize; 2],
     force: f64,
-    /// Sums of force × height [N·m] and of force × place on the path [N·rad].
+    /// Sums of force × height [N·m] and of force × position on the path [N·rad].
     by_height: f64,
     by_place: f64,
     /// Cone distance [m] and line load [N/m] of the sections.
@@ -89,7 +89,8 @@ impl Gathered {
         }
     }
 
-    /// Line load at cone distance `cone` [N/m]. `grows`: the load of a whole face grows with the cone distance.
+    /// Line load at cone distance `cone` [N/m]. `grows` is true if the load of a whole face grows with the cone
+    /// distance.
     fn line_load(&self, contact: &LineContact, cone: f64, grows: bool) -> f64 {
         if self.is_whole {
             let [inner, outer] = contact.cone_range;
@@ -117,7 +118,7 @@ fn cones(contact: &LineContact) -> [f64; 3] {
     [inner, contact.mean_cone, outer]
 }
 
-/// Linear interpolation at `x` between `points` in the order of x, extrapolated beyond both ends; not negative.
+/// Linear interpolation at `x` between `points` in the order of x, extrapolated beyond both ends and at least 0.
 fn along(points: &[[f64; 2]], x: f64) -> f64 {
     let [first, .., last] = points else { return points.first().map_or(0.0, |point| point[1]) };
     if first[0] == last[0] {
@@ -141,8 +142,8 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
     pair.mean_cone * (polar - planet.pitch)
 }
 
-/// Loaded pairs of the mesh of planet group `g` with side gear `s`; `contact` calculates their pressure. No pairs where one
-/// spring replaces all teeth.
+/// Loaded pairs of the mesh of planet group `g` with side gear `s`; `contact` calculates their pressure. Returns no
+/// pairs if one spring replaces all teeth.
 pub fn pair_lines(
     (pair, contact): (&Pair, &LineContact),
     equations: &Largest,
@@ -186,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn loads_between_sections_lie_on_straight_lines_and_end_where_they_reach_zero() {
+    fn loads_between_sections_follow_straight_lines_and_end_at_zero() {
         let points = [[1.0, 4.0], [2.0, 2.0], [3.0, 1.0]];
         for (x, y) in [(0.5, 5.0), (1.5, 3.0), (2.0, 2.0), (2.5, 1.5), (3.5, 0.5), (4.5, 0.0)] {
             assert_eq!(along(&points, x), y);

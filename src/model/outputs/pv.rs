@@ -1,4 +1,4 @@
-//! Pressure times speed of all surfaces that rub, as readings and warnings have it.
+//! Pressure times speed of all rubbing surfaces, for readings and warnings.
 
 use crate::integrate::Point;
 use crate::model::dynamics::Acted;

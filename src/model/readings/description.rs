@@ -1,4 +1,4 @@
-//! What is simulated, and what a step of it costs.
+//! Description of a simulation, and the cost of its steps.
 
 use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
@@ -8,7 +8,7 @@ use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
 impl Simulation {
-    /// What is unusual about the gears.
+    /// Warnings about the scene.
     pub fn warnings(&self) -> &[Problem] {
         &self.model.warnings
     }
@@ -18,7 +18,7 @@ impl Simulation {
         &self.model.pair
     }
 
-    /// Masses of planet and side gear, always those of their solids [kg].
+    /// Masses of planet and side gear, always from their solids [kg].
     pub fn masses(&self) -> [f64; 2] {
         self.model.masses.map(|gear| gear.mass)
     }
@@ -28,12 +28,12 @@ impl Simulation {
         &self.model.ideal.inertia
     }
 
-    /// What is simulated.
+    /// Plan of the scene.
     pub fn plan(&self) -> &Plan {
         &self.model.ideal.plan
     }
 
-    /// What a step costs at present; a lock or a broken tooth may change it.
+    /// Present cost of a step; a lock or a broken tooth may change it.
     pub fn cost(&self) -> CostClass {
         match &self.model.gears {
             Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
@@ -54,7 +54,7 @@ impl Simulation {
         &self.model.parameters
     }
 
-    /// One line that says what is simulated.
+    /// Describes the simulation in one line.
     pub fn describe(&self) -> String {
         let effects: Vec<&str> = self.active_effects().collect();
         let effects = if effects.is_empty() { "none".into() } else { effects.join(", ") };
@@ -62,16 +62,16 @@ impl Simulation {
     }
 }
 
-/// What a step costs, by what has to be evaluated, cheapest first.
+/// Cost of a step by what must be evaluated, cheapest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CostClass {
-    /// No teeth and no effect on bodies: a step is a formula.
+    /// No teeth and no effect on bodies, so a step has a closed form.
     ClosedForm,
-    /// No teeth, but torques of effects: integrated, without fast motion.
+    /// No teeth, but torques of effects, which are integrated without fast motion.
     Ideal,
-    /// Teeth or springs that see no effect.
+    /// Teeth or springs without effects.
     Teeth,
-    /// The same with effects on bodies.
+    /// Teeth or springs with effects on bodies.
     TeethAndBodies,
     /// Teeth slice by slice: errors, friction, pins.
     TeethInDetail,

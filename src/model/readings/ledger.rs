@@ -11,7 +11,7 @@ use crate::model::setup::effect_outputs::places_of;
 use crate::model::thermal::NODES;
 
 impl Simulation {
-    /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
+    /// Kinetic and stored energy at the end of the last step in the ledger [J].
     pub(in crate::model) fn energy(&self, state: &State) -> f64 {
         let known = self.accepted.as_ref().map(|accepted| accepted.applied_to(state));
         energy(&self.model, &self.inputs, known.as_ref().unwrap_or(state))
@@ -36,7 +36,8 @@ impl Simulation {
         if let Some(network) = &self.model.thermal {
             thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }
-        // these follow the recorded events: completing the step may switch friction before its event is recorded
+        // held bodies follow the recorded events, because completing the step may switch friction before its event is
+        // recorded
         let held = |range: std::ops::Range<usize>| {
             let friction = self.state.friction[range].iter();
             friction.filter(|friction| friction.holds()).count() as f64
@@ -57,12 +58,12 @@ impl Simulation {
         }
     }
 
-    /// One line on the solver's steps and rejections, by cause.
+    /// Describes the solver's steps and rejections in one line, by cause.
     pub fn account(&self) -> String {
         let s = &self.state.statistics;
         format!(
-            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not finite, {} cut at a switch; \
-             {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not \
+             finite, {} cut at a switch; {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
             s.accepted,
             s.rejected_error,
             s.rejected_ledger,

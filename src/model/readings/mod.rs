@@ -1,4 +1,4 @@
-//! What can be read from a simulation under its present inputs, and what a simulation reports once.
+//! Readings of a simulation under its present inputs, and warnings that a simulation reports once.
 
 mod description;
 mod ledger;

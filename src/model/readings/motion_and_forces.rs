@@ -24,7 +24,7 @@ impl Simulation {
         let position = |i: usize| state.position(i, &model.periods);
         let v = &state.v;
         let side_angle = [position(CARRIER) + position(0), position(CARRIER) + position(1)];
-        // an end counts its angle back from the side gear: by its twist
+        // the angle of an end is the angle of the side gear minus the twist
         let by_end = |s: usize| plan.shafts[s].then(|| layout.end(s));
         let mut motion = Motion {
             carrier_angle: position(CARRIER),
@@ -50,7 +50,8 @@ impl Simulation {
         self.forces_with(Extent::Parts)
     }
 
-    /// The same for whoever does not read the parts of normal forces in space, which cost as much as all others.
+    /// Forces under the present inputs without the spatial components of normal forces, which cost as much as all other
+    /// forces.
     pub fn forces_without_parts(&mut self) -> &Forces {
         self.forces_with(Extent::Loads)
     }
@@ -93,7 +94,7 @@ impl Simulation {
         pair_lines((&model.pair, &contact), &equations, &state.point(), [first, 0])
     }
 
-    /// Visits the load of every tooth pair, of one planet of each group; none where there are no teeth.
+    /// Visits the load of every tooth pair, for one planet of each group. Without teeth, nothing is visited.
     pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return };
@@ -105,9 +106,9 @@ impl Simulation {
         }
     }
 
-    /// Visits the load of every tooth pair of planet 1 with the left side gear, slice by slice if loads differ over the face.
-    /// The function in the second argument then gives the load per width [N/m] of that pair at any cone distance [m]. The
-    /// parts of the normal are left at zero.
+    /// Visits the load of every tooth pair of planet 1 with the left side gear, slice by slice if loads differ over the
+    /// face. The second argument of `visit` is then a function that returns the pair's load per width [N/m] at any cone
+    /// distance [m]. The components of the normal are left at zero.
     pub fn loads_over_the_face(&self, visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>)) {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return };

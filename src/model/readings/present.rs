@@ -1,4 +1,4 @@
-//! The simulation as its outputs show it: under the present inputs, which the next step will apply.
+//! Simulation as its outputs show it: under the present inputs, which the next step will apply.
 
 use crate::model::dynamics::State;
 use crate::model::run::events::{has_brakes, with_brakes};
@@ -7,11 +7,12 @@ use crate::model::run::{Simulation, Watched, imposed};
 use crate::model::scene::Inputs;
 
 impl Simulation {
-    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
-    /// torques, where there are any. The step itself begins with the change, and records its work.
+    /// Returns the simulation with its inputs applied, or `None` if this changes nothing. Speeds follow commands that
+    /// were set since the last step, and brakes follow their torques. The step itself begins with this change and
+    /// records its work.
     pub fn with_inputs_applied(&self) -> Option<Self> {
         let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
-        // with a solver of the host friction changes at events
+        // with a solver of the host, friction changes only at events
         let may_brake = !self.is_model_exchange() && has_brakes(&self.model);
         if is_met && !may_brake {
             return None;
@@ -27,8 +28,9 @@ impl Simulation {
         Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
     }
 
-    /// The simulation with the brakes on that inputs put on if they change from 0 in the direction `change`; `None` if there are none.
-    /// The torque of these brakes is the least positive number. With a solver of the host, brakes are put on only at events.
+    /// Returns the simulation with the brakes applied whose inputs change from 0 in the direction `change`, or `None`
+    /// if there are none. The torque of these brakes is the smallest positive number. With a solver of the host, brakes
+    /// are applied only at events.
     pub fn with_brakes_put_on(&self, change: &Inputs) -> Option<Self> {
         let mut inputs = self.inputs;
         for (torque, change) in inputs.brake_torque.iter_mut().zip(change.brake_torque) {
@@ -43,8 +45,8 @@ impl Simulation {
         Some(Self { state, inputs, forces: None, ..self.clone() })
     }
 
-    /// The simulation as its outputs show it, if it differs: its inputs applied, and means over mesh cycles and temperatures up to the
-    /// present. Friction changes only with completed steps.
+    /// Returns the simulation as its outputs show it, or `None` if it does not differ: with its inputs applied, and
+    /// with temperatures and means over mesh cycles up to the present. Friction changes only with completed steps.
     pub fn shown(&self) -> Option<Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
@@ -56,7 +58,7 @@ impl Simulation {
         shown
     }
 
-    /// State and what is watched with the step ahead completed up to the present.
+    /// State and watched values with the pending step completed up to the present.
     pub(in crate::model) fn completed(&self) -> (State, Watched) {
         let (mut state, mut watched) = (self.state, self.watched);
         complete(&self.model, (&mut state, &mut watched));

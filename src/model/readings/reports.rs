@@ -1,5 +1,5 @@
-//! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength, a p·v
-//! above its limit.
+//! Warnings that a simulation reports once during a run: a law used outside its published range, a stress above the
+//! strength, a p·v above its limit.
 
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
@@ -13,23 +13,23 @@ use crate::model::run::{Simulation, effort, six_digits};
 use crate::model::scene::MAX_PLANETS;
 use crate::problem::{Problem, told_apart};
 
-/// Limits of p·v, by the effects whose surfaces they are.
+/// Effects and their limits of p·v.
 const PV_LIMITS: [(&str, &str); 3] = [
     ("thrust_friction", "thrust_friction.pv_limit"),
     ("limited_slip", "limited_slip.pv_limit"),
     ("wheel_brake", "wheel_brake.pv_limit"),
 ];
 
-/// Inputs that change temperatures outside, and what has these temperatures.
+/// Inputs that change outside temperatures, and the names of these temperatures in messages.
 const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "the sump")];
 
-/// Speed beyond which no differential turns [rad/s].
+/// Speed that no differential exceeds [rad/s].
 const HIGHEST_SPEED: f64 = 3e3;
-/// Spin speeds of the planets.
+/// Names of the planets' spin speeds.
 const SPINS: [&str; MAX_PLANETS] =
     ["planet[1].spin_speed", "planet[2].spin_speed", "planet[3].spin_speed", "planet[4].spin_speed"];
 
-/// What has been reported in a run.
+/// Warnings that have been reported in a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reported {
     friction_law: bool,
@@ -42,7 +42,7 @@ pub struct Reported {
 }
 
 impl Simulation {
-    /// Warnings about the time up to now that are not in `reported` yet; they are from now on.
+    /// Returns the warnings about the time up to now that are not in `reported` yet, and adds them to it.
     pub fn unreported(&self, reported: &mut Reported) -> Vec<Problem> {
         let mut found = Vec::new();
         if !reported.friction_law
@@ -83,14 +83,15 @@ impl Simulation {
                 *reported = true;
                 found.push(problem!(
                     variable,
-                    "with it {what} would be at {commanded:.2} K; it is kept at {kept:.2} K, the end of the range; reported once"
+                    "would set {what} to {commanded:.2} K; {what} is kept at {kept:.2} K, the end of the range; \
+                     reported once"
                 ));
             }
         }
         found
     }
 
-    /// The fastest body, if its speed is beyond that of any differential.
+    /// Warning about the fastest body if no differential reaches its speed.
     fn too_fast(&self) -> Option<Problem> {
         let layout = &self.model.layout;
         let turns = |i: &usize| !(layout.has_pins && [layout.seat(0), layout.seat(1)].contains(i));
@@ -106,7 +107,7 @@ impl Simulation {
             ("right.speed", motion.side_speed[1]),
             ("carrier.speed", motion.carrier_speed),
         ];
-        // of equal speeds the last is named
+        // if speeds are equal, the last one is named
         let all = spins.chain(wheels).chain(gears);
         let (variable, speed) = all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
         if speed.abs() <= HIGHEST_SPEED {
@@ -114,8 +115,8 @@ impl Simulation {
         }
         Some(problem!(
             variable,
-            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any differential turns: \
-             look at drives and loads; reported once",
+            "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any \
+             differential turns: look at drives and loads; reported once",
             six_digits(speed),
             six_digits(RPM.show(speed)),
             self.state.time(),
@@ -123,7 +124,7 @@ impl Simulation {
         ))
     }
 
-    /// Temperatures of ambient and sump that inputs ask for and that are beyond the range, and what they are kept at [K].
+    /// Commanded and applied temperatures of ambient and sump [K], if the command is outside the range.
     fn temperatures_outside(&self) -> [Option<[f64; 2]>; 2] {
         let Some(network) = &self.model.thermal else { return [None; 2] };
         let changes = self.inputs.changes_outside();
@@ -132,7 +133,8 @@ impl Simulation {
             .map(|(commanded, kept)| Some([commanded?, kept?]).filter(|[commanded, kept]| commanded != kept))
     }
 
-    /// The surface of `effect` that is the farthest above its limit of p·v, named `variable`, at this instant.
+    /// Warning about the surface of `effect` whose p·v exceeds its limit the most at this instant. `variable` is the
+    /// name of the limit.
     #[inline(never)]
     fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
@@ -170,8 +172,8 @@ impl Simulation {
         ))
     }
 
-    /// Where safety and damage include a start that was not in equilibrium: when they were the worst. The same once in a run, at
-    /// its end.
+    /// Returns a warning if safety and damage include a start that was not in equilibrium, with the times of the
+    /// smallest safety factors. It is reported once in a run, at its end.
     pub fn unreported_at_end(&self, reported: &mut Reported) -> Option<Problem> {
         if reported.start || self.model.strength().is_none() {
             return None;
@@ -184,9 +186,9 @@ impl Simulation {
         let [root, flank] = [utilisation.root, utilisation.flank].map(|of| (of.safety(), of.time));
         Some(problem!(
             "strength.rate_from",
-            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
-             t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; let them count from after the run-in, or take scene.start = \
-             equilibrium",
+            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the \
+             roots was {:.3} at t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; count them from after the \
+             run-in, or choose scene.start = equilibrium",
             root.0,
             root.1,
             flank.0,
@@ -194,7 +196,7 @@ impl Simulation {
         ))
     }
 
-    /// What lies outside the range of the friction law at this instant; Coulomb's law has none.
+    /// Warning about a quantity outside the range of the friction law at this instant. Coulomb's law has no such range.
     fn outside_friction_law(&self) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let p = &model.parameters;

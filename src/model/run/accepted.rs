@@ -1,4 +1,4 @@
-//! The end of the last step of the host's solver.
+//! End of the last step of the host's solver.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,14 +17,14 @@ pub struct Accepted {
     pub v: [f64; MAX_DOF],
     /// Inputs.
     pub inputs: Inputs,
-    /// Commands of imposed speeds up to which the free speeds have followed jumps.
+    /// Commands of the imposed speeds to whose jumps the free speeds have already responded.
     pub followed: Inputs,
 }
 
 finite!(Accepted { time, q, v, inputs, followed });
 
 impl Accepted {
-    /// `state` moved to the end of that step.
+    /// Returns `state` moved to the end of this step.
     pub fn applied_to(&self, state: &State) -> State {
         state.elsewhere(self.time, self.q, self.v)
     }

@@ -1,22 +1,25 @@
-//! Changes of torques without a new beginning.
+//! Changes of torques without a restart of the integration.
 //!
-//! Torques add to the accelerations, so where nothing else changes, one evaluation ends the step before the change and begins the next
-//! one. The step ahead is completed up to the change, with the torques that acted in it, and the integration goes on.
+//! Torques only add to the accelerations. If nothing else changes, one evaluation therefore serves as the end of the
+//! step before the change and as the start of the next step. The pending step is completed up to the change, with the
+//! torques that acted in it, and the integration continues.
 
 use super::timeline;
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
-/// Whether the step ahead can be completed by the next one, which `inputs` change: accelerations jump by so much [rad/s²].
+/// Returns the jump of the accelerations [rad/s²] if `inputs` change only torques within the pending step. Returns
+/// `None` if the integration must restart.
 pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64> {
     let pending_step = state.pending_step.as_ref().filter(|step| step.inputs != *inputs)?;
     let effects = model.body_effects();
-    let begins_anew = state.input_derivatives.is_some() || effects.may_rub_in(state) || effects.scale_carrier_inputs();
-    if begins_anew { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
+    let must_restart = state.input_derivatives.is_some() || effects.may_rub_in(state) || effects.scale_carrier_inputs();
+    if must_restart { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
 }
 
-/// Jump of the accelerations where inputs change from `before` to `inputs` [rad/s²]; `None` if more than torques change.
+/// Jump of the accelerations if inputs change from `before` to `inputs` [rad/s²], or `None` if more than torques
+/// change.
 fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
     let [before, inputs] = [before, inputs].map(|inputs| acting(model, inputs));
@@ -29,7 +32,7 @@ fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Opt
     Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
 }
 
-/// The inputs that act in the scene; all others are zero, so that a value that nothing feels changes no step.
+/// Inputs that act in the scene. All others are set to zero, so that a value without effect changes no step.
 fn acting(model: &Model, inputs: &Inputs) -> Inputs {
     let (plan, parameters) = (&model.ideal.plan, &model.parameters);
     let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
@@ -48,8 +51,9 @@ fn acting(model: &Model, inputs: &Inputs) -> Inputs {
     }
 }
 
-/// Takes a change at the present up; returns the present on the `clock` [s].
-pub fn take_up(state: &mut State, clock: &mut Clock) -> f64 {
+/// Starts a new interval of constant inputs at the present, after a change of torques. Returns the present on the
+/// `clock` [s].
+pub fn begin_interval(state: &mut State, clock: &mut Clock) -> f64 {
     state.pause = None;
     timeline::begin_holding(state);
     clock.expected = clock.now + timeline::expected(state);

@@ -1,26 +1,26 @@
-//! A step that is over, and the motion in it.
+//! Completed steps, and the motion within them.
 
 use crate::integrate::{Extension, Point, SecondOrder, Step};
 use crate::model::dynamics::LARGEST;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
-/// A completed step, the motion that it was while pending, and the part of it that was taken.
+/// A completed step, with the dense output of its pending step and the fraction of that step that was accepted.
 pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<(&'a Extension<N>, f64)>);
 
-/// The motion in a completed step, for equations of any size.
-pub struct Passed {
+/// Motion within a completed step, for equations of any size.
+pub struct StepMotion {
     /// Size of the step [s].
     pub h: f64,
-    /// Time at its begin [s].
+    /// Time at the start of the step [s].
     pub begin: f64,
-    /// The motion in it.
+    /// Dense output of the pending step. The completed step is its first part.
     pub extension: Extension<LARGEST>,
-    /// Part of the step that was taken.
+    /// Fraction of the pending step that was accepted.
     pub part: f64,
 }
 
-impl Passed {
-    /// The step `completed`, whose times count from `begin` [s].
+impl StepMotion {
+    /// Motion within a completed step whose times count from `begin` [s]. A step without dense output gets a [`cubic`].
     pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
         let without;
         let (Extension { start, end, coefficients }, part) = match motion {
@@ -37,7 +37,8 @@ impl Passed {
     }
 }
 
-/// A continuous extension of a step without one: positions by the cubic through both ends, velocities in proportion.
+/// Dense output for a step without one: positions follow the cubic through both ends, velocities are interpolated
+/// linearly.
 fn cubic<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, LedgerRates>) -> Extension<N> {
     let Step { h, start, end, .. } = *step;
     let [before, after] = [start, end].map(|at| equations.rates(&at.v));

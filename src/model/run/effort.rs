@@ -1,4 +1,4 @@
-//! Steps of a run by their cause: rattle, or, if too many are attempted, a criterion that keeps rejecting them.
+//! Causes of many steps: rattle, or a criterion that keeps rejecting steps.
 
 use super::hints;
 use crate::integrate::{Point, SecondOrder, Statistics};
@@ -13,11 +13,12 @@ use crate::model::scene::{
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
-/// Number of steps, and of impacts, below which nothing is said about rattle: a start, or a few reversals of the torque.
+/// Number of steps below which rattle is not reported. A start stays below it.
 const FEW_STEPS: u64 = 10_000;
+/// Number of impacts below which rattle is not reported. A start, or a few reversals of the torque, stay below it.
 const FEW_IMPACTS: u64 = 100;
 
-/// Returns the warning that most steps went into rattle, if they did: how many, and what ends the rattle.
+/// Returns a warning if most steps were spent on rattle, with their number and a remedy.
 pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
     let (Rattle { impacts, steps, .. }, all) = (state.rattle, state.statistics.accepted);
     if all < FEW_STEPS || impacts < FEW_IMPACTS || 2 * steps < all {
@@ -25,14 +26,14 @@ pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
     }
     Some(problem!(
         "solver.steps",
-        "{:.0} percent of the {all} steps so far went into rattle: flanks that nothing presses have touched again {impacts} times; {}; \
-         reported once",
+        "{:.0} percent of the {all} steps so far went into rattle: unloaded flanks have touched again {impacts} times; \
+         {}; reported once",
         100.0 * steps as f64 / all as f64,
         what_ends_rattle(&model.parameters)
     ))
 }
 
-/// Friction or drag that the scene lacks, or more of it.
+/// Remedy for rattle: friction or drag that the scene lacks, or more of it.
 fn what_ends_rattle(p: &Parameters) -> &'static str {
     let washers = p.scene.gear_contact != GearContact::Solid;
     let bearings = p.effects.bearing_drag && p.specs.bearing_drag.carrier_torque > 0.0;
@@ -51,8 +52,8 @@ fn what_ends_rattle(p: &Parameters) -> &'static str {
     }
 }
 
-/// Returns what kept the solver from advancing: the criterion that rejected most steps since the counts `before`, and the body
-/// whose motion changes fastest, with its effect.
+/// Returns the reason for too many steps: the criterion that rejected most steps since the counts `before`, and the
+/// body whose motion changes fastest, with the dry friction on it.
 pub fn too_many_steps(model: &Model, inputs: &Inputs, state: &State, before: &Statistics) -> String {
     let now = &state.statistics;
     let rejected = [
@@ -72,7 +73,7 @@ pub fn too_many_steps(model: &Model, inputs: &Inputs, state: &State, before: &St
     }
 }
 
-/// Body whose velocity changes fastest, in units of what the error norm resolves, with its motion and its friction.
+/// Body whose velocity changes fastest in the weights of the error norm, with its motion and its friction.
 fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
     with_equations!(model, state, inputs, |equations| {
         let at: Point<N> = state.point();
@@ -113,8 +114,8 @@ fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
 
 const SIDES: [&str; 2] = ["left", "right"];
 
-/// Dry friction on the body of degree of freedom `i`: which friction holds or brakes it. Empty if none acts. `freedom_of` gives the
-/// degree of freedom of each body that may stick.
+/// Names the dry friction that holds or brakes the body of degree of freedom `i`. Empty if none acts. `freedom_of`
+/// gives the degree of freedom of each body that may stick.
 fn friction_on(state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> String {
     (0..FRICTION_BODIES)
         .filter(|&k| state.friction[k].stiffness > 0.0 && freedom_of(k) == i)
@@ -130,7 +131,7 @@ fn friction_on(state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> 
         .collect()
 }
 
-/// Returns what makes steps fewer if too many were attempted.
+/// Remedy for too many attempted steps.
 pub fn fewer_steps(model: &Model, state: &State) -> String {
     let has_teeth = matches!(model.gears, Gears::Teeth(_));
     match rattle_warning(model, state) {
@@ -147,7 +148,7 @@ mod tests {
     use crate::model::assembly::Given;
     use crate::model::scene::{CarrierDrive, Start};
 
-    /// Wheels that brakes hold, shortly after the carrier began to press on them.
+    /// Wheels held by brakes, shortly after a torque on the carrier started to act on them.
     fn held() -> (Model, Inputs, State) {
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
         (parameters.scene.gear_contact, parameters.scene.start) = (GearContact::Ideal, Start::Rest);
@@ -180,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn rattle_is_reported_if_it_takes_most_of_many_steps() {
+    fn rattle_is_reported_if_most_of_many_steps_are_spent_on_it() {
         let (model, _, mut state) = held();
         (state.statistics.accepted, state.rattle.impacts, state.rattle.steps) = (20_000, 200, 15_000);
         let warning = rattle_warning(&model, &state).unwrap().to_string();

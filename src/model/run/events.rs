@@ -1,4 +1,4 @@
-//! What changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
+//! Changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
 
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
@@ -15,7 +15,7 @@ pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
     with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
 }
 
-/// Breaks the tooth when its time has come or when it is triggered; its stored energy becomes heat.
+/// Breaks the tooth if its time has come or the fault input triggers it. The energy stored in the tooth becomes heat.
 pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
@@ -25,7 +25,8 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// Applies what changes now: a tooth breaks, lock and brakes follow their commands, and friction starts and ends on bodies.
+/// Applies the changes that are due: a tooth breaks, lock and brakes follow their commands, and friction starts and
+/// ends on bodies.
 pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
@@ -37,13 +38,14 @@ pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     record_holds(&before, state);
 }
 
-/// Records as events which bodies friction begins or ceases to hold now, compared with the friction `before`.
+/// Records an event for each body that friction starts or stops holding, compared with the friction `before`.
 pub fn record_holds(before: &[FrictionState; FRICTION_BODIES], state: &mut State) {
     let (after, time) = (state.friction, state.time());
     state.events.record_friction([before, &after], time);
 }
 
-/// Lets friction start and end on bodies. Wheels held by more than the limit torque of their brakes begin to slide.
+/// Starts and ends friction on bodies. Wheels that are held by more than the limit torque of their brakes start to
+/// slide.
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
@@ -52,19 +54,19 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     });
 }
 
-/// Whether brakes were put on or released since friction was last switched.
+/// True if brakes were applied or released since friction last switched.
 pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
 
-/// Whether wheels have brakes.
+/// True if wheels have brakes.
 #[inline]
 pub fn has_brakes(model: &Model) -> bool {
     model.body_effects().has_brakes
 }
 
-/// `state` with the brakes that `inputs` command; `None` if no friction changes.
+/// Returns `state` with the brakes that `inputs` command, or `None` if no friction changes.
 pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
     let mut braked = *state;
     switch_friction(model, inputs, &mut braked);

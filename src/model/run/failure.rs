@@ -1,26 +1,26 @@
-//! Why a step could not be completed: a tooth that bends too far, which would leave its gap, among others.
+//! Errors of steps that could not be completed, for example because a tooth bends too far.
 
 use std::fmt;
 
 use super::hints;
 use crate::model::assembly::{Gears, Model};
 
-/// Why a step could not be completed; the simulation stands at the last good time.
+/// Error of a step that could not be completed. The simulation is at the last good time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepFailure {
     /// Last good time [s].
     pub time: f64,
-    /// What happened, where, and what may help.
+    /// Description of the error, its location and a remedy.
     pub message: String,
 }
 
 impl StepFailure {
-    /// A step that gave values which are not finite.
+    /// Error of a step with values that are not finite.
     pub fn not_finite(time: f64) -> Self {
         Self { time, message: "the step gave values that are not finite; look at the inputs".into() }
     }
 
-    /// A step whose motion has come to `reached` [s] where it was to come to `until` [s].
+    /// Error of a step that ended at `reached` [s] instead of `until` [s].
     pub fn not_reached(reached: f64, until: f64) -> Self {
         let message =
             format!("the motion did not reach t = {until} s; this is an error of the program, please report it");
@@ -34,12 +34,12 @@ impl fmt::Display for StepFailure {
     }
 }
 
-/// A number to six significant digits: more say nothing to a user.
+/// Rounds `value` to six significant digits, for messages.
 pub fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// A tooth bent beyond the limit.
+/// Error of a tooth that bends beyond the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExcessiveDeflection {
     /// Approach of the flanks, as an arc along the line of action [rad].
@@ -51,7 +51,7 @@ pub struct ExcessiveDeflection {
 }
 
 impl ExcessiveDeflection {
-    /// Which tooth bends how far, and what helps.
+    /// Message with the tooth, its deflection and a remedy.
     pub fn message(&self, model: &Model) -> String {
         let (limit, cone) = match &model.gears {
             Gears::Teeth(teeth) => (teeth.deflection_limit, teeth.contact.mesh.whole.cone),
@@ -70,7 +70,7 @@ impl ExcessiveDeflection {
     }
 }
 
-/// What limits the deflection of teeth.
+/// Name of the limit on the deflection of teeth.
 pub fn limit_name(model: &Model) -> &'static str {
     if model.pair.working_depth() <= 0.5 * model.pair.base_pitch { "the working depth" } else { "half the base pitch" }
 }
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failure_says_its_time_in_six_digits() {
+    fn a_failure_message_gives_the_time_to_six_digits() {
         for (time, time_text) in [(0.000_003_716_875_526_471_57, "3.71688e-6"), (0.1, "0.1"), (1.234_567_89, "1.23457")]
         {
             assert!(StepFailure::not_finite(time).to_string().starts_with(&format!("at t = {time_text} s: ")));

@@ -1,10 +1,10 @@
-//! What helps against messages of a run, by what the scene uses.
+//! Remedies in messages of a run, which depend on the laws and effects of the scene.
 
 use crate::contact::{ContactLaw, DampingModel};
 use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
 
-/// How to stiffen the teeth: the parameter of the law in use.
+/// Remedy that stiffens the teeth, with the parameter of the law in use.
 pub fn stiffer_teeth(p: &Parameters) -> &'static str {
     let contact = &p.contact;
     let from_gears = "use a larger geometry.module or geometry.face_width, from which the stiffness follows";
@@ -19,7 +19,7 @@ pub fn stiffer_teeth(p: &Parameters) -> &'static str {
     }
 }
 
-/// How to damp the teeth more.
+/// Remedy that increases the damping of the teeth.
 pub fn more_damping(p: &Parameters) -> &'static str {
     match p.contact.damping_model {
         DampingModel::Step => "raise contact.damping",
@@ -27,10 +27,11 @@ pub fn more_damping(p: &Parameters) -> &'static str {
     }
 }
 
-/// What makes steps fewer where too many were attempted.
+/// Remedy for too many attempted steps.
 pub fn fewer_steps(p: &Parameters) -> &'static str {
     if p.scene.gear_contact == GearContact::Tooth && !p.effects.corner_contact {
-        return "take effects.corner_contact = true: without it loaded teeth come into contact by a jump, at which slow gears stall";
+        return "set effects.corner_contact = true: without it, the force jumps when a loaded tooth enters contact, \
+                and slow gears stall at this jump";
     }
     more_damping(p)
 }

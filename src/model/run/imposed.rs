@@ -43,7 +43,7 @@ pub fn imposed_speeds<'a>(
     ends.chain(carrier).chain(planets)
 }
 
-/// Whether all imposed speeds equal their commands.
+/// True if all imposed speeds equal their commands.
 pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let (plan, layout) = (&model.ideal.plan, &model.layout);
     (!plan.carrier_imposed || state.carrier_command == inputs.carrier_speed)
@@ -51,7 +51,7 @@ pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
         && (0..2).all(|s| !plan.side_imposed[s] || state.v[layout.end(s)] == inputs.side_speed[s])
 }
 
-/// Sets imposed speeds to their commands. Without teeth side gears follow by Willis' equation; free speeds stay.
+/// Sets imposed speeds to their commands. Side gears without teeth follow Willis' equation. Free speeds do not change.
 pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     let q = state.q;
@@ -63,7 +63,7 @@ pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// Whether a jump of imposed speeds from `before` to `inputs` changes free speeds of gears without teeth.
+/// True if a jump of imposed speeds from `before` to `inputs` changes free speeds. This happens only with ideal gears.
 pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
     let [by_carrier, by_spin] = model.ideal.impulse();
     matches!(&model.gears, Gears::Ideal(_))
@@ -71,7 +71,7 @@ pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
             || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
 }
 
-/// Lets free speeds of gears without teeth follow a jump of imposed speeds from `before` to `inputs`.
+/// Changes the free speeds of ideal gears in response to a jump of imposed speeds from `before` to `inputs`.
 pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
     if is_impulse(model, before, inputs) {
         let carrier = |command: f64| model.body_effects().carrier_speed(&state.q, command);
@@ -82,14 +82,15 @@ pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &m
     }
 }
 
-/// Adds to free speeds of gears without teeth their change by a jump of carrier speed and spin.
+/// Adds the response to a jump of carrier speed and spin to the free speeds of ideal gears.
 pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_DOF]) {
     let [by_carrier, by_spin] = model.ideal.impulse();
     v[PLANET] += by_carrier * carrier;
     v[CARRIER] += by_spin * spin;
 }
 
-/// Sets imposed speeds to their commands and lets free speeds follow; the energy of the jump is impulsive work of the input.
+/// Sets imposed speeds to their commands and changes free speeds in response. The energy of the jump is impulsive work
+/// of the input.
 pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {
@@ -99,7 +100,7 @@ pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
     let ideal = matches!(&model.gears, Gears::Ideal(_));
     let mut work = 0.0;
     for ImposedSpeed { freedom, value, inertia } in imposed_speeds(model, inputs, &q) {
-        // gears without teeth move as one: the energy of their jump is counted below
+        // ideal gears move as one mechanism: the energy of their jump is counted below
         if value != before[freedom] && (!ideal || freedom > PLANET) {
             work += 0.5 * inertia * (value * value - before[freedom] * before[freedom]);
         }

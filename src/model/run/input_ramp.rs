@@ -1,25 +1,26 @@
-//! Input ramps (`solver.input_ramp`): a jump of an input becomes a line over the communication step that follows it.
+//! Input ramps (`solver.input_ramp`): a jump of an input becomes a linear ramp over the next communication step.
 //!
-//! Between steps the simulation keeps the inputs that it has reached, and the host's values wait. A step gives each waiting
-//! input the rate at which it arrives at the end, as a host would by input derivatives. A step that ends early leaves the
-//! rest of the line to the next step. Torques and imposed speeds ramp. Lock and fault trigger are commands that cause
-//! events, and the temperatures outside act through slow nodes, so these inputs jump.
+//! Between steps, the simulation keeps the inputs that it has reached, and the host's values are not applied yet. At
+//! its start, a step sets the rate of each input so that the input reaches the host's value at the end of the step. A
+//! host could do the same with input derivatives. If a step ends early, the next step continues the ramp. Torques and
+//! imposed speeds ramp. Lock and fault trigger cause events, and outside temperatures act through slow thermal nodes,
+//! so these inputs jump.
 
 use super::Simulation;
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::numeric::Finite;
 
-/// Inputs that jump, each marked by 1.
+/// Mask of the inputs that jump: 1 for each of them.
 const JUMPING: Inputs = Inputs { lock: 1.0, fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
 
-/// What a host has set.
+/// Inputs as set by the host.
 #[derive(Clone, Copy, Debug)]
 pub struct HostInputs {
     /// Values.
     pub values: Inputs,
     /// Derivatives.
     pub derivatives: InputDerivatives,
-    /// Inputs that follow the derivatives, each marked by 1.
+    /// Mask of the inputs that follow the derivatives: 1 for each of them.
     pub follow: Inputs,
 }
 
@@ -31,7 +32,7 @@ impl HostInputs {
 }
 
 impl Simulation {
-    /// True if jumps of inputs become lines.
+    /// True if jumps of inputs become ramps.
     pub fn ramps_inputs(&self) -> bool {
         self.model.parameters.solver.input_ramp && !self.is_model_exchange()
     }
@@ -44,7 +45,7 @@ impl Simulation {
         self.set_rates(reached.pick(&host.derivatives, &host.follow));
     }
 
-    /// Prepares a step in which all inputs arrive at the host's values at the time `until` [s].
+    /// Prepares a step in which all inputs reach the host's values at the time `until` [s].
     pub fn ramp_inputs(&mut self, host: &HostInputs, until: f64) {
         self.apply_jumps(host);
         let first = self.inputs.rates_to(&host.values, until - self.time());
@@ -58,7 +59,7 @@ impl Simulation {
         }
     }
 
-    /// Ends a step in which all inputs have arrived: at the end of their lines they get the host's values to the last bit.
+    /// Ends a step in which all ramps are complete. Their inputs become exactly the host's values.
     pub fn end_ramp(&mut self, host: &HostInputs) {
         self.set_inputs(&host.values.pick(&self.inputs, &host.follow));
     }

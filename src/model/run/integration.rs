@@ -1,13 +1,15 @@
-//! A stretch of time, step by step. In the order of a step:
+//! Integration over one interval. In the order of a step:
 //!
-//! 1. Inputs and state make the equations (`dynamics::Equations::new`), in the shape of the scene.
-//! 2. A method tries a step (`integrate::proceed`, `integrate::advance_fixed`). It evaluates forces and derivatives: the contact of each
-//!    planet, the bodies it acts on, friction, effects, inputs (`dynamics::equations`). Its error, the ledger and kinks decide its size.
-//! 3. The accepted step is refused if a tooth has bent too far (`LedgerEquations::check_deflection`).
+//! 1. The equations are created from inputs and state (`dynamics::Equations::new`), in the shape of the scene.
+//! 2. A method attempts a step (`integrate::proceed`, `integrate::advance_fixed`). It evaluates forces and derivatives
+//!    in the order of `dynamics::equations`: contact of each planet, forces on the bodies, friction, effects, inputs.
+//!    Its error, the ledger and kinks determine the step size.
+//! 3. The integration fails if a tooth bends too far in the accepted step (`LedgerEquations::check_deflection`).
 //! 4. Work, heat, temperatures, damage and mesh cycles are recorded (`LedgerEquations::record`).
-//! 5. Sliding friction drags its anchors along; friction that is due to switch stops the method.
-//! 6. Bodies take new temperatures over, friction switches, and a switch that is an event pauses the motion.
-//! 7. The step that leads beyond the present stays in the state with its motion (`dynamics::PendingStep`).
+//! 5. Sliding friction drags its anchors. The method stops if friction is due to switch, or if temperatures have
+//!    changed noticeably.
+//! 6. Effects use the new temperatures, and friction switches. If a switch is an event, the motion may pause.
+//! 7. The step that ends beyond the present is stored in the state with its dense output (`dynamics::pending_step`).
 
 use crate::FULL;
 
@@ -25,33 +27,35 @@ use crate::model::dynamics::shape::{
 use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
-/// Longest stretch integrated before positions are wrapped and the clock is set back [s].
+/// Longest interval before positions are wrapped and the integrator's clock is reset [s].
 pub const LONGEST_INTERVAL: f64 = 1.0;
 /// Longest step [s].
 const LONGEST: f64 = LONGEST_INTERVAL;
-/// What a double can resolve of times up to the length of a stretch [s].
+/// Resolution of a double for times up to the length of an interval [s].
 pub const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
 
-/// What to integrate.
+/// Clock, inputs and options of an integration.
 pub struct Integration<'a> {
-    /// The integrator's clock.
+    /// Clock of the integrator.
     pub clock: &'a mut Clock,
-    /// Time at which it shows zero [s].
+    /// Simulation time at which the clock is zero [s].
     pub begin: f64,
-    /// Whether the time to integrate to was shown before: then it is too late to refuse a tooth that bends too far.
-    pub is_shown: bool,
-    /// Whether to stop at an event: the step that leads on from there then contains the clock's `now`.
+    /// True if outputs at the target time were already returned to the host. A tooth that bends too far can then no
+    /// longer be rejected.
+    pub is_returned: bool,
+    /// True if the motion pauses at an event. The clock's `now` becomes the time of the event, and the pending step
+    /// starts there.
     pub pauses: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
-    /// Where only torques have changed within the step ahead: when on the clock, and by how much accelerations jump [rad/s²].
+    /// Time on the clock [s] and jump of the accelerations [rad/s²], if only torques have changed within the pending
+    /// step.
     pub change: Option<(f64, f64)>,
-    /// What steps are watched for.
+    /// Fatigue damage and mesh history, to which completed steps add.
     pub watched: &'a mut Watched,
 }
 
-/// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
-/// be set back.
+/// Integrates `state` until the pending step contains the clock's `now`, the equations end, or the clock must be reset.
 pub fn integrate(
     model: &Model,
     state: &mut State,
@@ -62,12 +66,12 @@ pub fn integrate(
         Gears::Ideal(ideal) if !FULL || model.parameters.solver.method == Method::Adaptive => {
             integrate_ideal((ideal, model, state, integration, budget))
         }
-        Gears::Ideal(ideal) => ideal_by_table((ideal, model, state, integration, budget)),
+        Gears::Ideal(ideal) => integrate_ideal_through_object((ideal, model, state, integration, budget)),
         Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
 }
 
-/// The same with `teeth`, which may have planets together that the model has apart.
+/// Integrates with `teeth`, which may group planets that the model treats separately.
 pub fn integrate_teeth(
     teeth: &Teeth,
     model: &Model,
@@ -81,56 +85,62 @@ pub fn integrate_teeth(
     let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
         match (groups, arguments.2.input_derivatives.is_some()) {
-            (1, false) => return whole::<LEAST, Plain<1>>(arguments),
-            (1, true) => return whole::<LEAST, PlainDriven>(arguments),
-            (2, false) => return whole::<DIFFERENT, Plain<2>>(arguments),
+            (1, false) => return integrate_monomorphised::<LEAST, Plain<1>>(arguments),
+            (1, true) => return integrate_monomorphised::<LEAST, PlainDriven>(arguments),
+            (2, false) => return integrate_monomorphised::<DIFFERENT, Plain<2>>(arguments),
             _ => {}
         }
     }
     match (groups, plain) {
-        (1, Some(false)) if is_default || method == Method::FixedStep => whole::<LEAST, WithEffects<1>>(arguments),
-        (2, Some(false)) if FULL && is_default => whole::<DIFFERENT, WithEffects<2>>(arguments),
-        (1, Some(true)) if is_default || !FULL => whole::<WITH_ENDS, WithEnds>(arguments),
-        _ if FULL && teeth.layout.count() <= MEDIUM => by_table::<MEDIUM>(arguments),
-        _ => by_table::<LARGEST>(arguments),
+        (1, Some(false)) if is_default || method == Method::FixedStep => {
+            integrate_monomorphised::<LEAST, WithEffects<1>>(arguments)
+        }
+        (2, Some(false)) if FULL && is_default => integrate_monomorphised::<DIFFERENT, WithEffects<2>>(arguments),
+        (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<WITH_ENDS, WithEnds>(arguments),
+        _ if FULL && teeth.layout.count() <= MEDIUM => integrate_through_object::<MEDIUM>(arguments),
+        _ => integrate_through_object::<LARGEST>(arguments),
     }
 }
 
-/// Constants of the gears and of the scene, state, stretch of time and budget of an integration.
+/// Constants of gears and scene, state, options and budget of an integration.
 type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
 
-/// Gears without teeth with effects, compiled as a whole: in the shape with ends every scene has room.
+/// Integrates ideal gears with effects, monomorphised for the shape with ends, which fits all their scenes.
 #[inline(never)]
 fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
     integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
 }
 
-/// Methods for gears without teeth that are not compiled for them.
+/// Integrates ideal gears through a trait object, with a method that is not monomorphised for them.
 #[inline(never)]
-fn ideal_by_table((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
+fn integrate_ideal_through_object(
+    (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
+) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<MEDIUM> =
         &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
     integrate_equations::<MEDIUM, Any, _>(equations, model, state, integration, budget)
 }
 
-/// Plain teeth, and effects on planets in one or two groups: compiled as a whole for each shape.
+/// Integrates plain teeth, or teeth with effects and planets in one or two groups. Monomorphised for each shape.
 #[inline(never)]
-fn whole<const N: usize, S: Shape<N>>(
+fn integrate_monomorphised<const N: usize, S: Shape<N>>(
     (teeth, model, state, integration, budget): Arguments<Teeth>,
 ) -> Result<(), StepFailure> {
     let equations = &mut Equations::<S, N>::new(teeth, integration.inputs, state);
     integrate_equations::<N, S, _>(equations, model, state, integration, budget)
 }
 
-/// All other teeth and methods: the integration calls their forces through a table of functions.
+/// Integrates all other teeth and methods through a trait object.
 #[inline(never)]
-fn by_table<const N: usize>((teeth, model, state, integration, budget): Arguments<Teeth>) -> Result<(), StepFailure> {
+fn integrate_through_object<const N: usize>(
+    (teeth, model, state, integration, budget): Arguments<Teeth>,
+) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<N> = &mut Equations::<Any, N>::new(teeth, integration.inputs, state);
     integrate_equations::<N, Any, _>(equations, model, state, integration, budget)
 }
 
-/// Integrates with the method of the scene, as far as it is compiled for the shape: [`integrate_teeth`] chooses the shape accordingly.
+/// Integrates with the method of the scene. [`integrate_teeth`] chooses a shape for which this method is compiled.
 fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
@@ -139,7 +149,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_shown, pauses, inputs, change, watched } = integration;
+    let Integration { clock, begin, is_returned, pauses, inputs, change, watched } = integration;
     let before = state.statistics;
     let mut course = Course {
         longest: LONGEST,
@@ -147,19 +157,19 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         expected: clock.expected,
         ..Course::new(state.point(), clock.time, clock.end)
     };
-    // resume the step that leads beyond the present
+    // resume the pending step
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut course);
         course.end_at(clock.end);
         if let Some((time, jump)) = change {
             equations.acting_mut().change = inputs.torques_since(&pending_step.inputs);
             if !course.change_at(time, jump) {
-                // it begins at the change
+                // no part of the pending step precedes the change
                 state.control.jump(Some(jump));
             }
         }
     }
-    // on the way to the end of the equations the clock need not be set back: that end is near
+    // a clock that runs to the end of the equations is not reset, because that end is near
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
@@ -172,9 +182,9 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         switched = false;
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
-        // what an accepted step leaves behind
+        // records an accepted step and decides whether the method stops
         let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
-            if !is_shown {
+            if !is_returned {
                 rattle.add_step(equations.check_deflection(step.end)?);
             }
             equations.record(model, (&step, motion), &mut sums);
@@ -183,6 +193,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
+        // the method attempts steps until one passes `now`, or until `observe` stops it
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
@@ -200,13 +211,13 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 observe(step, Some(motion))
             }),
         };
-        equations.acting_mut().anchor(&anchors);
+        equations.acting_mut().set_anchors(&anchors);
         let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
-        // the equations change: temperatures that bodies feel, and friction
+        // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
             state.thermal.feel();
             course.longest = LONGEST.min(state.thermal.longest);
-            equations.acting_mut().feel(model.body_effects(), state.lock, &state.thermal.felt);
+            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.felt);
         }
         if switched {
             let before = equations.acting().friction_state;
@@ -220,6 +231,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         }
         switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
+    // store the result and the pending step
     state.friction = equations.acting().friction_state;
     state.set_point(&course.point);
     clock.time = course.time;
@@ -233,29 +245,30 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
+/// Maximum number of attempted steps per call for plain teeth. It limits the waiting time of a host to some seconds.
 const BUDGET: u64 = 2_000_000;
-/// What effects that act on bodies add: drag, shafts, dry friction.
+/// Cost that effects on bodies (drag, shafts, dry friction) add to a step, relative to a step of plain teeth.
 const EFFECTS: usize = 3;
-/// Entries of the matrices of plain teeth with planets that are alike.
+/// Number of matrix entries for plain teeth with identical planets.
 const PLAIN: usize = 16;
-/// What a step of ideal gears with all effects costs at most.
+/// Maximum cost of a step of ideal gears with all effects, relative to a step of plain teeth.
 const IDEAL: usize = 2;
-/// Cost of a step of `radau`, which iterates, at most in steps of the default method.
+/// Maximum cost of a step of `radau`, which iterates, relative to a step of the default method.
 const RADAU_IN_STEPS: usize = 8;
 
-/// Attempts at steps granted to one call: the fewer, the more each costs.
+/// Maximum number of attempted steps per call. It is smaller if a step costs more.
 pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
     let work = teeth.contact.work(model.parameters.solid.facets as usize, teeth.layout.groups);
     let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
     let effects = if has_effects { EFFECTS } else { 0 };
-    // matrices of few rows cost by their number of entries
+    // the cost of small matrices is proportional to their number of entries
     let freedoms = teeth.layout.count();
     let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
     BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
 }
 
+/// Error with the cause of the `failure` and a remedy. `before` are the statistics at the start of the integration.
 #[cold]
 fn explain(
     failure: Failure<ExcessiveDeflection>,
@@ -267,9 +280,9 @@ fn explain(
     let tolerance = solver.relative_tolerance;
     let message = match failure {
         Failure::Refused(tooth) => tooth.message(model),
-        Failure::NotClosed => "the energy balance of a step does not close up to where torques change".into(),
+        Failure::NotClosed => "the energy balance of the step before a change of torques does not close".into(),
         Failure::StepTooSmall { size } => format!(
-            "the step size fell to {size:.3e} s, below what time can resolve; look at the inputs, \
+            "the step size fell to {size:.3e} s, below the resolution of time; look at the inputs, \
              or loosen solver.relative_tolerance = {tolerance:e}"
         ),
         Failure::Diverged => format!(

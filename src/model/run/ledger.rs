@@ -1,6 +1,6 @@
-//! Records completed steps in the ledger: work, heat, mesh cycles, fatigue.
+//! Records completed steps: work and heat in the ledger, temperatures, mean torques, damage and mesh history.
 
-use super::completed_step::{CompletedStep, Passed};
+use super::completed_step::{CompletedStep, StepMotion};
 use super::failure::ExcessiveDeflection;
 use super::watching::{Watched, watch_step};
 use crate::integrate::{Point, SecondOrder, Step};
@@ -17,9 +17,9 @@ use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 use crate::model::thermal::Thermal;
 
-/// Sums that completed steps add to.
+/// Sums to which completed steps add.
 pub struct LedgerSums<'a> {
-    /// Time at which the clock of the steps is zero [s].
+    /// Simulation time at which the clock of the steps is zero [s].
     pub begin: f64,
     /// Work of all inputs [J].
     pub work: &'a mut f64,
@@ -35,11 +35,11 @@ pub struct LedgerSums<'a> {
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
-    /// Returns the meshes whose flanks touch, one bit for each. Fails if the deflection of a tooth exceeds the limit; the
-    /// error names mesh and deflection.
+    /// Returns the meshes whose flanks touch, one bit for each. Fails if the deflection of a tooth exceeds the limit.
+    /// The error names mesh and deflection.
     fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection>;
-    /// Records a completed step. It comes with the motion that it was while pending; fixed steps and steps of a host's solver are
-    /// never pending.
+    /// Records a completed step, with the dense output of its pending step. Steps of fixed size and steps of the host's
+    /// solver are never pending and have no dense output.
     fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
 }
 
@@ -67,7 +67,7 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
     }
 }
 
-/// Lets the heat of a step warm the nodes, where the scene asks for it.
+/// Warms the thermal nodes with the heat of a step, if the scene has such nodes.
 #[inline]
 fn warm_up<const N: usize>(model: &Model, acting: &Acting, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
     if let Some(network) = &model.thermal {
@@ -90,7 +90,7 @@ impl LedgerEquations<MOST> for IdealEquations<'_> {
     }
 }
 
-/// Records a completed step of gears without teeth.
+/// Records a completed step of ideal gears.
 pub fn record_without_teeth<const N: usize>(
     model: &Model,
     acting: &Acting,
@@ -102,8 +102,8 @@ pub fn record_without_teeth<const N: usize>(
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// Records what few scenes ask for: jumps of elastic energy, temperatures, damage, histories. Nothing of it acts on a force, so
-    /// that plain equations serve scenes with these effects alone.
+    /// Records what few scenes need: jumps of elastic energy, temperatures, damage, mesh history. None of these changes
+    /// a force of the plain equations, so scenes with only these effects use the plain equations.
     #[inline(never)]
     fn record_more(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
         if !self.teeth.contact.mesh.engagement.corner_contact() {
@@ -114,15 +114,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             warm_up(model, &self.acting, step, sums);
         }
         if let (true, Some(watch)) = (BUILT, &model.watch) {
-            let passed = Passed::new(self, (step, motion), sums.begin);
-            watch_step(&self.largest(), (model, watch), &passed, sums.watched);
+            let completed = StepMotion::new(self, (step, motion), sums.begin);
+            watch_step(&self.largest(), (model, watch), &completed, sums.watched);
         }
     }
 }
 
 impl Largest<'_> {
-    /// Elastic energy that deflected pairs gain or lose in a step where they enter or leave contact abruptly, without corner
-    /// contact [J].
+    /// Elastic energy that deflected pairs gain or lose in a step when they enter or leave contact abruptly, without
+    /// corner contact [J].
     #[inline(never)]
     fn energy_of_jumps(&self, [start, end]: [&Point<LARGEST>; 2]) -> f64 {
         let between = |t: f64| Point {
@@ -134,7 +134,7 @@ impl Largest<'_> {
             for s in 0..2 {
                 let [from, to] = [start, end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [to[0] - from[0], to[1] - from[1]];
-                // in a very short step JUMP_HALF_WIDTH of the step would be lost in rounding
+                // in a very short step, this fraction of the step would be lost in rounding
                 let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
                 self.teeth.contact.mesh.engagement.jumps(from, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);
@@ -146,7 +146,8 @@ impl Largest<'_> {
     }
 }
 
-/// Part of a step before and after the instant at which a pair enters or leaves. The energy is compared between both.
+/// Fraction of a step before and after the instant at which a pair enters or leaves contact. The jump is the difference
+/// of the energies at both times.
 const JUMP_HALF_WIDTH: f64 = 1e-9;
-/// Least arc along the line of action that rounding resolves [rad].
+/// Smallest arc along the line of action that rounding resolves [rad].
 const LEAST_ARC: f64 = 1e-13;

@@ -1,4 +1,20 @@
-//! A running simulation and its steps: integration between events, the ledger, and failures.
+//! A running simulation and its steps. In the order of a call of `Simulation::advance_by`:
+//!
+//! 1. `simulation` applies changed inputs. If only torques change, the pending step is completed and the integration
+//!    continues (`change`). After any other change, the integration restarts (`progress::restart` with `imposed` and
+//!    `events`).
+//! 2. If the pending step contains the requested time, `timeline` moves the state within this step, and the call is
+//!    finished.
+//! 3. Otherwise, `progress` integrates from stop to stop. Stops are given by `timeline`: the requested time, a change
+//!    of the equations, or a reset of the integrator's clock.
+//! 4. `integration` integrates one interval. Its module comment gives the order of a single step.
+//! 5. `ledger` records each completed step: work, heat and temperatures. `watching` adds its fatigue damage and its
+//!    mesh history, along the dense output of the step (`completed_step`).
+//! 6. `timeline` checks that the integration has reached the stop. Errors are explained by `failure`, `effort` and
+//!    `hints`.
+//!
+//! Before a call, `input_ramp` turns jumps of inputs into ramps. `widened` lets ideal gears use methods other than the
+//! default. In model exchange, `accepted` stores the end of the last step of the host's solver.
 
 pub mod accepted;
 mod change;

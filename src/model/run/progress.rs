@@ -1,8 +1,8 @@
-//! Progress in time: where the integration begins anew, goes on, and ends.
+//! Progress in time: restart, continuation and end of the integration.
 //!
-//! While inputs hold, the integrator's steps do not depend on the times that the host asks for: one of them goes beyond
-//! the present, and its continuous extension tells the motion. Where something changes, that step is completed up to the
-//! present, and the integration begins anew there.
+//! While inputs are constant, the integrator's steps do not depend on the times that the host requests. The pending
+//! step ends beyond the present, and its dense output gives the motion at the present. When something changes, the
+//! pending step is completed up to the present, and the integration restarts there.
 
 use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration};
@@ -14,8 +14,8 @@ use crate::model::dynamics::event::{Pause, Way};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
-/// Begins anew at the present: inputs have changed, or something else has.
-pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
+/// Restarts the integration at the present, because inputs or something else have changed.
+pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
     let is_jump = state.pending_step.is_some();
     complete(model, (state, watched));
     if is_jump {
@@ -27,8 +27,8 @@ pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State,
     timeline::begin_holding(state);
 }
 
-/// Completes the step ahead up to the present, under the inputs that acted in it. Switches of friction that are due at the
-/// present take place.
+/// Completes the pending step up to the present, under the inputs that acted in it. Friction that is due to switch at
+/// the present switches.
 pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     let Some(pending_step) = &state.pending_step else { return };
     let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
@@ -37,20 +37,28 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     state.input_derivatives = None;
     let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
-    let integration =
-        Integration { clock: &mut clock, begin, is_shown: true, pauses: false, inputs: &inputs, change: None, watched };
+    let integration = Integration {
+        clock: &mut clock,
+        begin,
+        is_returned: true,
+        pauses: false,
+        inputs: &inputs,
+        change: None,
+        watched,
+    };
     let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
-        // what was shown holds; the ledger tells what it lacks
+        // outputs of this motion were already returned, so it is kept; the residual of the ledger shows the missing
+        // energy
         *state = before;
         state.pending_step = None;
     }
     state.input_derivatives = before.input_derivatives;
-    keep_together(model, state);
+    wrap_and_constrain(model, state);
 }
 
-/// Integrates to `until` [s], or to the first event on the way where that `pauses`; the state then has a pause.
-/// Accelerations `jump` at the present where only torques have changed within the step ahead [rad/s²].
+/// Integrates to `until` [s], or to the first event if `way.pauses`; the state then contains a pause. `jump` is the
+/// jump of the accelerations at the present [rad/s²] if only torques have changed within the pending step.
 pub fn integrate(
     model: &Model,
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
@@ -61,12 +69,13 @@ pub fn integrate(
         let (begin, events) = (state.time(), state.events.count());
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
-            to_end(model, inputs, (state, watched), stop, &mut budget)
+            step_to_stop(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            go_on(model, inputs, (state, watched), (stop, way, jump.take()), &mut budget)
+            step_past_stop(model, inputs, (state, watched), (stop, way, jump.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
+        // an event has paused the motion
         if state.time() < stop.time {
             return Ok(());
         }
@@ -74,7 +83,7 @@ pub fn integrate(
         let pauses = if state.time() < until {
             way.pauses && state.events.count() != events
         } else {
-            // the equations end at the end of this part, so the next part starts a new clock
+            // without a pending step, the equations end here, and the next part starts a new clock
             way.is_part && state.pending_step.is_none()
         };
         if pauses {
@@ -86,8 +95,8 @@ pub fn integrate(
     Ok(())
 }
 
-/// Integrates in steps that end at the stop, which inputs that change by their derivatives ask for, and steps of fixed size.
-fn to_end(
+/// Integrates in steps, the last of which ends at the stop. Inputs with derivatives and steps of fixed size need this.
+fn step_to_stop(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
@@ -99,14 +108,14 @@ fn to_end(
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
+        outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
     }
-    keep_together(model, state);
+    wrap_and_constrain(model, state);
     arrive(state, stop, begin + clock.time, outcome)
 }
 
-/// Integrates on, in steps that do not depend on the stop, to the step that contains it.
-fn go_on(
+/// Integrates in steps that do not depend on the stop, until the pending step contains it.
+fn step_past_stop(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
@@ -114,25 +123,28 @@ fn go_on(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
-    let mut change = jump.map(|jump| (change::take_up(state, &mut clock), jump));
+    let mut change = jump.map(|jump| (change::begin_interval(state, &mut clock), jump));
     let [mut shown, time] = timeline::last_communication_point(state, &clock);
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;
+    // one turn per interval of the clock
     loop {
         let at = (&mut clock, begin, way.pauses, change.take());
-        let outcome = one_interval(model, inputs, (state, watched), at, budget);
+        let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
             pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
             reached = clock.now.min(pending_step.end());
         }
-        keep_together(model, state);
+        wrap_and_constrain(model, state);
+        // an event has paused the motion before the stop
         if outcome.is_ok() && state.pending_step.is_some() && clock.now < wanted {
             state.pause = Some(Pause { now: shown, time, inputs: *inputs });
             state.move_with_clock(begin + clock.now);
             return Ok(());
         }
+        // the pending step contains the stop, the equations end there, or a step has failed
         if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             let arrived = arrive(state, stop, begin + reached, outcome);
             if way.is_part && state.pending_step.is_some() {
@@ -140,12 +152,13 @@ fn go_on(
             }
             return arrived;
         }
+        // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
         (begin, shown, wanted) = (begin + by, shown - by, wanted - by);
     }
 }
 
-/// Moves the time to the stop if the motion has come there, and to what it has `reached` [s] otherwise.
+/// Moves the time to the stop, or to `reached` [s] if the motion has not reached the stop.
 fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepFailure>) -> Result<(), StepFailure> {
     state.pause = None;
     if outcome.is_err() {
@@ -154,14 +167,16 @@ fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepF
     outcome.and_then(|()| timeline::arrive(state, stop.time, reached))
 }
 
-fn one_interval(
+/// Integrates up to the stop, or up to the next reset of the clock. Planets that move identically are integrated as one
+/// group.
+fn integrate_interval(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
     (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let integration = Integration { clock, begin, is_shown: false, pauses, inputs, change, watched };
+    let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);
@@ -170,8 +185,9 @@ fn one_interval(
     integration::integrate(model, state, integration, budget)
 }
 
-/// Wraps positions unless a step leads on from them, and lets gears without teeth turn together to the last bit.
-pub fn keep_together(model: &Model, state: &mut State) {
+/// Wraps positions unless a pending step starts from them. Applies the constraint of ideal gears to their speeds, so
+/// that it is exact to the last bit.
+pub fn wrap_and_constrain(model: &Model, state: &mut State) {
     if state.pending_step.is_none() {
         state.wrap(&model.periods, &model.layout);
     }
@@ -180,7 +196,7 @@ pub fn keep_together(model: &Model, state: &mut State) {
     }
 }
 
-/// Takes inputs to what they are `time` [s] later.
+/// Advances inputs by `time` [s] along their derivatives.
 pub fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
     if let Some(input_derivatives) = &mut state.input_derivatives {
         input_derivatives.follow(time, inputs);

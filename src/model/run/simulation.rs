@@ -1,4 +1,4 @@
-//! A running simulation: parameters → geometry → plan → equations → state.
+//! A running simulation: constants of the model, state and inputs, and the calls that advance them.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use crate::FULL;
 
 use super::accepted::Accepted;
 use super::integration::RESOLUTION;
-use super::progress::{self, begin_anew};
+use super::progress::{self, restart};
 use super::watching::Watched;
 use super::{StepFailure, change, timeline};
 use crate::model::assembly::{Gears, Given, Model};
@@ -19,41 +19,42 @@ use crate::model::setup::Parameters;
 use crate::model::thermal::Thermal;
 use crate::problem::Problem;
 
-/// A simulation; cloning it takes a snapshot (constants are shared, the state is copied).
+/// A simulation. A clone is a snapshot: it shares the constants and copies the state.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     pub(in crate::model) model: Arc<Model>,
     pub(in crate::model) state: State,
-    /// What steps are watched for.
+    /// Fatigue damage and mesh history of the completed steps.
     pub(in crate::model) watched: Watched,
     pub(in crate::model) inputs: Inputs,
     pub(in crate::model) forces: Option<Forces>,
-    /// Where the last step ended that a solver of the host's completed.
+    /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
 }
 
-/// What becomes of the inputs at the begin of a step.
+/// Effect of the inputs on the integration at the start of a step.
 #[derive(Clone, Copy, PartialEq)]
 enum Beginning {
-    /// They have not changed.
+    /// The inputs have not changed.
     None,
-    /// Only torques have changed: the integration completes the step ahead and goes on. No event depends on it. Accelerations jump by
-    /// so much [rad/s²].
+    /// Only torques have changed, which causes no event. The pending step is completed up to the change, and the
+    /// integration continues. The value is the jump of the accelerations [rad/s²].
     Within(f64),
-    /// The integration begins anew.
+    /// The integration restarts without an event.
     Silent,
-    /// It does, with an event.
+    /// The integration restarts with an event.
     Event,
 }
 
 impl Simulation {
-    /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet and no history.
+    /// Simulation of `parameters` that continues from `state`, without damage and mesh history.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
         Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
     }
 
-    /// A simulation of `parameters` that continues from a state and what was watched, with what is `given` besides.
+    /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`.
+    /// `given` contains optional data.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
@@ -72,17 +73,17 @@ impl Simulation {
         }
     }
 
-    /// The inputs that act now.
+    /// Inputs that act now.
     pub fn inputs(&self) -> &Inputs {
         &self.inputs
     }
 
-    /// Sets the derivatives of the inputs; without any, inputs are constant.
+    /// Sets the derivatives of the inputs. Without derivatives, inputs are constant.
     pub fn set_input_derivatives(&mut self, input_derivatives: Option<InputDerivatives>) {
         self.share_input_derivatives(input_derivatives.as_ref());
     }
 
-    /// Sets the derivatives of the inputs to a copy of these.
+    /// Copies `input_derivatives` to the derivatives of the inputs.
     #[inline]
     pub fn share_input_derivatives(&mut self, input_derivatives: Option<&InputDerivatives>) {
         if input_derivatives != self.state.input_derivatives.as_ref() {
@@ -92,26 +93,27 @@ impl Simulation {
         }
     }
 
-    /// Derivatives of the inputs, where they are set.
+    /// Derivatives of the inputs, if they are set.
     pub fn input_derivatives(&self) -> Option<&InputDerivatives> {
         self.state.input_derivatives.as_ref()
     }
 
-    /// Takes over tunable parameters.
+    /// Applies changed tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
         progress::complete(&self.model, (&mut self.state, &mut self.watched));
         Arc::make_mut(&mut self.model).tune(parameters);
         if self.model.thermal.is_none() {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
         }
-        // the next step begins again under the new parameters
+        // the next step restarts the integration under the new parameters
         self.state.control.jump(None);
         self.state.pause = None;
         self.watched.last_loads = None;
         self.forces = None;
     }
 
-    /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
+    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the state is that of the last good
+    /// time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.advance_by(until, Way::default())
     }
@@ -121,13 +123,13 @@ impl Simulation {
         self.state.time()
     }
 
-    /// The last events.
+    /// Last events.
     pub fn events(&self) -> &Events {
         &self.state.events
     }
 
-    /// Applies the inputs at the present if they have changed, as the next step would at its start. Returns true if this is an
-    /// event. The next step then continues from here, with the same bits as if the step had applied the inputs.
+    /// Applies changed inputs at the present time, as the next step would at its start. Returns true if this causes an
+    /// event. The next step continues from here, with the same bits as if it had applied the inputs itself.
     pub fn begin(&mut self) -> bool {
         self.begin_step() == Beginning::Event
     }
@@ -137,7 +139,7 @@ impl Simulation {
         if self.inputs_act() { Beginning::None } else { self.begin_under_inputs() }
     }
 
-    /// Whether the inputs act already.
+    /// True if the inputs already act.
     fn inputs_act(&self) -> bool {
         let Self { state, inputs, .. } = self;
         match &state.pending_step {
@@ -152,26 +154,28 @@ impl Simulation {
             return Beginning::Within(jump);
         }
         let count = state.events.count();
-        begin_anew(model, inputs, (state, watched));
+        restart(model, inputs, (state, watched));
         state.pause = Some(Pause { now: 0.0, time: state.time(), inputs: *inputs });
         self.forces = None;
         if state.events.count() == count { Beginning::Silent } else { Beginning::Event }
     }
 
-    /// Integrates to `until` [s], or to the first event if the way `pauses`, or a part of the way to a communication point. The
-    /// motion continues from there with the same bits as without a stop. An event at the start, see [`Self::begin`], does not
-    /// pause the motion.
+    /// Integrates to `until` [s], or to the first event if `way.pauses`. If `way.is_part`, `until` precedes the next
+    /// communication point. The next call continues with the same bits as without the stop. An event at the start (see
+    /// [`Self::begin`]) does not pause the motion.
     pub fn advance_by(&mut self, until: f64, way: Way) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
         let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
-        let leads_on = state.pending_step.is_some() && jump.is_none();
-        if leads_on && timeline::move_within(model, state, (until, way)) {
-            progress::keep_together(model, state);
+        // the pending step may already contain the requested time
+        let continues = state.pending_step.is_some() && jump.is_none();
+        if continues && timeline::move_within(model, state, (until, way)) {
+            progress::wrap_and_constrain(model, state);
             return Ok(());
         }
+        // ideal gears without effects have a closed form
         if let Gears::Ideal(ideal) = &model.gears
             && !ideal.body_effects.act_in(state)
         {
@@ -190,7 +194,7 @@ impl Simulation {
             }
             if state.input_derivatives.is_some() {
                 progress::advance_inputs(inputs, state, h);
-                // to the last bit, because the next step takes any difference for a jump
+                // exact to the last bit, because the next step would treat any difference as a jump
                 model.ideal.impose(state, inputs);
             }
             state.pause = None;
@@ -201,24 +205,24 @@ impl Simulation {
             return Ok(());
         }
         let before = (*inputs, *state);
-        // what nothing counts need not be kept
+        // a scene without fatigue and mesh history has nothing to restore
         let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
         let mut outcome = progress::integrate(model, (inputs, state, watched), (until, way, jump));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
-            // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            go_back((inputs, state, watched), &before, &saved);
-            begin_anew(model, inputs, (state, watched));
+            // the pending step cannot be completed: restart at the present, from where another step may succeed
+            restore((inputs, state, watched), &before, &saved);
+            restart(model, inputs, (state, watched));
             outcome = progress::integrate(model, (inputs, state, watched), (until, way, None));
         }
         if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
-            go_back((inputs, state, watched), &before, &saved);
+            restore((inputs, state, watched), &before, &saved);
         }
         outcome
     }
 
-    /// Where the solver's step ends that contains the present or begins there [s]; none where the solver's steps end where the host
-    /// asks.
+    /// Returns the end [s] of the solver step that contains the present or starts there. Returns `None` if solver steps
+    /// end at the times that the host requests.
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
         let (model, state) = (&self.model, &self.state);
         let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
@@ -234,42 +238,42 @@ impl Simulation {
         if let (true, Some(end)) = (holds, end(&self.state)) {
             return Ok(Some(end));
         }
-        // the least way on that the solver can tell from none begins the step
+        // advancing by the smallest distinguishable time starts the step
         let time = self.state.time();
         let until = time.next_up().max(time + 2.0 * RESOLUTION);
         self.advance_by(until, Way { is_part: true, ..Way::default() })?;
         Ok(end(&self.state))
     }
 
-    /// True if a solver of the host integrates the states.
+    /// True if the host's solver integrates the states.
     pub fn is_model_exchange(&self) -> bool {
         FULL && self.accepted.is_some()
     }
 
-    /// Where the host's solver last completed a step, for snapshots.
+    /// End of the last step that the host's solver completed, for snapshots.
     pub fn accepted(&self) -> Option<&Accepted> {
         self.accepted.as_ref()
     }
 
-    /// The same simulation with the host's solver last at `accepted`.
+    /// Returns the simulation with `accepted` as the end of the last step that the host's solver completed.
     pub fn from_accepted(self, accepted: Option<Accepted>) -> Self {
         Self { accepted, ..self }
     }
 
-    /// The state, for snapshots.
+    /// State, for snapshots.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// What steps are watched for, for snapshots.
+    /// Fatigue damage and mesh history, for snapshots.
     pub fn watched(&self) -> &Watched {
         &self.watched
     }
 }
 
-/// Takes all that changes back to what it was `before`.
+/// Restores inputs, state, damage and mesh history to their values `before` the step.
 #[cold]
-fn go_back(
+fn restore(
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     before: &(Inputs, State),
     saved: &Option<Watched>,

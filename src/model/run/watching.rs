@@ -1,9 +1,10 @@
-//! What a completed step adds beside the ledger: loads of the teeth to their fatigue; side speeds and transmission errors to the
-//! history of mesh cycles. Both follow the integrator's continuous extension, so that extremes within steps count.
+//! Fatigue damage and mesh history of completed steps. Damage follows from the loads of the teeth; the history contains
+//! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
+//! count.
 
 use serde::{Deserialize, Serialize};
 
-use super::completed_step::Passed;
+use super::completed_step::StepMotion;
 use crate::integrate::{Curve, Extension, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{LARGEST, Largest};
@@ -12,14 +13,14 @@ use crate::model::effects::strength::{Fatigue, GearStrength, Rated, RatedStep, R
 use crate::model::scene::layout::LEFT;
 use crate::numeric::Finite;
 
-/// Damage of the teeth, and values over mesh cycles.
+/// Fatigue damage of the teeth, and peak-to-peak values over mesh cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Watched {
-    /// Damage of the teeth.
+    /// Fatigue damage of the teeth.
     pub fatigue: Fatigue,
     /// Peak-to-peak values over mesh cycles.
     pub mesh_history: MeshHistory,
-    /// Loads with which the next step may begin; they follow from the state, and saved states do without.
+    /// Cache of the loads at the start of the next step. Saved states omit it, because loads follow from the state.
     #[serde(skip)]
     pub last_loads: Option<LastLoads>,
 }
@@ -27,29 +28,29 @@ pub struct Watched {
 /// Loads of the teeth at the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LastLoads {
-    /// Where it ended.
+    /// Point at the end of the step.
     pub at: Point<LARGEST>,
-    /// Groups of planets, and whether a tooth is broken: with the point, all that loads depend on.
+    /// Number of planet groups, and true if a tooth is broken. Together with the point, both determine the loads.
     pub teeth: (usize, bool),
-    /// The loads.
+    /// Loads at this point.
     pub loads: Rated,
 }
 
 impl Watched {
-    /// Whether a simulation can continue from all numbers.
+    /// True if a simulation can continue from these values.
     pub fn is_valid(&self) -> bool {
-        // the last loads are not saved
+        // the cache is not saved
         let Self { fatigue, mesh_history, last_loads: _ } = self;
         fatigue.is_finite() && mesh_history.is_valid()
     }
 }
 
-/// Adds a completed step to fatigue and history, as far as the scene asks for them.
+/// Adds a completed step to damage and history, if the scene needs them.
 ///
-/// Kept out of the loop of steps, so that the loop is the same in every scene.
+/// Not inlined, so that the loop over the steps is the same in every scene.
 #[cold]
 #[inline(never)]
-pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &Passed, watched: &mut Watched) {
+pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &StepMotion, watched: &mut Watched) {
     if let Some(strength) = &watch.strength {
         count_fatigue(equations, (model, strength), step, (&mut watched.fatigue, &mut watched.last_loads));
     }
@@ -58,14 +59,14 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
     }
 }
 
-/// Adds a step to the damage of the teeth.
+/// Adds a completed step to the damage of the teeth.
 pub fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
-    step: &Passed,
+    step: &StepMotion,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
-    let Passed { h, begin, extension, part } = step;
+    let StepMotion { h, begin, extension, part } = step;
     let layout = &equations.teeth.layout;
     let groups = layout.groups;
     let first = layout.planet(0);
@@ -98,8 +99,8 @@ pub fn count_fatigue(
     }
 }
 
-/// Adds a step to the history: of a step that was cut short, the part that was taken.
-pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history: &mut MeshHistory) {
+/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts.
+pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, history: &mut MeshHistory) {
     let extension = &step.extension;
     let pitch = model.periods[LEFT];
     let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
@@ -117,7 +118,7 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history
     history.add(&rolling, &quantities[..count], step.part);
 }
 
-/// A quantity that depends linearly on the motion.
+/// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
 fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
     let Extension { start, end, coefficients } = extension;
     let nothing = of(&Point::ZERO);
@@ -133,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn damage_that_is_no_number_is_not_valid() {
+    fn damage_that_is_not_finite_is_invalid() {
         assert!(Watched::default().is_valid());
         for bad in [f64::NAN, f64::INFINITY] {
             let mut all = [Watched::default(); 3];

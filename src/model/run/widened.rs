@@ -1,7 +1,7 @@
-//! Ideal gears in the size of the equations that are called through a table of functions.
+//! Equations of ideal gears, padded to the size of equations that are called through a trait object.
 //!
-//! Methods other than the default one are not compiled for ideal gears. They run the equations in this size, as they do for most
-//! teeth; values beyond the degrees of freedom are zero and change nothing.
+//! Methods other than the default are not monomorphised for ideal gears. They use equations of this size, as they do
+//! for most teeth. Values beyond the degrees of freedom are zero and have no effect.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ use crate::model::dynamics::{Acted, Acting, IdealEquations};
 use crate::model::effect_kinds::{FrictionSource, SurfaceLoad};
 use crate::model::scene::{FRICTION_BODIES, Layout, Plan};
 
-/// Equations of ideal gears with zeros behind their degrees of freedom.
+/// Equations of ideal gears, padded with zeros beyond their degrees of freedom.
 pub struct Widened<'a>(pub IdealEquations<'a>);
 
 fn narrow(at: &Point<MEDIUM>) -> Point<MOST> {

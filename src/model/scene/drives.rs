@@ -1,7 +1,7 @@
-//! What drives the differential, what is free, and how its teeth are represented.
+//! Drives of the differential, free and imposed motions, and the representation of tooth contact.
 
 choices! {
-    /// How the carrier is driven.
+    /// Drive of the carrier.
     pub enum CarrierDrive: "CarrierDrive" {
         Speed = 1, "speed": "carrier.speed_command is imposed";
         Torque = 2, "torque": "carrier.torque_command acts; carrier.speed_command is the initial speed";
@@ -9,7 +9,7 @@ choices! {
 }
 
 choices! {
-    /// How the wheel side of a half-shaft is driven.
+    /// Drive of the wheel side of a half-shaft.
     pub enum SideDrive: "SideDrive" {
         Torque = 1, "torque": "the load torque acts on its wheel side";
         Speed = 2, "speed": "the speed command is imposed on its wheel side; the half-shaft twists";
@@ -17,7 +17,7 @@ choices! {
 }
 
 choices! {
-    /// Whether the planets spin freely on their pins.
+    /// Spin of the planets on their pins.
     pub enum PlanetSpin: "PlanetSpin" {
         Free = 1, "free": "spin follows from the tooth forces";
         Imposed = 2, "imposed": "spin.command is imposed";
@@ -25,7 +25,7 @@ choices! {
 }
 
 choices! {
-    /// How tooth contact is represented.
+    /// Representation of tooth contact.
     pub enum GearContact: "GearContact" {
         Ideal = 1, "ideal": "no teeth: Willis' equation as a constraint";
         Lumped = 2, "lumped": "one spring per mesh";
@@ -45,14 +45,14 @@ choices! {
 }
 
 impl Start {
-    /// Whether the loads press the meshes together at the start.
+    /// True if the loads press the meshes together at the start.
     pub fn is_in_equilibrium(self) -> bool {
         matches!(self, Self::Equilibrium | Self::SteadyHeat)
     }
 }
 
 spec! {
-    /// What drives, what is free, what is represented.
+    /// Drives, planet spin, tooth contact and start of a scene.
     pub struct Scene {
         /// Carrier drive.
         pub carrier_drive: CarrierDrive = CarrierDrive::Speed,

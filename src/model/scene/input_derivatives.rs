@@ -1,7 +1,7 @@
-//! How inputs change between communication points: u(t) = u + u̇ t + ü t²/2, as far as the host gives derivatives.
+//! Inputs between communication points: u(t) = u + u̇ t + ü t²/2, with the derivatives that the host gives.
 //!
-//! Torques follow the parabola, and so do imposed speeds, whose derivatives are accelerations. Lock and fault are commands:
-//! they follow it too, but act at the start of a step.
+//! Torques and imposed speeds follow the parabola; the derivatives of speeds are accelerations. The commands of lock
+//! and fault follow it as well, but act only at the start of a step.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,17 +14,17 @@ pub const ORDERS: usize = 2;
 /// Derivatives of the inputs: u̇ and ü [unit of the input per s and per s²].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputDerivatives {
-    /// By order, the first first.
+    /// First and second derivatives.
     pub rates: [Inputs; ORDERS],
 }
 
 finite!(InputDerivatives { rates });
 
 impl InputDerivatives {
-    /// Inputs that stay constant.
+    /// Derivatives of constant inputs.
     pub const ZERO: Self = Self { rates: [Inputs::ZERO; ORDERS] };
 
-    /// Writes `from` to `to`, which costs nothing if there are no derivatives.
+    /// Copies `from` to `to`. This costs nothing if there are no derivatives.
     #[inline]
     pub fn copy(from: Option<&Self>, to: &mut Option<Self>) {
         match (from, to) {
@@ -35,25 +35,25 @@ impl InputDerivatives {
         }
     }
 
-    /// Returns the derivatives of each input, or those of `other` where the `mask` is not 0.
+    /// Returns the derivatives of each input, taken from `other` if its `mask` is not 0.
     pub fn pick(&self, other: &Self, mask: &Inputs) -> Self {
         Self { rates: std::array::from_fn(|order| self.rates[order].pick(&other.rates[order], mask)) }
     }
 
-    /// Inputs and their derivatives `time` [s] after they were `inputs`.
+    /// Returns the inputs and their derivatives `time` [s] after the inputs were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
         let (mut later, mut rest) = (*inputs, *self);
         rest.follow(time, &mut later);
         (later, rest)
     }
 
-    /// Takes `inputs` and these derivatives to those `time` [s] later. An input that has reached its limit stays there.
+    /// Advances `inputs` and these derivatives by `time` [s]. An input that has reached its limit stays there.
     pub fn follow(&mut self, time: f64, inputs: &mut Inputs) {
         inputs.follow(&mut self.rates, |value, rates, limits| follow_parabola(value, rates, limits, time));
     }
 }
 
-/// Takes a value and its first and second derivative to those `time` [s] later.
+/// Advances a value and its first and second derivatives by `time` [s].
 #[inline(never)]
 fn follow_parabola(value: &mut f64, [first, second]: [&mut f64; 2], limits: [f64; 2], time: f64) {
     let unlimited = *value + time * *first + 0.5 * time * time * *second;

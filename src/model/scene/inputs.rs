@@ -1,4 +1,4 @@
-//! Inputs: what the host sets at communication points. Each is declared once, with its start value and its limits.
+//! Inputs, which the host sets at communication points. Each is declared once, with its start value and its limits.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +33,7 @@ impl Value for f64 {
     }
     #[inline]
     fn follow(&mut self, rates: [&mut f64; 2], follow: impl Fn(&mut f64, [&mut f64; 2])) {
-        // most inputs do not change, which one comparison of bits tells
+        // most inputs are constant, which one comparison of bits detects
         let [first, second] = rates;
         if (first.to_bits() | second.to_bits()) << 1 != 0 {
             follow(self, [first, second]);
@@ -63,7 +63,7 @@ impl Value for [f64; 2] {
 
 macro_rules! inputs {
     ($($(#[$doc:meta])+ $name:ident: $type:ty = $start:expr, $limits:ident;)+) => {
-        /// What the host sets at communication points.
+        /// Inputs, which the host sets at communication points.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         pub struct Inputs {
             $($(#[$doc])+ pub $name: $type,)+
@@ -81,12 +81,12 @@ macro_rules! inputs {
             /// All inputs 0.
             pub const ZERO: Self = Self { $($name: Value::ZERO),+ };
 
-            /// self + factor · other.
+            /// Returns self + factor · other.
             pub fn plus(&self, factor: f64, other: &Self) -> Self {
                 Self { $($name: self.$name.combine(other.$name, |a, b| a + factor * b)),+ }
             }
 
-            /// The same with each input within its limits.
+            /// Returns the inputs, each clamped to its limits.
             pub fn limited(&self) -> Self {
                 Self { $($name: self.$name.combine(Value::ZERO, |a, _| a.clamp($limits[0], $limits[1]))),+ }
             }
@@ -97,7 +97,7 @@ macro_rules! inputs {
                 $(self.$name.follow([&mut first.$name, &mut second.$name], |value, rates| follow(value, rates, $limits));)+
             }
 
-            /// Returns each value, or that of `other` where the `mask` is not 0.
+            /// Returns each value, taken from `other` if its `mask` is not 0.
             pub fn pick(&self, other: &Self, mask: &Self) -> Self {
                 Self { $($name: self.$name.pick(other.$name, mask.$name)),+ }
             }
@@ -107,7 +107,7 @@ macro_rules! inputs {
                 Self { $($name: self.$name.combine(later.$name, |from, to| (to - from) / time)),+ }
             }
 
-            /// Calls `see` with each value and that of `other`.
+            /// Calls `see` with each value and the corresponding value of `other`.
             pub fn visit(&self, other: &Self, mut see: impl FnMut(f64, f64)) {
                 $(self.$name.visit(other.$name, &mut see);)+
             }
@@ -120,13 +120,13 @@ inputs! {
     carrier_speed: f64 = 2861f64.to_radians(), FREE;
     /// Carrier torque when torque-driven [N·m].
     carrier_torque: f64 = 1670.0, FREE;
-    /// Load on left and right half-shaft, positive resists positive rotation [N·m].
+    /// Loads on the left and right half-shafts; positive values resist positive rotation [N·m].
     load_torque: [f64; 2] = [835.0; 2], FREE;
     /// Imposed speeds of the wheel-side ends of the half-shafts [rad/s].
     side_speed: [f64; 2] = [2861f64.to_radians(); 2], FREE;
-    /// Imposed planet spin relative to the carrier, positive speeds the left side up [rad/s].
+    /// Imposed planet spin relative to the carrier; positive values speed up the left side [rad/s].
     planet_spin: f64 = 0.0, FREE;
-    /// Command of the lock, 0 open to 1 locked.
+    /// Command of the lock, from 0 (open) to 1 (locked).
     lock: f64 = 0.0, COMMAND;
     /// Brake torques at left and right wheel, 0 or more [N·m].
     brake_torque: [f64; 2] = [0.0; 2], RESISTING;
@@ -134,18 +134,18 @@ inputs! {
     fault: f64 = 0.0, COMMAND;
     /// Change of the ambient temperature from its parameter [K].
     ambient_change: f64 = 0.0, FREE;
-    /// Change of a given sump from the temperature of the oil that the parameters give [K].
+    /// Change of a given sump temperature from its parameter `oil.temperature` [K].
     sump_change: f64 = 0.0, FREE;
 }
 
 impl Inputs {
-    /// Changes of the load torques, left and right, and of the carrier's torque since `before` [N·m].
+    /// Changes since `before` of the left and right load torques and of the carrier torque [N·m].
     pub fn torques_since(&self, before: &Self) -> [f64; 3] {
         let [left, right] = [0, 1].map(|s| self.load_torque[s] - before.load_torque[s]);
         [left, right, self.carrier_torque - before.carrier_torque]
     }
 
-    /// Changes of the temperatures outside: of ambient and of a given sump [K].
+    /// Changes of the outside temperatures: ambient and a given sump [K].
     pub fn changes_outside(&self) -> [f64; 2] {
         [self.ambient_change, self.sump_change]
     }

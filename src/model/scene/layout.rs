@@ -1,45 +1,45 @@
-//! Degrees of freedom: how many there can be, and the index of each.
+//! Degrees of freedom: their maximum number, and the index of each.
 //!
-//! Some bodies turn against another one. The position of such an attached body is the twist, the angle of the other body less its own;
-//! its velocity is absolute, and so not the rate of its position. A new one is a row of [`ATTACHED`]; an effect asks for it by its
-//! moment of inertia (`Requests`).
+//! An attached body turns relative to another body. Its position is the twist: the angle of the other body minus its
+//! own angle. Its velocity is absolute, so it is not the rate of its position. A new attached body is a row of
+//! [`ATTACHED`]; an effect requests it by its moment of inertia (`Requests`).
 
-/// Largest number of planets.
+/// Maximum number of planets.
 pub const MAX_PLANETS: usize = 4;
-/// Largest number of groups of planets: each planet a group.
+/// Maximum number of planet groups, which occurs if each planet is a group.
 pub const MAX_GROUPS: usize = MAX_PLANETS;
-/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, and
-/// what is attached to these.
+/// Maximum number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, and attached
+/// bodies.
 pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + ATTACHED_COUNT;
 /// Number of bodies with dry friction: side gears, groups of planets, wheels.
 pub const FRICTION_BODIES: usize = FRICTION_WHEELS + 2;
-/// Index of the first group of planets among them.
+/// Index of the first planet group among the bodies with dry friction.
 pub const FRICTION_PLANETS: usize = 2;
-/// Index of the left wheel among them.
+/// Index of the left wheel among the bodies with dry friction.
 pub const FRICTION_WHEELS: usize = FRICTION_PLANETS + MAX_GROUPS;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;
 /// Index of the carrier; its position is θ_c.
 pub const CARRIER: usize = 2;
-/// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
+/// Index of the first planet group in a scene whose pins do not move. Positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
-/// A body that turns against another one.
+/// Body that turns relative to another body.
 pub struct Attached {
-    /// The degree of freedom it turns against.
+    /// Degree of freedom relative to which it turns.
     pub to: usize,
-    /// Its name in messages.
+    /// Name in messages.
     pub name: &'static str,
-    /// What it is, in the interface.
+    /// Description in the interface.
     pub what: &'static str,
-    /// What its states belong to, by name.
+    /// Prefix of the names of its states.
     pub of: &'static str,
-    /// Names of its position and its velocity there.
+    /// Names of its position and its velocity, after the prefix.
     pub states: [&'static str; 2],
 }
 
-/// Number of ends of half-shafts, the first among these bodies.
+/// Number of half-shaft ends, which are the first attached bodies.
 pub const ENDS: usize = 2;
 
 /// All attached bodies, in the order of their degrees of freedom.
@@ -65,17 +65,17 @@ pub const ATTACHED: [Attached; ENDS] = [
 /// Number of attached bodies.
 pub const ATTACHED_COUNT: usize = ATTACHED.len();
 
-/// Index of each degree of freedom: side gears, carrier, [axial seats of the side gears], planets, [their pins], [ends of the
-/// half-shafts], [what else is attached].
+/// Index of each degree of freedom, in the order side gears, carrier, axial seats of the side gears, planets, their
+/// pins, half-shaft ends, other attached bodies. Seats, pins, ends and other attached bodies are optional.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Number of groups of planets.
+    /// Number of planet groups.
     pub groups: usize,
-    /// Members of each group.
+    /// Number of planets in each group.
     pub members: [f64; MAX_GROUPS],
-    /// Whether pins and seats move.
+    /// True if pins and seats move.
     pub has_pins: bool,
-    /// Which bodies are attached, of `ATTACHED`.
+    /// Mask of the attached bodies, in the order of [`ATTACHED`].
     pub attached: [bool; ATTACHED_COUNT],
 }
 
@@ -111,38 +111,39 @@ impl Layout {
         let before = self.attached[..k].iter().map(|&is| usize::from(is)).sum::<usize>();
         self.planet(self.groups * if self.has_pins { 2 } else { 1 } + before)
     }
-    /// Indices of the attached bodies and of those that they turn against.
+    /// Indices of the attached bodies and of the bodies relative to which they turn.
     pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..ATTACHED_COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
     }
-    /// Whether any is attached.
+    /// True if any body is attached.
     #[inline]
     pub fn is_attached(&self) -> bool {
         self.attached.contains(&true)
     }
-    /// Whether half-shafts have ends, which both have then.
+    /// True if the ends of both half-shafts are degrees of freedom; otherwise, neither end is.
     #[inline]
     pub fn has_ends(&self) -> bool {
         self.attached[0]
     }
-    /// Whether half-shafts have ends, if no pins and seats move and nothing else is attached.
+    /// Returns [`Self::has_ends`], or `None` if pins and seats move or other bodies are attached.
     pub fn plain(&self) -> Option<bool> {
         let others = self.has_pins || self.attached[ENDS..].contains(&true);
         (!others).then(|| self.has_ends())
     }
-    /// Number of bodies that degree of freedom `i` stands for: the planets of a group move alike.
+    /// Number of bodies that degree of freedom `i` represents. The planets of a group move identically.
     pub fn bodies(&self, i: usize) -> f64 {
         let of_planet = i.checked_sub(self.planet(0)).filter(|&k| k < self.groups * if self.has_pins { 2 } else { 1 });
         of_planet.map_or(1.0, |k| self.members[k % self.groups])
     }
-    /// Degrees of freedom.
+    /// Number of degrees of freedom.
     #[inline]
     pub fn count(&self) -> usize {
         self.body(ATTACHED_COUNT)
     }
 }
 
-/// Σ over the groups of planets, in twos: opposite planets, which are adjacent, may be alike.
+/// Sum over the planet groups, added in pairs. Groups next to each other are opposite planets, which may move
+/// identically.
 #[inline]
 pub fn over_groups(groups: usize, term: impl Fn(usize) -> f64) -> f64 {
     match groups {

@@ -15,15 +15,15 @@ spec! {
 spec! {
     /// Moments of inertia about the axis of rotation [kg·m²].
     pub struct InertiaSpec {
-        /// Gears from their solids; otherwise as given below.
+        /// True if the inertias of the gears follow from their solids; otherwise the values below apply.
         pub from_geometry: bool = true,
         /// Carrier with ring gear and cross-shaft, without planets.
         pub carrier: f64 = 0.02,
         /// One side gear, if not from geometry.
         pub side_gear: f64 = 1.47e-4,
-        /// Mass of one side gear [kg], if not from geometry; 0 = that of its solid.
+        /// Mass of one side gear [kg], if not from geometry; 0 = mass of its solid.
         pub side_gear_mass: f64 = 0.0,
-        /// One planet about its own axis, if not from geometry.
+        /// One planet about its axis, if not from geometry.
         pub planet: f64 = 3.23e-5,
         /// Wheel side of the left half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
         pub left_end: f64 = 0.0,

@@ -1,4 +1,4 @@
-//! What a scene is made of before any effect: drives, inputs, material, integration, and the plan of its bodies.
+//! Scene without effects: drives, inputs, material, integration, and the plan of its bodies.
 
 mod drives;
 mod input_derivatives;

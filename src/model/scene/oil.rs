@@ -1,17 +1,17 @@
-//! The oil: its viscosity and density over temperature.
+//! Viscosity and density of the oil over temperature.
 //!
 //! ```text
 //! log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T        ν [mm²/s], T [K]
 //! ρ = ρ₁₅ − k (T − 288.15 K)
 //! ```
 //!
-//! through the viscosities at 40 and 100 °C, by which ISO VG and index are defined.
+//! The line runs through the viscosities at 40 and 100 °C, which define ISO VG and viscosity index.
 //!
 //! Source: C. Walther; ASTM D341, without its corrections below 2 mm²/s.
 
 use crate::problem::Problem;
 
-/// 40 and 100 °C [K], at which the viscosity is given.
+/// Temperatures at which the viscosity is given, 40 and 100 °C [K].
 const POINTS: [f64; 2] = [313.15, 373.15];
 /// Temperature of the given density, 15 °C [K].
 const DENSITY_POINT: f64 = 288.15;
@@ -19,13 +19,14 @@ const DENSITY_POINT: f64 = 288.15;
 const WALTHER: f64 = 0.7;
 /// Square metres per second in a square millimetre per second.
 const MM2: f64 = 1e-6;
-/// Least density over the given one, below any oil's.
+/// Lower limit of the density relative to the given one, below that of any oil.
 const LEAST_DENSITY: f64 = 0.1;
 
 spec! {
     /// The oil in the sump. The start values are those of an axle oil 75W-90.
     pub struct OilSpec {
-        /// Temperature [K]: of the oil and of all that rubs in it; with the effect `warm_up` that at the start, or of a given sump.
+        /// Temperature of the oil and of all rubbing surfaces [K]. With the effect `warm_up`, it is the temperature at
+        /// the start, or of a given sump.
         pub temperature: f64 = 353.15,
         /// Kinematic viscosity at 40 °C [m²/s].
         pub viscosity_40: f64 = 100e-6,
@@ -33,7 +34,7 @@ spec! {
         pub viscosity_100: f64 = 15e-6,
         /// Density at 15 °C [kg/m³].
         pub density: f64 = 870.0,
-        /// Fall of the density per temperature [kg/(m³·K)].
+        /// Decrease of the density per temperature [kg/(m³·K)].
         pub density_fall: f64 = 0.65,
     }
 }
@@ -75,13 +76,14 @@ impl OilSpec {
         Viscosity { kinematic, dynamic: kinematic * self.density_at(temperature) }
     }
 
-    /// What is wrong with it.
+    /// Problem if the given viscosities contradict each other.
     pub fn problem(&self) -> Option<Problem> {
         let Self { viscosity_40, viscosity_100, .. } = *self;
         (viscosity_100 >= viscosity_40).then(|| {
             problem!(
                 "oil.viscosity_100",
-                "{viscosity_100:e} m2/s is not below oil.viscosity_40 = {viscosity_40:e} m2/s: an oil thins as it warms up"
+                "{viscosity_100:e} m2/s is not below oil.viscosity_40 = {viscosity_40:e} m2/s: an oil thins as it \
+                 warms up"
             )
         })
     }
@@ -92,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn walther_s_line_runs_through_its_points_and_thickens_in_the_cold() {
+    fn walthers_line_runs_through_its_points_and_rises_in_the_cold() {
         let oil = OilSpec::default();
         assert!((oil.kinematic_viscosity(313.15) / 100e-6 - 1.0).abs() < 1e-9);
         assert!((oil.kinematic_viscosity(373.15) / 15e-6 - 1.0).abs() < 1e-9);

@@ -1,7 +1,7 @@
-//! The scene plan: which bodies move, which are imposed, and which planets move alike.
+//! Scene plan: bodies that move, imposed motions, and groups of planets that move identically.
 //!
-//! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
-//! as there are.
+//! Planets that are identical and in phase move identically from the start. One of them is simulated and counted for
+//! all of them.
 
 use super::{
     ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin,
@@ -10,18 +10,18 @@ use super::{
 use crate::geometry::{GearSpec, Pair, assembly};
 use crate::problem::Problem;
 
-/// Planets that move alike.
+/// Group of planets that move identically.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Group {
-    /// Phase of the left and right mesh as arcs on the unit sphere [rad].
+    /// Phases of the left and right mesh as arcs on the unit sphere [rad].
     pub phase: [f64; 2],
-    /// How many planets there are of this kind.
+    /// Number of planets in the group.
     pub members: f64,
-    /// The first of them.
+    /// Index of the first planet in the group.
     pub planet: usize,
 }
 
-/// What a scene needs to simulate.
+/// Bodies and imposed motions of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
     groups: [Group; MAX_GROUPS],
@@ -30,39 +30,39 @@ pub struct Plan {
     pub group_of: [usize; MAX_PLANETS],
     /// Number of planets.
     pub planets: usize,
-    /// Carrier speed is imposed.
+    /// True if the carrier speed is imposed.
     pub carrier_imposed: bool,
-    /// Planet spin is imposed.
+    /// True if the planet spin is imposed.
     pub spin_imposed: bool,
-    /// Speeds of the wheel-side ends that are imposed, left and right.
+    /// True for each wheel-side end whose speed is imposed, left and right.
     pub side_imposed: [bool; 2],
-    /// Half-shafts that twist, left and right.
+    /// True for each half-shaft that twists, left and right.
     pub shafts: [bool; 2],
-    /// Which bodies are attached,
+    /// Mask of the attached bodies.
     pub attached: [bool; ATTACHED_COUNT],
-    /// and their moments of inertia, those of ends of half-shafts aside [kg·m²].
+    /// Moments of inertia of the attached bodies, without half-shaft ends [kg·m²].
     pub attached_inertia: [f64; ATTACHED_COUNT],
-    /// Pins and seats give way.
+    /// True if pins and seats move.
     pub has_pins: bool,
     /// Representation of tooth contact.
     pub contact: GearContact,
 }
 
-/// What effects and solver require of the plan.
+/// Requirements of effects and solver for the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Requests {
-    /// Planets differ, or each is to be simulated.
+    /// True if planets differ, or if each must be simulated.
     pub individual: bool,
-    /// Pins and seats move.
+    /// True if pins and seats move.
     pub pins: bool,
-    /// Half-shafts that twist even if they are driven by torque, left and right.
+    /// True for each half-shaft that twists even if it is driven by torque, left and right.
     pub shafts: [bool; 2],
-    /// Moments of inertia of attached bodies, beyond the ends of half-shafts; 0 for none [kg·m²].
+    /// Moments of inertia of attached bodies other than half-shaft ends; 0 for none [kg·m²].
     pub attached: [f64; ATTACHED_COUNT],
 }
 
 impl Plan {
-    /// Plan of `scene` with the gears `pair` of `spec`, or why its planets do not assemble.
+    /// Plan of `scene` with the gears `pair` of `spec`. Fails if its planets do not assemble.
     pub fn new(scene: &Scene, spec: &GearSpec, pair: &Pair, requests: &Requests) -> Result<Self, Problem> {
         let phases = assembly::phases(spec)?;
         let side_imposed = [scene.left_drive == SideDrive::Speed, scene.right_drive == SideDrive::Speed];
@@ -84,11 +84,11 @@ impl Plan {
             contact: scene.gear_contact,
         };
         if plan.contact == GearContact::Ideal {
-            // no phases where there are no teeth
+            // without teeth, there are no phases
             plan.add_group([0.0; 2], 0);
             plan.groups[0].members = phases.len() as f64;
         } else if requests.individual {
-            // opposite planets side by side: those are the ones that are alike
+            // opposite planets next to each other, because they may be identical
             let order: &[usize] = if phases.len() == 4 { &[0, 2, 1, 3] } else { &[0, 1, 2][..phases.len()] };
             for &i in order {
                 plan.add_group(phases[i].map(|f| f * pair.base_pitch), i);
@@ -114,12 +114,13 @@ impl Plan {
         self.group_count += 1;
     }
 
-    /// The same plan with planets that do not spin freely.
+    /// Returns the plan with planets that do not spin freely.
     pub fn with_spin_held(self) -> Self {
         Self { spin_imposed: true, ..self }
     }
 
-    /// The same plan with planets in one group that are simulated singly but alike, if they all are in phase.
+    /// Returns the plan with all planets in one group. Returns `None` if they are in one group already, or differ in
+    /// phase.
     pub fn with_planets_together(self) -> Option<Self> {
         let mut plan = self;
         let [first, others @ ..] = self.groups() else { return None };
@@ -137,7 +138,7 @@ impl Plan {
         &self.groups[g]
     }
 
-    /// The groups of planets.
+    /// Groups of planets.
     pub fn groups(&self) -> &[Group] {
         &self.groups[..self.group_count]
     }
@@ -152,7 +153,7 @@ impl Plan {
         }
     }
 
-    /// Periods by which positions are wrapped; infinite where they are not [rad].
+    /// Periods by which positions are wrapped [rad]; infinite for positions that are not wrapped.
     pub fn periods(&self, pair: &Pair) -> [f64; MAX_DOF] {
         let layout = self.layout();
         let mut periods = [f64::INFINITY; MAX_DOF];
@@ -164,13 +165,14 @@ impl Plan {
         periods
     }
 
-    /// Degree of freedom of attached body `k`, where it moves: of the end of a half-shaft that twists.
+    /// Degree of freedom of attached body `k`, or `None` if it does not move. The end of a half-shaft moves only if the
+    /// shaft twists.
     pub fn attached(&self, k: usize) -> Option<usize> {
         let moves = if k < ENDS { self.shafts[k] } else { self.attached[k] };
         moves.then(|| self.layout().body(k))
     }
 
-    /// Degrees of freedom, the imposed ones among them; there are twice as many states.
+    /// Number of degrees of freedom, including imposed ones. The number of states is twice as large.
     pub fn degrees_of_freedom(&self) -> usize {
         match self.contact {
             GearContact::Ideal => 2 + self.layout().attached().count(),
@@ -178,7 +180,7 @@ impl Plan {
         }
     }
 
-    /// How many of them are imposed.
+    /// Number of imposed degrees of freedom.
     pub fn imposed(&self) -> usize {
         let spins = if self.contact == GearContact::Ideal { 1 } else { self.layout().groups };
         usize::from(self.carrier_imposed)
@@ -186,7 +188,7 @@ impl Plan {
             + self.side_imposed.iter().filter(|&&imposed| imposed).count()
     }
 
-    /// One line that says what is simulated: representation, drives, planets, states.
+    /// Describes the simulated scene in one line: representation, drives, planets, states.
     pub fn describe(&self) -> String {
         let level = match self.contact {
             GearContact::Ideal => "ideal gears",

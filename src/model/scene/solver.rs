@@ -1,4 +1,4 @@
-//! How a scene is integrated, and how solid teeth are cut into facets.
+//! Integration of a scene, and facets of solid teeth.
 
 choices! {
     /// Integration method.
@@ -9,8 +9,8 @@ choices! {
     }
 }
 
-/// Advice on a method that was removed, `given` by its value or literal, for messages about the enumeration with the literals
-/// `names`; empty otherwise.
+/// Returns advice for messages if `given` is the value or the literal of a removed integration method, and an empty
+/// string otherwise. `names` are the literals of the enumeration in question.
 pub fn removed_method<'a>(given: &str, mut names: impl Iterator<Item = &'a str>) -> &'static str {
     match given {
         "4" | "rodas4" | "5" | "dormand_prince" if names.any(|name| name == Method::Radau.literal()) => {
@@ -29,19 +29,20 @@ spec! {
         pub relative_tolerance: f64 = 1e-6,
         /// Longest step of the method with fixed steps [s].
         pub fixed_step: f64 = 1e-4,
-        /// Planets that are identical and in phase are simulated once and counted; off simulates each.
+        /// True if identical planets in phase are simulated once and counted; otherwise each planet is simulated.
         pub merge_planets: bool = true,
-        /// A jump of a torque or an imposed speed is spread linearly over the communication step that follows it.
+        /// True if a jump of a torque or an imposed speed is spread linearly over the next communication step.
         pub input_ramp: bool = false,
     }
 }
 
 spec! {
-    /// How solid teeth are cut into facets.
+    /// Facets of solid teeth.
     pub struct SolidTeeth {
         /// Facets on the involute of each flank.
         pub facets: i32 = 32,
-        /// Width of the patch over which the greatest overlap is taken, as a multiple of the one that follows from the facets.
+        /// Width of the patch over which the maximum overlap is evaluated, relative to the width that follows from the
+        /// facets.
         pub smoothing: f64 = 1.0,
     }
 }

@@ -1,16 +1,17 @@
-//! Advice on settings that are allowed and likely not meant.
+//! Advice on settings that are allowed but probably not intended.
 
 use super::Parameters;
 use crate::contact::ContactLaw;
 use crate::model::scene::{CarrierDrive, GearContact, Inputs, PlanetSpin, SideDrive};
 use crate::problem::Problem;
 
-/// What is likely not meant in `p`.
+/// Warnings about settings in `p` that are probably not intended.
 pub fn warnings(p: &Parameters) -> Vec<Problem> {
     stiffness_of_the_study(p).into_iter().chain(imposed_bias(p)).collect()
 }
 
-/// Friction whose bias nothing can show: the loads are given, and friction moves torque to what imposes the spin.
+/// Warning about friction whose bias is not visible: the loads are given, so friction moves torque to the drive that
+/// imposes the spin.
 fn imposed_bias(p: &Parameters) -> Option<Problem> {
     let (scene, effects) = (&p.scene, &p.effects);
     let rubs = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
@@ -19,16 +20,19 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
     (rubs && imposed).then(|| {
         Problem::new(
             "torque_bias_ratio",
-            "it is the ratio of left.load_torque and right.load_torque, whatever rubs: with scene.planet_spin = imposed friction \
-             acts on spin.torque; for the bias impose the speeds of the wheels by scene.left_drive and scene.right_drive",
+            "it is the ratio of left.load_torque and right.load_torque, regardless of friction: with \
+             scene.planet_spin = imposed, friction acts on spin.torque; to see the bias, impose the speeds of the \
+             wheels by scene.left_drive and scene.right_drive",
         )
     })
 }
 
-/// Load torques that nobody set, as `is_set` says of left and right, and that turn the wheels backward from rest.
+/// Warning about load torques that nobody set and that turn the wheels backward from rest. `is_set` is true for the
+/// loads that were set, left and right.
 ///
-/// From rest the carrier's torque T and the loads L accelerate the mean speed by T − L_left − L_right, and a wheel that is driven by
-/// torque beside one with an imposed speed by T/2 − L. Brakes hold against what they can.
+/// From rest, the carrier's torque T and the loads L accelerate the mean speed in proportion to T − L_left − L_right.
+/// If the other wheel has an imposed speed, a wheel that is driven by torque accelerates in proportion to T/2 − L.
+/// Brakes resist up to their torques.
 pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Option<Problem> {
     let scene = &p.scene;
     let by_torque = [scene.left_drive, scene.right_drive].map(|drive| drive == SideDrive::Torque);
@@ -62,7 +66,8 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let side = (0..2).find(is_unset)?;
     Some(problem!(
         LOADS[side],
-        "nobody set {}; {} {} N.m {turned}: set the loads, or resist with left.brake_torque and right.brake_torque and loads of 0",
+        "nobody set {}; {} {} N.m {turned}: set the loads, or resist with left.brake_torque and right.brake_torque \
+         and loads of 0",
         names.join(" and "),
         if share < 1.0 { "the share of this wheel in carrier.torque_command," } else { "carrier.torque_command =" },
         torque
@@ -72,7 +77,7 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
 /// Inputs that load the wheels.
 const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
 
-/// Own gears with the stiffness of the study's.
+/// Warning about gears that differ from the study's gears but have their stiffness.
 fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     let start = Parameters::default();
     let (gears, usual) = (&p.geometry, &start.geometry);
@@ -94,9 +99,10 @@ fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     }
     Some(Problem::new(
         "contact.law",
-        "impact has the stiffness of the study's gears, and these are others: mean speeds and forces hold all the same; for \
-         deflection, transmission error, ripple and peak forces choose line_weber with effects.body_compliance, or line, whose \
-         stiffness follows from the gears; or give contact.stiffness a value of your own",
+        "impact has the stiffness of the study's gears, but these gears differ from them: mean speeds and forces are \
+         valid anyway; for deflection, transmission error, ripple and peak forces, choose line_weber with \
+         effects.body_compliance, or line, whose stiffness follows from the gears; or give contact.stiffness a value \
+         of your own",
     ))
 }
 
@@ -105,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bias_that_is_imposed_is_noticed_where_something_rubs() {
+    fn an_imposed_bias_is_reported_if_there_is_friction() {
         let warned = |change: fn(&mut Parameters)| {
             let mut p = Parameters::default();
             (p.scene.planet_spin, p.effects.thrust_friction) = (PlanetSpin::Imposed, true);
@@ -120,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn own_gears_with_the_stiffness_of_the_study_are_noticed_and_the_study_is_not() {
+    fn other_gears_with_the_stiffness_of_the_study_are_reported_and_the_study_is_not() {
         let warned = |change: fn(&mut Parameters)| {
             let mut p = Parameters::default();
             change(&mut p);

@@ -1,12 +1,12 @@
-//! Which heat and which readings the effects have, and their places in the ledger.
+//! Heats and readings of the effects, and their positions in the ledger.
 
 use crate::model::effect_kinds::{Changes, Heat, Reading};
 use crate::model::effects::EFFECTS;
 
-/// Heat of contact damping, which no effect brings.
+/// Index of the heat of contact damping, which belongs to no effect.
 pub const CONTACT_HEAT: usize = 0;
 
-/// Number of heats in the ledger: contact, then one for each output of heat that effects name.
+/// Number of heats in the ledger: contact, then one for each heat output of the effects.
 pub const HEATS: usize = {
     let (mut count, mut i) = (CONTACT_HEAT + 1, 0);
     while i < EFFECTS.len() {
@@ -16,8 +16,9 @@ pub const HEATS: usize = {
     count
 };
 
-/// Number of readings of all effects that change at any instant, and of those that change with accepted steps.
+/// Number of readings of all effects that change at any instant.
 pub const INSTANT_READINGS: usize = counted(false);
+/// Number of readings of all effects that change with accepted steps.
 pub const STEP_READINGS: usize = counted(true);
 
 const fn counted(by_step: bool) -> usize {
@@ -29,7 +30,7 @@ const fn counted(by_step: bool) -> usize {
     count
 }
 
-/// The same of effect `i`.
+/// Number of readings of effect `i` that change with accepted steps if `by_step` is true, or at any instant otherwise.
 const fn counted_of(i: usize, by_step: bool) -> usize {
     let (mut count, mut j) = (0, 0);
     while j < EFFECTS[i].readings.len() {
@@ -39,7 +40,7 @@ const fn counted_of(i: usize, by_step: bool) -> usize {
     count
 }
 
-/// Whether effect `i` is the first that names its heat.
+/// True if effect `i` is the first one that names its heat.
 const fn is_first(i: usize) -> bool {
     let Some(heat) = EFFECTS[i].heat else { return false };
     let mut j = 0;
@@ -63,7 +64,7 @@ const fn is_same(a: &str, b: &str) -> bool {
     i == a.len() && i == b.len()
 }
 
-/// The heats of effects, in the order of the ledger.
+/// Heats of the effects, in the order of the ledger.
 pub fn heats() -> impl Iterator<Item = Heat> {
     (0..EFFECTS.len()).filter(|&i| is_first(i)).filter_map(|i| EFFECTS[i].heat)
 }
@@ -83,13 +84,13 @@ pub const HEAT_OUTPUTS: [&str; HEATS] = {
     outputs
 };
 
-/// Place of a heat in the ledger.
+/// Index of a heat in the ledger.
 pub fn heat_index(heat: Option<Heat>) -> usize {
     let place = heat.and_then(|heat| heats().position(|other| other.output == heat.output));
     place.map_or(CONTACT_HEAT, |place| CONTACT_HEAT + 1 + place)
 }
 
-/// Whether the heat at each place of the ledger arises within the differential, not at the wheels.
+/// True for each heat of the ledger that arises within the differential, not at the wheels.
 pub const HEATS_WITHIN: [bool; HEATS] = {
     let (mut within, mut place, mut i) = ([true; HEATS], CONTACT_HEAT, 0);
     while i < EFFECTS.len() {
@@ -104,12 +105,12 @@ pub const HEATS_WITHIN: [bool; HEATS] = {
     within
 };
 
-/// The readings of all effects, in their order.
+/// Readings of all effects, in their order.
 pub fn readings() -> impl Iterator<Item = &'static Reading> {
     EFFECTS.iter().flat_map(|effect| effect.readings)
 }
 
-/// Places of the readings of the effect `name` among all that change as they do.
+/// Indices of the readings of the effect `name` among all readings with the same `changes`.
 pub const fn places_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
     let (mut before, mut i) = (0, 0);
     while i < EFFECTS.len() {

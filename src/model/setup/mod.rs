@@ -1,4 +1,4 @@
-//! What a user sets before the first step: all parameters, the effects that follow from them, and contradictions between them.
+//! Settings before the first step: all parameters, the effects that follow from them, and contradictions between them.
 
 pub mod advice;
 pub mod effect_outputs;

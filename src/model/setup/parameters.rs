@@ -1,4 +1,4 @@
-//! Everything a user can fix before the first step.
+//! Parameters that a user sets before the first step.
 
 use super::SceneEffects;
 use crate::contact::ContactSpec;
@@ -34,12 +34,12 @@ spec! {
 }
 
 impl Parameters {
-    /// The gears as they mesh: without play where backlash is off.
+    /// Gears as they mesh: without play if backlash is off.
     pub fn gears(&self) -> GearSpec {
         GearSpec { backlash: if self.effects.backlash { self.geometry.backlash } else { 0.0 }, ..self.geometry }
     }
 
-    /// The effects of the scene with the gears `pair`.
+    /// Effects of the scene with the gears `pair`.
     pub fn scene_effects<'a>(&'a self, pair: &'a Pair) -> SceneEffects<'a> {
         let setting = Setting {
             scene: &self.scene,

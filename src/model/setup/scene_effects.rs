@@ -1,4 +1,4 @@
-//! The effects of a scene: what they check, require and bring, gathered from all that are on.
+//! Effects of a scene: checks, requirements and actions of all effects that are on.
 
 use super::effect_outputs::heat_index;
 use crate::model::effect_kinds::{
@@ -8,7 +8,7 @@ use crate::model::effects::{EffectEntry, EffectParameters, Effects, configured};
 use crate::model::scene::{Plan, Requests};
 use crate::problem::Problem;
 
-/// The effects of a scene.
+/// Effects of a scene.
 #[derive(Clone, Copy)]
 pub struct SceneEffects<'a> {
     /// Switches.
@@ -20,7 +20,7 @@ pub struct SceneEffects<'a> {
 }
 
 impl<'a> SceneEffects<'a> {
-    /// Effects that may act, each with its own setting.
+    /// Effects that may act, each with its setting.
     fn acting(&self) -> impl Iterator<Item = (&'static EffectEntry, Setting<'a>, &'a dyn Effect)> + use<'a> {
         let setting = self.setting;
         configured(self.effects, self.parameters)
@@ -31,7 +31,7 @@ impl<'a> SceneEffects<'a> {
             })
     }
 
-    /// What is wrong with them in this scene.
+    /// Problems of the effects in this scene.
     pub fn problems(&self) -> Vec<Problem> {
         let mut found = Vec::new();
         for (entry, on, _) in configured(self.effects, self.parameters) {
@@ -59,12 +59,12 @@ impl<'a> SceneEffects<'a> {
         found
     }
 
-    /// What is unusual about them in this scene.
+    /// Warnings about the effects in this scene.
     pub fn warnings(&self) -> Vec<Problem> {
         self.acting().flat_map(|(_, setting, effect)| effect.warnings(&setting)).collect()
     }
 
-    /// What they do to single teeth.
+    /// Influence of the effects on single teeth.
     pub fn on_teeth(&self) -> Result<ToothEffects, Problem> {
         let mut teeth = ToothEffects::default();
         for (_, setting, effect) in self.acting() {
@@ -73,7 +73,7 @@ impl<'a> SceneEffects<'a> {
         Ok(teeth)
     }
 
-    /// What they require of the plan.
+    /// Requirements of the effects for the plan.
     pub fn requests(&self) -> Requests {
         self.acting().fold(Requests::default(), |all, (_, setting, effect)| {
             let request = effect.requests(&setting);
@@ -96,12 +96,12 @@ impl<'a> SceneEffects<'a> {
         self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
     }
 
-    /// Whether any asks for the viscosity of the oil.
+    /// True if any effect depends on the viscosity of the oil.
     pub fn oil_acts(&self) -> bool {
         self.acting().any(|(_, _, effect)| effect.is_oiled())
     }
 
-    /// Dry friction.
+    /// Sources of dry friction.
     pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
         self.acting().filter_map(|(entry, setting, effect)| {
             effect.friction(&setting).map(|source| FrictionSource { effect: entry.name, ..source })

@@ -1,4 +1,4 @@
-//! Scenes that contradict themselves, refused by name.
+//! Rejection of scenes that contradict themselves.
 
 use super::Parameters;
 use crate::FULL;
@@ -8,7 +8,7 @@ use crate::model::effect_kinds::BUILT;
 use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
 use crate::problem::Problem;
 
-/// Everything in `p` that does not go together.
+/// All contradictions in `p`.
 pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     let mut refuse = |name: &'static str, message: String| found.push(Problem::new(name, message));
@@ -27,7 +27,7 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         refuse(
             name,
             format!(
-                "speeds are imposed by {}: a differential has two independent speeds, so that at most two can be; \
+                "speeds are imposed by {}: a differential has two independent speeds, so at most two can be imposed; \
                  drive the others by torque or leave the spin free",
                 imposed.join(", ")
             ),
@@ -45,7 +45,7 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         );
     }
     if !FULL && !matches!(p.solver.method, Method::Adaptive | Method::FixedStep) {
-        refuse("solver.method", "this build, for real time, has the methods fixed_step and adaptive alone".into());
+        refuse("solver.method", "this build, for real time, has only the methods fixed_step and adaptive".into());
     }
     let contact = &p.contact;
     if contact.stiffness_from_hertz && contact.exponent != crate::contact::hertz::EXPONENT {
@@ -73,8 +73,8 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         if contact.law != ContactLaw::Impact {
             found.push(Problem::new(
                 "contact.law",
-                "solid teeth are pressed together by Adams' IMPACT as in the study: with scene.gear_contact = solid choose \
-                 impact",
+                "solid teeth are pressed together by Adams' IMPACT as in the study: with scene.gear_contact = solid \
+                 choose impact",
             ));
         }
         if !p.effects.corner_contact {

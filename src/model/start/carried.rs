@@ -1,4 +1,4 @@
-//! What teeth and half-shafts carry at the start, while the gears move as an ideal differential.
+//! Torques of teeth and half-shafts at the start, while the gears move as an ideal differential.
 
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
@@ -6,7 +6,7 @@ use crate::model::effect_kinds::{Action, BodyMotion};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF};
 use crate::model::setup::HEATS;
 
-/// Torques at the start, and the accelerations that go with them.
+/// Torques at the start, and the corresponding accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried {
     /// Torque of the teeth on each side gear [N·m].
@@ -22,14 +22,14 @@ pub struct Carried {
 }
 
 impl Carried {
-    /// What is carried under `inputs` at the speeds of `state` by gears that move as `ideal`: the ideal differential of the
-    /// scene, or the one whose planets do not spin.
+    /// Torques under `inputs` at the speeds of `state`, for gears that move as `ideal`. This is the ideal differential
+    /// of the scene, or the one whose planets do not spin.
     pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
         let on_bodies = on_bodies(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
         let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - on_bodies[s]);
         let drive = inputs.carrier_torque + on_bodies[CARRIER];
-        // what shafts carry is quasi-static: wheels at their ends accelerate with their side gears
+        // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
         let mut together = *ideal;
         together.plan.shafts = [false; 2];
         let j = &model.ideal.inertia;
@@ -49,7 +49,7 @@ impl Carried {
                     if ideal.plan.spin_imposed {
                         teeth[s] = drive - other;
                     } else {
-                        // side s keeps its speed, the other accelerates twice as fast as the carrier
+                        // side s keeps its speed, and the other side accelerates twice as fast as the carrier
                         let planets = j.planets * j.planet / (ideal.ratio * ideal.ratio);
                         motion.carrier = (drive - 2.0 * other) / (j.carrier + 4.0 * j.side[1 - s] + planets);
                         motion.spin = -SIGMA[s] * motion.carrier / ideal.ratio;
@@ -66,7 +66,7 @@ impl Carried {
     }
 }
 
-/// Torques of brakes of wheels that turn [N·m].
+/// Brake torques on turning wheels [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
     let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
     let brakes = friction.wheel_loads(inputs);
@@ -78,7 +78,8 @@ fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
     })
 }
 
-/// Torques of effects, such as drag, on side gears and carrier at the speeds of `state`, before anything is wound up [N·m].
+/// Torques of effects, such as drag, on side gears and carrier at the speeds of `state` [N·m]. Half-shafts, pins and
+/// seats are not wound up yet.
 fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
     let (q, mut v) = ([0.0; MAX_DOF], state.v);
     for (i, to) in model.layout.attached() {

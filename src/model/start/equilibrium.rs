@@ -1,4 +1,4 @@
-//! The static equilibrium of loaded teeth: positions at which the meshes carry their loads, and stay.
+//! Static equilibrium of loaded teeth: stable positions at which the meshes carry their loads.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,17 +12,18 @@ use crate::model::run::{LedgerEquations, hints};
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
-/// Longest step of the search for an equilibrium [base pitches]: the potential tilts under unequal loads, and a long
-/// step would leave the nearest well.
+/// Longest step of the search for an equilibrium [base pitches]. Unequal loads tilt the potential, so that a longer
+/// step would leave the nearest minimum.
 const LONGEST_STEP: f64 = 1.0 / 32.0;
-/// Torque balance at equilibrium, relative to the loads.
+/// Imbalance of torques allowed in an equilibrium, relative to the loads.
 const BALANCE: f64 = 1e-11;
-/// Rounds from side to side that press teeth as they are where no minimum is found.
+/// Number of rounds in which actual teeth are pressed on both sides in turn, if no minimum is found.
 pub const ROUNDS: usize = 12;
-/// Loads below this are none [N·m].
+/// Loads below this value count as zero [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-/// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
+/// Turns each side gear until plain teeth carry `torque`, while planets keep their spin angles. Unloaded sides stay in
+/// the middle of the gap.
 pub fn press_sides(
     model: &Model,
     equations: &Largest,
@@ -39,14 +40,14 @@ pub fn press_sides(
     })
 }
 
-/// What the start says of a load that bends teeth too far.
+/// Error of a start whose load on side `s` bends teeth too far.
 fn not_carried(torque: [f64; 2], s: usize, bent: &str) -> Problem {
     let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
     problem!(name, "{:.6} N.m cannot be carried at the start: {bent}", torque[s])
 }
 
-/// Fails where the equilibrium `point` under `torque` lies beyond the deflections for which teeth have a law: softer teeth than
-/// those that were pressed first may lead there.
+/// Fails if teeth at the equilibrium `point` under `torque` bend beyond the limit of their law. This is possible
+/// because actual teeth may be softer than the plain teeth that were pressed first.
 pub fn check_settled(
     model: &Model,
     equations: &Largest,
@@ -56,8 +57,8 @@ pub fn check_settled(
     equations.check_deflection(point).map(drop).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
 }
 
-/// [`press_sides`] with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On
-/// failure the side that cannot be pressed.
+/// Presses both sides as [`press_sides`] does. `carry` returns the torque of the teeth on a side at a point, and its
+/// derivative with respect to the side's angle. The error is the side that cannot be pressed.
 fn press(
     equations: &Largest,
     torque: [f64; 2],
@@ -83,10 +84,11 @@ fn press(
     Ok(())
 }
 
-/// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
+/// Minimum of the potential under `loads`, searched from the point `pressed`, at which plain teeth carry the loads.
 ///
-/// Pressed like this, teeth with errors may still be apart: no force leads the search on. Bodies of gears may give way
-/// far beyond this point: the search may find none. In both cases it begins from teeth that are pressed as they are.
+/// At this point, teeth with errors may still be separated, so that no force guides the search. Elastic gear bodies may
+/// deflect far beyond this point, so that the search may find no minimum. In both cases, the search starts again from a
+/// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
     let is_other = equations.is_open_or_elastic();
     let touches = || {
@@ -94,18 +96,18 @@ pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) ->
         (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
     };
     let found = if !is_other || touches() { minimum(equations, loads, pressed, false) } else { None };
-    if found.is_some() || !is_other { found } else { settle_as_they_are(equations, loads) }
+    if found.is_some() || !is_other { found } else { settle_actual_teeth(equations, loads) }
 }
 
-/// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
-/// the others.
-pub fn settle_as_they_are(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
-    minimum(equations, loads, &pressed_as_they_are(equations, loads, 1)?, true)
+/// Minimum of the potential under `loads`, searched from a point at which actual teeth carry the loads. Unloaded
+/// planets roll with the others.
+pub fn settle_actual_teeth(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
+    minimum(equations, loads, &press_actual_teeth(equations, loads, 1)?, true)
 }
 
-/// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies of planets
-/// join both sides.
-pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
+/// Point at which each side gear is turned until actual teeth carry `loads`, while planets keep their spin angles.
+/// There are `rounds` rounds, because elastic planet bodies couple both sides.
+pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
     let mut pressed = Point::ZERO;
     let carry = |s: usize, at: &Point<LARGEST>| {
         let (sum, by_position) = equations.statics(at);
@@ -117,12 +119,12 @@ pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) 
     Some(pressed)
 }
 
-/// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
-/// tooth pitch, or `along_valley` within a turn of planets whose teeth differ. What accelerates adds its inertial torque to
-/// the loads.
+/// Position of the minimum of V + Σ T_s α_s near `point`, over all free positions except the carrier's. The minimum
+/// must be within a tooth pitch or, if `along_valley`, within a turn of planets whose teeth differ; otherwise, the
+/// result is `None`. Bodies that accelerate add their inertial torques to the loads.
 ///
-/// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
-/// under loads that drive forward, at negative ones under the mirrored loads.
+/// Under equal loads, only V decides, and a minimum and its mirror image are equivalent. The planets then have positive
+/// angles under loads that drive forward, and negative angles under the mirrored loads.
 fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_valley: bool) -> Option<Point<LARGEST>> {
     let (teeth, torque) = (equations.teeth, loads.teeth);
     let mut against = [0.0; LARGEST];
@@ -133,7 +135,7 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
         }
     }
-    // teeth that are alike all round are in balance in each pitch or in none
+    // teeth that are identical all round are in balance in each pitch or in none
     let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
     let farthest_spin_angle = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
     let well = Well { equations, against, point, unknowns: unknowns(equations), farthest_spin_angle };
@@ -156,7 +158,7 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
     Some(well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?))
 }
 
-/// Places of the unknown positions, and how many bodies each stands for.
+/// Indices of the unknown positions, and the number of identical bodies that each represents.
 fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
     let teeth = equations.teeth;
     let layout = &teeth.layout;
@@ -175,14 +177,14 @@ fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
     unknowns
 }
 
-/// The potential V + Σ T_i q_i around `point` as a function of the unknown positions.
+/// Potential V + Σ T_i q_i around `point` as a function of the unknown positions.
 struct Well<'a> {
     equations: &'a Largest<'a>,
-    /// T, on each body.
+    /// Torques T_i on each body [N·m].
     against: [f64; LARGEST],
     point: &'a Point<LARGEST>,
     unknowns: Vec<(usize, f64)>,
-    /// Largest spin angle that a planet may have, either way [rad].
+    /// Largest spin angle that a planet may have in either direction [rad].
     farthest_spin_angle: f64,
 }
 
@@ -211,7 +213,7 @@ impl Landscape for Well<'_> {
 
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
         let (sum, by_position) = self.equations.statics(&self.at(x));
-        // forces on unknowns, counted by the bodies they stand for, point down the potential
+        // forces on the unknowns, times the number of bodies, are the negative gradient of the potential
         let force = |&(i, members): &(usize, f64)| members * (sum[i] - self.against[i]);
         let n = self.unknowns.len();
         let gradient = DVector::from_iterator(n, self.unknowns.iter().map(|unknown| -force(unknown)));

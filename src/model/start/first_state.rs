@@ -1,4 +1,4 @@
-//! The first state of a simulation, as `scene.start` defines it.
+//! First state of a simulation, as defined by `scene.start`.
 
 use std::sync::Arc;
 
@@ -13,16 +13,17 @@ use crate::model::setup::{HEATS, Parameters};
 use crate::model::thermal::Thermal;
 use crate::problem::Problem;
 
-/// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
+/// Size of the first attempted step after a start [s]. It resolves the fastest motion of stiff teeth, and the
+/// controller enlarges it within a few steps.
 const FIRST_STEP: f64 = 1e-6;
 
 impl Simulation {
-    /// Starts a simulation at `time` [s]; values must be within the ranges of the interface.
+    /// Starts a simulation at `time` [s]. Values must be within the ranges of the interface.
     pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
         Self::start_with(parameters, inputs, time, &Given::default())
     }
 
-    /// The same with what is `given` besides.
+    /// Starts a simulation at `time` [s] with the optional data in `given`.
     pub fn start_with(
         parameters: &Parameters,
         inputs: &Inputs,
@@ -41,7 +42,7 @@ impl Simulation {
             None => Thermal::uniform(oil),
         };
         set_speeds(model, inputs, state);
-        // a tooth that is broken from the start on
+        // a tooth that is broken from the start
         break_tooth(model, inputs, state);
         let mut preload = None;
         if parameters.scene.start.is_in_equilibrium() {
@@ -57,7 +58,7 @@ impl Simulation {
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
         let events = simulation.state.events;
         apply_changes(&simulation.model, inputs, &mut simulation.state);
-        // friction that holds from the start on causes no event
+        // friction that holds from the start causes no event
         simulation.state.events = events;
         let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
         if let Some(preload) = &preload {
@@ -76,7 +77,8 @@ impl Simulation {
     }
 }
 
-/// Sets the speeds at the start: imposed ones as commanded, the others by Willis' equation unless the start is from rest.
+/// Sets the speeds at the start. Imposed speeds equal their commands. The others follow Willis' equation, unless the
+/// start is from rest.
 fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
@@ -99,7 +101,7 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
         }
     }
     let v = &mut state.v;
-    // gears without teeth cannot be at rest against an imposed speed
+    // ideal gears cannot stay at rest if a speed is imposed
     let follow = !rest || plan.contact == GearContact::Ideal;
     if follow || plan.carrier_imposed {
         v[CARRIER] = carrier;

@@ -1,4 +1,10 @@
-//! The start of a simulation: speeds, the equilibrium of loaded teeth, and steady temperatures.
+//! The start of a simulation. In the order of a start:
+//!
+//! - `first_state`: speeds, and the calls of the other modules;
+//! - `preload`: teeth are pressed together and half-shafts wound up, by the torques from `carried` and the search in
+//!   `equilibrium`;
+//! - `report`: warnings about the result;
+//! - `steady_heat`: steady temperatures, and `periodic`: the check that they exist.
 
 mod carried;
 mod equilibrium;

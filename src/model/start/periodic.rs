@@ -1,8 +1,9 @@
-//! The check that a motion repeats from one cycle to the next, without which its mean heats belong to no steady state.
+//! Check that a motion repeats from one cycle to the next. Otherwise, its mean heat flows do not belong to a steady
+//! state.
 //!
-//! The first cycle settles what the start has shaken; the second and the third are compared. Mean speeds come from angles, so that
-//! the ripple of teeth and shafts hardly counts: it moves an angle by less than [`RIPPLE`] at both ends of a cycle, while a constant
-//! acceleration moves it by α L² from one cycle of length L to the next.
+//! The first cycle damps the transients of the start; the second and the third cycle are compared. Mean speeds follow
+//! from angles, so that the ripple of teeth and shafts hardly matters. Ripple changes an angle by less than [`RIPPLE`]
+//! at both ends of a cycle. A constant acceleration α changes it by α L² from one cycle of length L to the next.
 
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
@@ -14,28 +15,29 @@ const SHORTEST: f64 = 0.1;
 const BEFORE_FAILURE: f64 = 0.01;
 /// Difference of the angles of two cycles that ripple may cause [rad].
 const RIPPLE: f64 = 2e-3;
-/// Difference of the mean speeds of two cycles, relative to the fastest shaft, that is no change.
+/// Difference of the mean speeds of two cycles that does not count as a change, relative to the fastest shaft.
 const SAME_SPEED: f64 = 1e-4;
-/// Difference of the mean heats of two cycles, relative to the larger one, that is no change.
+/// Difference of the mean heat flows of two cycles that does not count as a change, relative to the larger one.
 const SAME_HEAT: f64 = 0.05;
-/// Difference of the mean heats of two cycles that is no change, as the temperature of the case that it causes [K].
+/// Difference of the mean heat flows of two cycles that does not count as a change, expressed as the change of the case
+/// temperature that it causes [K].
 const SAME_TEMPERATURE: f64 = 0.1;
 /// Outputs whose means are compared: speeds of carrier, left and right wheel [rad/s].
 const SPEEDS: [&str; 3] = ["carrier.speed", "left.wheel_speed", "right.wheel_speed"];
 
 /// Means over a cycle and over the next one.
 struct Means {
-    /// Duration of each [s].
+    /// Duration of each cycle [s].
     span: f64,
     /// Speeds named by [`SPEEDS`] [rad/s].
     speeds: [[f64; 3]; 2],
-    /// Heat that enters the nodes [W].
+    /// Heat flow into the nodes [W].
     heat: [f64; 2],
 }
 
 impl Simulation {
-    /// Describes what changes from one cycle of `length` [s] to the next at the temperatures `at` [K], and what to do. Returns `None`
-    /// if the motion is periodic.
+    /// Describes the change from one cycle of `length` [s] to the next at the temperatures `at` [K], with a remedy.
+    /// Returns `None` if the motion is periodic.
     pub(super) fn not_periodic(&self, network: &Network<HEATS>, at: &[f64; NODES], length: f64) -> Option<String> {
         let span = length * libm::ceil(SHORTEST / length).max(1.0);
         let Some(means) = self.means(network, at, span) else { return self.runs_away(network, at) };
@@ -52,7 +54,8 @@ impl Simulation {
         })
     }
 
-    /// Describes the speed that changes right after the start at the temperatures `at` [K], where cycles cannot be run, and what to do.
+    /// Describes a speed that changes right after the start at the temperatures `at` [K], with a remedy. This is for
+    /// motions whose cycles cannot be run.
     pub(super) fn runs_away(&self, network: &Network<HEATS>, at: &[f64; NODES]) -> Option<String> {
         self.means(network, at, BEFORE_FAILURE)?.changing_speed()
     }
@@ -77,7 +80,7 @@ impl Simulation {
 }
 
 impl Means {
-    /// Describes the first speed that changes, and what to do.
+    /// Describes the first speed that changes, with a remedy.
     fn changing_speed(&self) -> Option<String> {
         let (span, [speeds, next]) = (self.span, self.speeds);
         let fastest = speeds.iter().chain(&next).fold(0.0, |fastest, speed| speed.abs().max(fastest));

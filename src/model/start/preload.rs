@@ -1,7 +1,7 @@
-//! The load at the start: teeth are pressed together and half-shafts wound up until both carry it.
+//! Preload at the start: teeth are pressed together and half-shafts wound up until both carry the loads.
 
 use super::carried::Carried;
-use super::equilibrium::{ROUNDS, check_settled, press_sides, pressed_as_they_are, settle, settle_as_they_are};
+use super::equilibrium::{ROUNDS, check_settled, press_actual_teeth, press_sides, settle, settle_actual_teeth};
 use crate::integrate::Point;
 use crate::model::assembly::{Ideal, Model};
 use crate::model::dynamics::{LARGEST, Largest, State};
@@ -9,7 +9,7 @@ use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{CARRIER, Inputs};
 use crate::problem::Problem;
 
-/// Winds the half-shafts of an ideal differential up.
+/// Winds up the half-shafts of an ideal differential.
 pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut State) {
     let carried = Carried::new(model, &model.ideal, inputs, state);
     let plan = &model.ideal.plan;
@@ -21,18 +21,18 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 /// Result of [`preload`].
 #[derive(Clone, Copy, Debug)]
 pub struct Preload {
-    /// What teeth and half-shafts carry, and the accelerations that go with it.
+    /// Torques of teeth and half-shafts, and the corresponding accelerations.
     pub carried: Carried,
-    /// Whether all is in balance with these accelerations alone, and no planet begins to roll.
+    /// True if all bodies are in balance with these accelerations, and no planet starts to roll.
     pub settled: bool,
 }
 
 /// Presses the meshes together until tooth torques balance the loads, and winds up the half-shafts.
 ///
-/// First a balance without rolling planets is sought, a minimum of the potential V + Σ T α near ψ = 0 (stiffness that
-/// varies along the path holds small imbalances). Where there is none, the planets roll, and the loads are those under the
-/// accelerations of the ideal differential: plain teeth carry them at ψ = 0, others at the minimum, or as they are
-/// pressed at ψ = 0 where none is found.
+/// First, it searches for a balance without rolling planets: a minimum of the potential V + Σ T α near ψ = 0. Stiffness
+/// that varies along the path can hold small differences of the loads. Without such a minimum, the planets roll, and
+/// the loads follow from the accelerations of the ideal differential. Plain teeth then carry the loads at ψ = 0. Other
+/// teeth carry them at a minimum under these loads. Without that minimum, actual teeth are pressed together at ψ = 0.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;
@@ -40,10 +40,10 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let mut carried = Carried::new(model, &held, inputs, state);
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
-    // where pairs move each other, or slices of the face carry, the balance cannot be found mesh by mesh
-    let not_mesh_by_mesh = !teeth.carry_mesh_by_mesh(state);
+    // if tooth pairs deflect each other or loads are summed over the face, meshes cannot be balanced individually
+    let is_coupled = !teeth.have_independent_meshes(state);
     let mut settled = true;
-    if !plan.spin_imposed || not_mesh_by_mesh {
+    if !plan.spin_imposed || is_coupled {
         let found = settle(equations, &carried, &point);
         settled = found.is_some();
         if let Some(found) = found {
@@ -52,9 +52,9 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         } else if !plan.spin_imposed {
             carried = Carried::new(model, ideal, inputs, state);
             press_sides(model, equations, carried.teeth, &mut point)?;
-            if not_mesh_by_mesh {
-                let pressed = || pressed_as_they_are(equations, &carried, ROUNDS);
-                point = settle_as_they_are(equations, &carried).or_else(pressed).unwrap_or(point);
+            if is_coupled {
+                let pressed = || press_actual_teeth(equations, &carried, ROUNDS);
+                point = settle_actual_teeth(equations, &carried).or_else(pressed).unwrap_or(point);
             }
         }
     }
@@ -68,7 +68,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     let follows = [0, 1].map(|s| by_position[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
     for s in 0..2 {
         if follows[s] {
-            // elastic bodies of planets couple both sides
+            // elastic planet bodies couple both sides
             let other = 1 - s;
             let across = by_position[s][other];
             let (mut by_spin, mut own) = (by_spins[s], by_position[s][s]);

@@ -1,4 +1,4 @@
-//! What the log says of a start: that it is no equilibrium, or that few planets carry.
+//! Warnings about a start: it is not in equilibrium, or planets carry unequal loads.
 
 use super::preload::Preload;
 use crate::integrate::SecondOrder;
@@ -7,11 +7,11 @@ use crate::model::dynamics::{Largest, State};
 use crate::model::scene::{CARRIER, Inputs, MAX_DOF, MAX_GROUPS, Plan};
 use crate::problem::Problem;
 
-/// Part of the loads that an equilibrium may leave unbalanced.
+/// Fraction of the loads that may be unbalanced in an equilibrium.
 const BALANCED: f64 = 1e-6;
-/// Part of its equal share below which a planet carries so little that the log says so.
+/// Fraction of its equal share below which the load of a planet causes a warning.
 const LITTLE: f64 = 0.5;
-/// Loads below this are none [N·m].
+/// Loads below this value count as zero [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
 /// Accelerations at the start, and the torques of the teeth of one planet of each group on the side gears.
@@ -20,15 +20,15 @@ struct Found {
     torque: [[f64; 2]; MAX_GROUPS],
 }
 
-/// What a start turned out to be.
+/// Result of the check of a start.
 pub struct Outcome {
-    /// Whether it is in equilibrium.
+    /// True if the start is in equilibrium.
     pub in_equilibrium: bool,
-    /// What is worth a warning.
+    /// Warnings about the start.
     pub warnings: Vec<Problem>,
 }
 
-/// What the start `preload` of `state` turned out to be.
+/// Checks the start `state` that `preload` has produced.
 pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
     let Gears::Teeth(teeth) = &model.gears else { return Outcome { in_equilibrium: true, warnings: Vec::new() } };
     let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
@@ -44,7 +44,7 @@ pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -
     Outcome { in_equilibrium, warnings: messages.map(|message| Problem::new("scene.start", message)).collect() }
 }
 
-/// Planets that begin to roll.
+/// Warning that planets start to roll.
 fn rolling(plan: &Plan, found: &Found) -> String {
     format!(
         "this is no equilibrium: the teeth do not hold the planets against the difference of both sides, and they begin to \
@@ -53,25 +53,25 @@ fn rolling(plan: &Plan, found: &Found) -> String {
     )
 }
 
-/// A search that found nothing, or torque that is left over where nothing turns against anything else.
+/// Warning if no equilibrium was found, or if torques on planets at rest are not balanced.
 fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) -> Option<String> {
     let (layout, carried) = (&teeth.layout, &preload.carried);
     let load = carried.teeth[0].abs() + carried.teeth[1].abs();
     let planets = (0..layout.groups).map(|g| layout.planet(g));
-    // of planets that spin the torques change all the time
+    // torques on spinning planets change all the time
     let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
     let sides = (0..2).map(|s| (s, carried.side_acceleration[s]));
     let left_over = sides
         .chain(planets.map(|i| (i, carried.spin_acceleration)))
         .chain([(CARRIER, carried.carrier_acceleration)])
-        // imposed motions have no inverse
+        // the inverse inertia of imposed motions is zero
         .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
         .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
         .fold(0.0, f64::max);
     (load > LEAST_LOAD && (!preload.settled || left_over > BALANCED * load)).then(|| {
         format!(
-            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and what is not balanced accelerates the gears \
-             at once; peaks and ratings of the run contain this",
+            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and the unbalanced torque accelerates the \
+             gears immediately; peaks and ratings of the run include this",
             found.carried(&teeth.plan),
             carried.teeth[0],
             carried.teeth[1]
@@ -80,7 +80,7 @@ fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) ->
 }
 
 impl Found {
-    /// What the teeth carry on either side, in words.
+    /// Text with the torques that the teeth carry on each side.
     fn carried(&self, plan: &Plan) -> String {
         let on =
             |s: usize| plan.groups().iter().zip(&self.torque).map(|(group, torque)| group.members * torque[s]).sum();
@@ -89,9 +89,9 @@ impl Found {
     }
 }
 
-/// Planets that carry very unequal parts of the loads.
+/// Warning if planets carry very unequal shares of the loads.
 fn unequal(plan: &Plan, found: &Found) -> Option<String> {
-    // planets that errors jam push against the others
+    // planets that are jammed by errors push against the others
     let total = [0, 1].map(|s| (0..plan.planets).map(|i| found.torque[plan.group_of[i]][s]).sum::<f64>());
     let part = |planet: usize| {
         let [left, right] = found.torque[plan.group_of[planet]];

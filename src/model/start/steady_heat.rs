@@ -1,7 +1,7 @@
-//! The start in thermal equilibrium: temperatures at which the mean heats of a cycle balance what leaves.
+//! Start in thermal equilibrium: temperatures at which the mean heat flows of a cycle balance the heat given off.
 //!
-//! The cycle is that of the inputs at the start. It is run twice with temperatures that stand still: the first passes what the
-//! start has shaken, the second counts.
+//! The cycle uses the inputs at the start. It runs twice at constant temperatures. The first run damps the transients
+//! of the start; the second one counts.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -13,18 +13,18 @@ use crate::model::thermal::steady::{Cycle, Steady};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
 use crate::problem::Problem;
 
-/// Temperatures that differ by more are two steady states [K].
+/// Difference of temperatures above which there are two steady states [K].
 const APART: f64 = 0.1;
 /// The zero of degrees Celsius [K].
 const ZERO: f64 = 273.15;
-/// Attempts at steps that all cycles together may take.
+/// Maximum number of attempted steps in all cycles.
 const MOST_ATTEMPTS: f64 = 3e5;
-/// The variable that asks for such a start.
+/// Variable that selects this start.
 const START: &str = "scene.start";
 
 impl Simulation {
-    /// Lets all nodes begin with the steady temperatures of a cycle, those that they warm up to from cold where there are several.
-    /// Apart, as other starts have no room for its simulations on a small stack.
+    /// Sets all nodes to the steady temperatures of a cycle. If there are several steady states, it selects the one
+    /// that is reached from cold. Not inlined, because its simulations need stack that other starts may not have.
     #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
@@ -33,7 +33,7 @@ impl Simulation {
         let model = Arc::make_mut(&mut still.model);
         (model.thermal, model.watch) = (None, None);
         let mut felt = model.body_effects().felt_nodes();
-        // a sump that is given stays as it is
+        // a given sump temperature does not change
         felt.retain(|&node| node != OIL || network.around.sump.is_none());
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
@@ -67,7 +67,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Mean heats of a cycle with all nodes at the temperatures `at` [K]; its attempts at steps add to `attempts`.
+    /// Mean heat flows of a cycle with all nodes at the temperatures `at` [K]. Adds its attempted steps to `attempts`.
     #[inline(never)]
     fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<Cycle, Problem> {
         let mut run = Box::new(self.clone());
@@ -95,14 +95,15 @@ impl Simulation {
     }
 }
 
-/// Reason why there are no steady temperatures if the motion changes from cycle to cycle as `change` describes.
+/// Reason why there are no steady temperatures if the motion changes from cycle to cycle. `change` describes the
+/// change.
 fn no_cycle(change: String) -> String {
     format!(
         "there are no steady temperatures, because the motion is not periodic: {change}, or set scene.start = equilibrium"
     )
 }
 
-/// Why there are no steady temperatures.
+/// Reason why there are no steady temperatures, from the `end` of their search.
 fn no_steady_heat(end: Steady) -> String {
     let Steady::Beyond(node, temperature) = end else {
         return "no steady temperatures were found; scene.start = equilibrium begins at oil.temperature instead".into();
@@ -123,7 +124,7 @@ fn no_steady_heat(end: Steady) -> String {
     )
 }
 
-/// What is said where the nodes do not cool down from hot to the same temperatures.
+/// Warning if the nodes do not cool down from hot to the temperatures that they reach from cold.
 fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
     let oil = cold[OIL] - ZERO;
     match hot {
@@ -141,7 +142,7 @@ fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
         }
         _ => Some(problem!(
             START,
-            "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not come back to it",
+            "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not cool down to this",
             TEMPERATURES.1 - ZERO
         )),
     }

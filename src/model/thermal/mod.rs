@@ -27,34 +27,33 @@ pub const WASHERS: usize = 3;
 /// Case and housing.
 pub const CASE: usize = 4;
 
-/// Changes of temperatures that friction does not feel yet [K]: it follows in steps of this size. The viscosity of a cold oil
-/// changes by a tenth in a kelvin.
-const UNFELT: [f64; NODES] = [0.1, 0.5, 0.5, 0.5, 0.5];
+/// Temperature changes at which friction is updated [K]. The viscosity of a cold oil changes by a tenth per kelvin.
+const UPDATE_THRESHOLDS: [f64; NODES] = [0.1, 0.5, 0.5, 0.5, 0.5];
 
-/// Longest step, far above any time in which temperatures change [s].
+/// Upper limit of step sizes, far above the time in which temperatures change [s].
 const LONGEST: f64 = 1e3;
-/// Part of the longest step below which one of unfelt change makes it shorter at once.
+/// If the update interval is below this fraction of the longest step, the longest step is shortened immediately.
 const SHORTER: f64 = 0.5;
 
-/// Temperatures of all nodes, and the heat that made them.
+/// Temperatures of all nodes, and the heat that they have absorbed and given off.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Thermal {
-    /// Temperature of the oil at the start, from which all rises count [K].
+    /// Temperature of the oil at the start, to which all rises refer [K].
     start: f64,
-    /// What each node is above that at the start [K].
+    /// Rise of each node at the start [K].
     first: [f64; NODES],
-    /// What each is above it now [K].
+    /// Present rise of each node [K].
     pub rises: [f64; NODES],
-    /// Temperatures as friction feels them [K].
+    /// Temperatures that friction uses [K].
     pub felt: [f64; NODES],
     /// Heat of the ledger that has entered each node [J].
     pub entered: [f64; NODES],
     /// Heat given off to ambient and a sump of given temperature [J].
     pub given_off: f64,
-    /// Longest step [s].
+    /// Longest step of the solver until the next update of friction [s].
     pub longest: f64,
-    /// Step in which temperatures, at the rate of the last one, change by what friction does not feel [s].
-    unfelt_step: f64,
+    /// Interval in which a temperature changes by its update threshold, at the rates of the last step [s].
+    update_interval: f64,
 }
 
 impl Thermal {
@@ -74,11 +73,11 @@ impl Thermal {
             entered: [0.0; NODES],
             given_off: 0.0,
             longest: LONGEST,
-            unfelt_step: LONGEST,
+            update_interval: LONGEST,
         }
     }
 
-    /// What each node has warmed up by since the start [K].
+    /// Temperature change of each node since the start [K].
     pub fn gains(&self) -> [f64; NODES] {
         std::array::from_fn(|i| self.rises[i] - self.first[i])
     }
@@ -88,32 +87,35 @@ impl Thermal {
         self.rises.map(|rise| self.start + rise)
     }
 
-    /// Whether friction is to feel the present temperatures: they have changed, or would within a longest step.
+    /// True if friction must be updated with the present temperatures. Either a temperature has changed by its
+    /// threshold, or it would do so well within the longest step.
     pub fn is_to_be_felt(&self) -> bool {
         let changes = self.temperatures().into_iter().zip(self.felt).map(|(now, felt)| (now - felt).abs());
-        changes.zip(UNFELT).any(|(change, unfelt)| change > unfelt) || self.unfelt_step < SHORTER * self.longest
+        changes.zip(UPDATE_THRESHOLDS).any(|(change, threshold)| change > threshold)
+            || self.update_interval < SHORTER * self.longest
     }
 
-    /// Notes how fast nodes warm up that have risen from `begin` within `h` [s].
+    /// Sets the update interval from the rates of all nodes, whose rises were `begin` [K] before the last `h` [s].
     fn note_rates(&mut self, begin: &[f64; NODES], h: f64) {
         let rates = self.rises.iter().zip(begin).map(|(end, begin)| (end - begin).abs() / h);
-        let fastest = rates.zip(UNFELT).fold(0.0, |most: f64, (rate, unfelt)| most.max(rate / unfelt));
-        self.unfelt_step = LONGEST.min(1.0 / fastest.max(f64::MIN_POSITIVE));
-        // a burst of heat that had shortened steps is over: friction is to feel what it made, and the longest step is found anew
-        if h > SHORTER * self.longest && SHORTER * self.unfelt_step > self.longest {
+        let fastest = rates.zip(UPDATE_THRESHOLDS).fold(0.0, |most: f64, (rate, threshold)| most.max(rate / threshold));
+        self.update_interval = LONGEST.min(1.0 / fastest.max(f64::MIN_POSITIVE));
+        // a burst of heat that had shortened the steps is over: an infinite longest step causes an update of friction,
+        // which determines the longest step again
+        if h > SHORTER * self.longest && SHORTER * self.update_interval > self.longest {
             self.longest = f64::INFINITY;
         }
     }
 
-    /// Lets friction feel the present temperatures.
+    /// Updates the temperatures that friction uses, and the longest step until the next update.
     pub fn feel(&mut self) {
-        (self.felt, self.longest) = (self.temperatures(), self.unfelt_step);
+        (self.felt, self.longest) = (self.temperatures(), self.update_interval);
     }
 
-    /// True if all numbers are finite, except for the longest step, which may be infinite, and step sizes are positive.
+    /// True if all temperatures and heats are finite and all step sizes are positive. Step sizes may be infinite.
     pub fn is_valid(&self) -> bool {
-        let Self { start, first, rises, felt, entered, given_off, longest, unfelt_step } = self;
+        let Self { start, first, rises, felt, entered, given_off, longest, update_interval } = self;
         let are_numbers = [first, rises, felt, entered].into_iter().all(Finite::is_finite);
-        are_numbers && [*start, *given_off].is_finite() && *longest > 0.0 && *unfelt_step > 0.0
+        are_numbers && [*start, *given_off].is_finite() && *longest > 0.0 && *update_interval > 0.0
     }
 }

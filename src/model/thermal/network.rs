@@ -1,4 +1,4 @@
-//! The thermal network of a differential: a star around the oil.
+//! Thermal network of a differential: a star around the oil.
 //!
 //! ```text
 //! C_i θ̇_i = q_i − G_i (θ_i − θ_oil)          gears, clutch packs, washers
@@ -6,9 +6,9 @@
 //! C_o θ̇_o = q_o + Σ G_i (θ_i − θ_oil)
 //! ```
 //!
-//! with the heat q_i that the ledger has for each node. Conductances may grow with a speed, as convection does. A step of the
-//! solver is taken by the implicit midpoint rule in parts that are short against the fastest node; what leaves one node enters
-//! another, so that heat is lost nowhere.
+//! The heat rate q_i of each node comes from the ledger. Conductances may grow with a speed, as in convection. A solver
+//! step is divided into substeps of the implicit midpoint rule that are short compared with the time constant of the
+//! fastest node. Heat that leaves one node enters another, so no heat is lost.
 //!
 //! Source: the thermal balance of ISO/TR 14179-2, and thermal networks of axles and gear units (C. Changenet, X.
 //! Oviedo-Marlot, P. Velex, J. Mechanical Design 128 (2006), p. 1128).
@@ -16,41 +16,41 @@
 use super::{CASE, NODES, OIL, Thermal};
 use crate::declaration::units::TEMPERATURES;
 
-/// Part of the fastest node's time constant that a step of the midpoint rule may take.
+/// Maximum substep of the midpoint rule, as a fraction of the time constant of the fastest node.
 const PART: f64 = 0.25;
-/// Most parts of a step of the solver, which is at most a second long.
+/// Maximum number of substeps per solver step. A solver step lasts at most 1 s.
 const MOST_PARTS: f64 = 1000.0;
 
 /// Conductance at rest, and its growth per speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conductance {
-    /// At standstill [W/K].
+    /// Value at standstill [W/K].
     pub at_rest: f64,
-    /// Per carrier speed [W·s/(K·rad)].
+    /// Growth per carrier speed [W·s/(K·rad)].
     pub per_speed: f64,
 }
 
-/// Temperatures outside.
+/// Outside temperatures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Around {
-    /// Around the case [K].
+    /// Temperature around the case [K].
     pub ambient: f64,
-    /// Of the oil, where that is given [K].
+    /// Temperature of the oil, if it is given [K].
     pub sump: Option<f64>,
 }
 
-/// Nodes and what joins them; `H` is the number of heats in the ledger.
+/// Nodes and the conductances between them. `H` is the number of heats in the ledger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network<const H: usize> {
     /// Heat capacities [J/K].
     pub capacity: [f64; NODES],
-    /// Conductances to the oil; that of the oil is none.
+    /// Conductances to the oil; 0 for the oil itself.
     pub to_oil: [Conductance; NODES],
-    /// From the case to ambient.
+    /// Conductance from the case to ambient.
     pub to_ambient: Conductance,
-    /// Temperatures outside, without the changes that the host commands.
+    /// Outside temperatures, without the changes that the host commands.
     pub around: Around,
-    /// Shares of each heat of the ledger that enter the nodes; what is left out stays outside.
+    /// Shares of each heat in the ledger that enter the nodes; the remainder stays outside.
     pub shares: [[f64; NODES]; H],
 }
 
@@ -64,12 +64,12 @@ pub struct Rates {
 }
 
 impl Around {
-    /// With ambient and sump changed by `changes` [K], without limits.
+    /// Returns the temperatures changed by `changes` [K], without limits.
     pub fn commanded(self, [ambient, sump]: [f64; 2]) -> Self {
         Self { ambient: self.ambient + ambient, sump: self.sump.map(|given| given + sump) }
     }
 
-    /// The same within the temperatures for which the laws of friction are made.
+    /// Returns the temperatures changed by `changes` [K], limited to the range of the friction laws.
     pub fn changed(self, changes: [f64; 2]) -> Self {
         let (coldest, hottest) = TEMPERATURES;
         let within = |temperature: f64| temperature.clamp(coldest, hottest);
@@ -79,14 +79,14 @@ impl Around {
 }
 
 impl Conductance {
-    /// Conductance at the carrier speed `speed`, without its sign [rad/s], in W/K.
+    /// Conductance [W/K] at the magnitude `speed` of the carrier speed [rad/s].
     pub fn at(self, speed: f64) -> f64 {
         self.at_rest + self.per_speed * speed
     }
 }
 
 impl<const H: usize> Network<H> {
-    /// Heat of the ledger in each node [J].
+    /// Heat that enters each node [J], from the heats of the ledger.
     pub fn entering(&self, heat: &[f64; H]) -> [f64; NODES] {
         std::array::from_fn(|i| heat.iter().zip(&self.shares).map(|(heat, share)| heat * share[i]).sum())
     }
@@ -96,13 +96,13 @@ impl<const H: usize> Network<H> {
         self.absorbed(&thermal.gains())
     }
 
-    /// Heat that changes of the temperatures [K] take [J].
+    /// Heat that temperature changes [K] absorb [J].
     pub fn absorbed(&self, changes: &[f64; NODES]) -> f64 {
         self.capacity.iter().zip(changes).map(|(capacity, change)| capacity * change).sum()
     }
 
-    /// Rates of `thermal` while heat arises at the rates `heat` [W], with the carrier at `speed`, without its sign [rad/s]. A given
-    /// sump changes by `sump` [K/s].
+    /// Rates of `thermal` with the heat rates `heat` [W] of the ledger and the magnitude `speed` of the carrier speed
+    /// [rad/s]. The last argument contains the outside temperatures and the rate of a given sump [K/s].
     pub fn rates(&self, thermal: &Thermal, heat: &[f64; H], speed: f64, (around, sump): (Around, f64)) -> Rates {
         let (at, power) = (thermal.temperatures(), self.entering(heat));
         let mut given_off = self.to_ambient.at(speed) * (at[CASE] - around.ambient);
@@ -121,8 +121,8 @@ impl<const H: usize> Network<H> {
         Rates { temperatures, given_off }
     }
 
-    /// Moves the temperatures on over `h` [s], in which the ledger came to `heat` [J], with the carrier at `speed`, without its
-    /// sign [rad/s], and the temperatures outside halfway and at the end.
+    /// Advances the temperatures by `h` [s]. `heat` [J] is the ledger at the end and `speed` the magnitude of the
+    /// carrier speed [rad/s]. The last argument also contains the outside temperatures halfway and at the end.
     pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, (speed, [halfway, end]): (f64, [Around; 2])) {
         let entering = self.entering(heat);
         let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);
@@ -144,8 +144,9 @@ impl<const H: usize> Network<H> {
         thermal.note_rates(&begin, h);
     }
 
-    /// A step by the midpoint rule: temperatures halfway follow from that of the oil, which balances all. All count from that at
-    /// the start, so that little heat is not lost beside much.
+    /// Takes a substep by the midpoint rule. The heat balance gives the oil temperature halfway, and the other
+    /// temperatures halfway follow from it. All temperatures are relative to the start, so rounding does not lose small
+    /// amounts of heat.
     fn midpoint(
         &self,
         thermal: &mut Thermal,
@@ -156,7 +157,7 @@ impl<const H: usize> Network<H> {
         let begin = thermal.rises;
         let (ambient, sump) = (around.ambient - thermal.start, around.sump.map(|sump| sump - thermal.start));
         let inertia: [f64; NODES] = std::array::from_fn(|i| 2.0 * self.capacity[i] / h);
-        // halfway a node has (known + conductance θ_oil)/sum
+        // temperature of a node halfway: (known + conductance θ_oil)/sum
         let known: [f64; NODES] = std::array::from_fn(|i| {
             let from_ambient = if i == CASE { to_ambient * ambient } else { 0.0 };
             inertia[i] * begin[i] + power[i] + from_ambient
@@ -187,12 +188,12 @@ impl<const H: usize> Network<H> {
         }
     }
 
-    /// Brings the oil to a `given` rise [K] by heat from outside.
+    /// Sets the oil to a `given` rise [K] with heat from outside.
     fn give_sump(&self, thermal: &mut Thermal, given: f64) {
         thermal.given_off -= self.capacity[OIL] * (given - thermal.rises[OIL]);
         thermal.rises[OIL] = given;
     }
 }
 
-/// All nodes but the oil.
+/// All nodes except the oil.
 pub(super) const GEARS_TO_CASE: std::ops::RangeInclusive<usize> = super::GEARS..=CASE;

@@ -1,18 +1,20 @@
-//! Steady temperatures: those at which the heats of a cycle, which themselves depend on temperature, balance what leaves.
+//! Steady temperatures, at which the heats of a cycle balance the heat given off. The heats themselves depend on
+//! temperature.
 //!
 //! ```text
 //! R(θ) = P(θ) + k − K θ = 0
 //! ```
 //!
-//! with the mean heats P, the matrix K of the conductances and the flow k from ambient. The way there is that of the network
-//! itself, in steps of the implicit Euler rule that grow without bound:
+//! with the mean heats P, the matrix K of the conductances and the flow k from ambient. The solution is approached by
+//! integrating the network with the implicit Euler method, in steps that grow without bound:
 //!
 //! ```text
 //! (C/h + K − ∂P/∂θ) δ = R(θ)
 //! ```
 //!
-//! so that it ends where the nodes warm up to from cold, and cool down to from hot. If both differ there are several steady
-//! states. Without friction that feels temperature the system is linear, and one long step solves it.
+//! The solution is therefore the state that the nodes reach from cold by warming up, or from hot by cooling down. If
+//! both differ, there are several steady states. If no friction depends on temperature, the system is linear, and one
+//! long step solves it.
 //!
 //! Source: pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numerical Analysis 35 (1998), p. 508.
 
@@ -25,9 +27,9 @@ use crate::declaration::units::TEMPERATURES;
 /// First and longest steps [s], and their growth.
 const STEPS: [f64; 2] = [60.0, 1e9];
 const GROWTH: f64 = 8.0;
-/// Most steps.
+/// Maximum number of steps.
 const MOST_STEPS: usize = 60;
-/// Difference over which the growth of a heat with temperature is taken [K].
+/// Temperature difference by which derivatives of the heats are evaluated [K].
 const DIFFERENCE: f64 = 1.0;
 /// Change in the longest step below which temperatures are steady [K].
 const STEADY: f64 = 1e-6;
@@ -37,24 +39,24 @@ const STEADY: f64 = 1e-6;
 pub struct Cycle {
     /// Heat that enters each node [W].
     pub power: [f64; NODES],
-    /// Mean carrier speed, without its sign [rad/s].
+    /// Magnitude of the mean carrier speed [rad/s].
     pub speed: f64,
 }
 
-/// Where a search for steady temperatures ends.
+/// Result of a search for steady temperatures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steady {
-    /// There [K].
+    /// Steady temperatures [K].
     At([f64; NODES]),
-    /// A node would become this hot or cold [K].
+    /// A node would leave the temperature range: its index and its temperature [K].
     Beyond(usize, f64),
-    /// It has no end.
-    Nowhere,
+    /// No steady temperatures were found.
+    NotFound,
 }
 
 impl<const H: usize> Network<H> {
-    /// Steady temperatures that are reached from `begin` [K]. `heats` tells the heats of a cycle at temperatures; `felt` names the
-    /// nodes whose temperatures change them.
+    /// Steady temperatures that are reached from `begin` [K]. `heats` returns the heats of a cycle at given
+    /// temperatures. `felt` lists the nodes whose temperatures influence these heats.
     pub fn steady<E>(
         &self,
         begin: f64,
@@ -66,9 +68,9 @@ impl<const H: usize> Network<H> {
         let [first, longest] = STEPS;
         let mut h = if felt.is_empty() { longest } else { first };
         let (coldest, hottest) = TEMPERATURES;
-        // far outside no law of an oil holds; the way may lead there, its end may not
+        // oil laws are not valid far outside this range, which iterations may leave but the result may not
         let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(coldest, hottest)).into();
-        // heats that no temperature changes are told once
+        // heats that do not depend on temperature are computed once
         let constant = if felt.is_empty() { Some(heats(&within(&at))?) } else { None };
         for _ in 0..MOST_STEPS {
             let cycle = constant.map_or_else(|| heats(&within(&at)), Ok)?;
@@ -89,7 +91,7 @@ impl<const H: usize> Network<H> {
                 (0..NODES).for_each(|j| matrix[(OIL, j)] = 0.0);
                 (matrix[(OIL, OIL)], rest[OIL]) = (1.0, 0.0);
             }
-            let Some(change) = matrix.lu().solve(&rest) else { return Ok(Steady::Nowhere) };
+            let Some(change) = matrix.lu().solve(&rest) else { return Ok(Steady::NotFound) };
             at += change;
             if h == longest && change.amax() < STEADY {
                 return Ok(Steady::At(at.into()));
@@ -103,7 +105,7 @@ impl<const H: usize> Network<H> {
             }
             h = longest.min(GROWTH * h);
         }
-        Ok(Steady::Nowhere)
+        Ok(Steady::NotFound)
     }
 
     /// Matrix of the conductances with the carrier at `speed` [W/K], and the flow from ambient [W].

@@ -4,7 +4,7 @@ use crate::declaration::units::{self, DEG_C, MM2_PER_S, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 
-/// Where the dynamic viscosity of the oil acts, and so its density.
+/// Condition under which the dynamic viscosity of the oil has an effect, and therefore its density.
 macro_rules! dynamic {
     () => {
         "effects.tooth_friction = true and tooth_friction.viscosity_from_oil = true and tooth_friction.law != coulomb_stribeck \
@@ -12,9 +12,9 @@ macro_rules! dynamic {
     };
 }
 
-/// Where the density of the oil acts.
+/// Condition under which the density of the oil has an effect.
 const DENSE: &str = dynamic!();
-/// Where the viscosity of the oil acts.
+/// Condition under which the viscosity of the oil has an effect.
 macro_rules! oiled {
     () => {
         concat!(
@@ -24,18 +24,18 @@ macro_rules! oiled {
     };
 }
 
-/// See [`oiled`].
+/// Condition under which the viscosity of the oil has an effect, as a constant.
 const OILED: &str = oiled!();
 
-/// Friction of an effect over temperature.
+/// Condition under which the friction of an effect depends on temperature.
 macro_rules! over_temperature {
     ($effect:literal) => {
         concat!("effects.", $effect, " = true and (", $effect, ".cold_factor != 1 or ", $effect, ".hot_factor != 1)")
     };
 }
 
-/// Condition under which more depends on `oil.temperature` than the outputs `temperature.*`. The flash temperatures of rated
-/// teeth are added to it.
+/// Condition under which `oil.temperature` affects more than the outputs `temperature.*`. The flash temperatures of
+/// rated teeth are added to it.
 const OIL_TEMPERATURE_ACTS: &str = concat!(
     "effects.warm_up = true or effects.strength = true or ",
     over_temperature!("limited_slip"),
@@ -62,24 +62,31 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real(units::KG_PER_M3, (100.0, 3e4), |p| &mut p.material.density),
         row(
             "oil.temperature",
-            "Temperature of the oil and of all that rubs in it; with effects.warm_up that at the start, or of a given sump",
+            "Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the initial temperature \
+             or that of a given sump",
         )
         .tunable()
         .when("effects.warm_up = false or warm_up.sump_given = true or initialisation")
         .acts_when(OIL_TEMPERATURE_ACTS)
         .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.oil.temperature),
-        row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC")
-            .when(OILED)
-            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_40),
-        row("oil.viscosity_100", "Kinematic viscosity of the oil at 100 degC")
-            .when(OILED)
-            .real((units::M2_PER_S, MM2_PER_S), (1e-6, 0.1), |p| &mut p.oil.viscosity_100),
+        row("oil.viscosity_40", "Kinematic viscosity of the oil at 40 degC").when(OILED).real(
+            (units::M2_PER_S, MM2_PER_S),
+            (1e-6, 0.1),
+            |p| &mut p.oil.viscosity_40,
+        ),
+        row("oil.viscosity_100", "Kinematic viscosity of the oil at 100 degC").when(OILED).real(
+            (units::M2_PER_S, MM2_PER_S),
+            (1e-6, 0.1),
+            |p| &mut p.oil.viscosity_100,
+        ),
         row("oil.density", "Density of the oil at 15 degC")
             .when(DENSE)
             .real(units::KG_PER_M3, (1.0, 1e5), |p| &mut p.oil.density),
-        row("oil.density_fall", "Fall of the density of the oil per temperature")
-            .when(DENSE)
-            .real(units::KG_PER_M3_K, (0.0, 1e3), |p| &mut p.oil.density_fall),
+        row("oil.density_fall", "Decrease of the oil density per temperature").when(DENSE).real(
+            units::KG_PER_M3_K,
+            (0.0, 1e3),
+            |p| &mut p.oil.density_fall,
+        ),
         row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
             .switch(|p| &mut p.inertia.from_geometry),
         row("inertia.carrier", "Carrier with ring gear and cross-shaft about its axis, without planets").real(
@@ -92,7 +99,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real(units::KG_M2, (1e-12, 1e6), |p| &mut p.inertia.side_gear),
         row(
             "inertia.side_gear_mass",
-            "Mass of a side gear on its axial seat, if not from geometry; 0 = geometry.side_mass, that of its solid",
+            "Mass of a side gear on its axial seat, if not from geometry; 0 = geometry.side_mass",
         )
         .when("inertia.from_geometry = false and effects.pin_compliance = true")
         .real(units::KILOGRAM, (0.0, 1e6), |p| &mut p.inertia.side_gear_mass),

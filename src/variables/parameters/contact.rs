@@ -14,7 +14,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         )
         .when("scene.gear_contact = tooth and contact.law = impact or scene.gear_contact = solid")
         .switch(|p| &mut p.contact.stiffness_from_hertz),
-        row("contact.stiffness", "Contact stiffness K; N/m^e where the exponent is not 1.5")
+        row("contact.stiffness", "Contact stiffness K; in N/m^e if the exponent e is not 1.5")
             .when(
                 "contact.stiffness_from_hertz = false and (scene.gear_contact = tooth and contact.law = impact \
                  or scene.gear_contact = solid)",
@@ -36,7 +36,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         row("contact.restitution", "Coefficient of restitution, with contact.damping_model restitution")
             .when("scene.gear_contact != ideal and contact.damping_model = restitution")
             .real(units::ONE, (0.05, 1.0), |p| &mut p.contact.restitution),
-        row("contact.impact_speed", "Impact speed at which the restitution holds")
+        row("contact.impact_speed", "Impact speed at which contact.restitution applies")
             .when("scene.gear_contact != ideal and contact.damping_model = restitution")
             .real(units::M_PER_S, (1e-6, 1e3), |p| &mut p.contact.impact_speed),
         row(

@@ -1,5 +1,5 @@
-//! Rows of the parameters, one file for each group of them; those of effects come from the effects. All are fixed but
-//! those that say tunable. Their order gives the value references.
+//! Rows of the parameters, one file per group. The effects declare their own parameters. Parameters are fixed unless
+//! they are declared tunable. The order of the rows determines the value references.
 
 mod bodies;
 mod contact;
@@ -26,7 +26,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     rows
 }
 
-/// Rows of drives, representation of tooth contact, and start: `scene.…`.
+/// Rows of `scene.…`: drives, representation of tooth contact, and start.
 fn scene() -> Vec<Row<Parameter<Parameters>>> {
     vec![
         row("scene.carrier_drive", "How the carrier is driven").choice(|p| &mut p.scene.carrier_drive),
@@ -38,7 +38,7 @@ fn scene() -> Vec<Row<Parameter<Parameters>>> {
     ]
 }
 
-/// Switches of two properties of plain teeth.
+/// Switches for two properties of plain teeth.
 fn teeth() -> [Row<Parameter<Parameters>>; 2] {
     [
         row("effects.backlash", "Backlash geometry.backlash; false: teeth without play")

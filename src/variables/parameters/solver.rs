@@ -12,7 +12,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real(units::ONE, (1e-11, 1e-1), |p| &mut p.solver.relative_tolerance),
         row(
             "solver.fixed_step",
-            "Longest step of the method with fixed steps; a communication step is divided into equal ones",
+            "Maximum step of the fixed-step method; a communication step is divided into equal steps",
         )
         .when("co-simulation and solver.method = fixed_step")
         .real(units::SECOND, (1e-7, 1e-2), |p| &mut p.solver.fixed_step),
@@ -22,7 +22,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         row(
             "solid.smoothing",
             "Width of the patch over which the greatest overlap of solid teeth is taken: 1 follows the \
-             facets, a small value approaches the deepest point alone",
+             facets, a small value approaches the deepest point only",
         )
         .when("scene.gear_contact = solid")
         .real(units::ONE, (0.02, 10.0), |p| &mut p.solid.smoothing),

@@ -27,7 +27,7 @@ fn only_the_broken_tooth_misses_material_and_only_from_the_heel() {
 }
 
 #[test]
-fn any_time_may_be_an_onset_and_without_one_the_trigger_alone_breaks() {
+fn any_time_may_be_an_onset_and_without_an_onset_only_the_trigger_breaks_the_tooth() {
     for onset in [0.0, -3.0, 0.2, 1.7e9, f64::MIN] {
         let spec = ToothFaultSpec { gear: FaultyGear::Planet, at_onset: true, onset, ..ToothFaultSpec::default() };
         assert!(spec.check([10, 16], 2).is_ok());

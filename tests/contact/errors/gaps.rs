@@ -1,4 +1,4 @@
-//! Gaps of tooth pairs with all errors, against what each error is.
+//! Gaps of tooth pairs with all errors, checked against the definition of each error.
 
 use crate::tooth_errors::every_kind;
 use bevel_differential::contact::errors::pitch::Tolerances;
@@ -79,7 +79,7 @@ fn pitch_deviations_are_per_tooth_and_grow_with_r() {
     let tooth = |j, flank| graded.gap(LEFT, PairId { planet_tooth: j, side_tooth: 0, flank }, mean, -0.2);
     assert_ne!(tooth(0, Flank::Drive), tooth(1, Flank::Drive));
     assert_eq!(tooth(0, Flank::Drive), tooth(10, Flank::Drive));
-    // the largest step from tooth to tooth is f_ptT along the line of action
+    // the largest step from one tooth to the next is f_ptT along the line of action
     let step = (0..10).map(|j| (tooth(j + 1, Flank::Coast) - tooth(j, Flank::Coast)).abs()).fold(0.0, f64::max);
     let pair = pair();
     let along = 2.0 * pair.mean_cone * pair.sin_base()[0] / pitch::tolerance_diameter(&pair, 0);
@@ -111,7 +111,7 @@ fn misalignment_follows_its_closed_forms() {
             is(ToothErrorSpec { shaft_angle_error: 1e-4, ..none }, 0.03 * sa * 1e-4, -0.03 * sa * 1e-4);
         }
     }
-    // the second of four planets has its own axis along the displacement
+    // the axis of the second of four planets is along the displacement
     let four = errors(ToothErrorSpec { axis_offset: e, ..none }, 4);
     let second = four.gap(MeshId { planet: 1, side: 0 }, id(Flank::Drive), 0.03, 0.0);
     assert!((second - e * sa * sp).abs() < 1e-19);
@@ -134,7 +134,7 @@ fn runout_is_one_wave_per_revolution_with_the_eccentricity_as_amplitude() {
                 mean += at(j, 0.0) / teeth as f64;
                 square += at(j, 0.0).powi(2) / teeth as f64;
             }
-            // at the pitch point the normal leans by sinα sinδ out of the plane of rotation
+            // at the pitch point, the normal is inclined by sinα sinδ to the plane of rotation
             let amplitude = 20e-6 * (1.0 - (p.pressure_angle.sin() * pitch.sin()).powi(2)).sqrt();
             assert!(mean.abs() < 1e-19 && (square - amplitude * amplitude / 2.0).abs() < 1e-20);
             assert!((base.sin() - p.sin_base()[gear]).abs() < 1e-15);
@@ -143,7 +143,7 @@ fn runout_is_one_wave_per_revolution_with_the_eccentricity_as_amplitude() {
 }
 
 #[test]
-fn two_pairs_in_contact_at_once_see_nearly_the_same_runout() {
+fn two_pairs_in_contact_at_the_same_time_have_nearly_the_same_runout() {
     let p = pair();
     let off = errors(ToothErrorSpec { planet_runout: 40e-6, side_runout: 40e-6, seed: 5, ..Default::default() }, 2);
     for planet_tooth in 0..10 {
@@ -151,12 +151,13 @@ fn two_pairs_in_contact_at_once_see_nearly_the_same_runout() {
             for (flank, next, back) in
                 [(Flank::Drive, planet_next, 1), (Flank::Coast, 2 * planet_tooth + 20 - planet_next, 15)]
             {
-                // the pair a base pitch further along the path is one tooth further along (drive) or against t (coast)
+                // the pair one base pitch further along the path is one tooth further along t (drive) or against t
+                // (coast)
                 let here = PairId { planet_tooth, side_tooth: 3, flank };
                 let there = PairId { planet_tooth: next, side_tooth: 3 + back, flank };
                 let s = -0.5 * p.base_pitch;
                 let (a, b) = (off.gap(mesh, here, 0.03, s), off.gap(mesh, there, 0.03, s + p.base_pitch));
-                // only the normal has turned, by a base pitch
+                // only the normal has turned, by one base pitch
                 assert!((a - b).abs() < 2.0 * 20e-6 * p.base_pitch, "{a} {b}");
             }
         }
@@ -164,7 +165,7 @@ fn two_pairs_in_contact_at_once_see_nearly_the_same_runout() {
 }
 
 #[test]
-fn openings_carry_the_exact_derivatives_by_s() {
+fn openings_have_exact_derivatives_with_respect_to_s() {
     let whole = errors(every_kind(), 4);
     for planet in 0..4 {
         for side in 0..2 {
@@ -182,7 +183,7 @@ fn openings_carry_the_exact_derivatives_by_s() {
 }
 
 #[test]
-fn any_index_and_place_gives_a_finite_gap() {
+fn any_index_and_position_give_a_finite_gap() {
     let whole = errors(every_kind(), 3);
     for k in [0, 1, 17, 1_000_003, usize::MAX] {
         let mesh = MeshId { planet: k, side: k };

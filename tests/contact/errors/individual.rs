@@ -1,4 +1,4 @@
-//! Errors of single teeth, drawn and given.
+//! Errors of individual teeth, drawn and given.
 
 use bevel_differential::contact::errors::{ToothErrorSpec, ToothErrors};
 use bevel_differential::geometry::{GearSpec, Pair};
@@ -9,14 +9,14 @@ fn errors(seed: i32) -> ToothErrors {
 }
 
 #[test]
-fn teeth_that_are_given_take_the_place_of_those_drawn() {
+fn given_teeth_replace_the_drawn_ones() {
     let (one, other) = (errors(1), errors(2));
     assert_ne!(one.teeth(), other.teeth());
     assert_eq!(one.with_teeth(&other.teeth()).unwrap().teeth(), other.teeth());
 }
 
 #[test]
-fn teeth_that_do_not_fit_the_gears_are_refused() {
+fn given_teeth_that_do_not_fit_the_gears_are_refused() {
     let teeth = errors(1).teeth();
     assert!(errors(1).with_teeth(&teeth[1..]).is_err());
     let mut missing = teeth.clone();

@@ -1,4 +1,4 @@
-//! The law of Benedict and Kelley by hand.
+//! The law of Benedict and Kelley, checked against hand calculations.
 
 use bevel_differential::friction::benedict_kelley::*;
 use bevel_differential::friction::{Conditions, ToothFrictionSpec};
@@ -20,7 +20,8 @@ fn value_equals_the_formula_by_hand() {
 #[test]
 fn original_inch_units_give_the_same_within_their_rounding() {
     let (w, vs, vr): (f64, f64, f64) = (400.0 * 25.4 / 4.4482216, 2.0 / 0.0254, 8.0 / 0.0254);
-    let s: f64 = 0.5 / 0.0254 * (1.27 / 1.13); // rms over arithmetic mean as the two forms of the factor have it
+    // ratio of rms to arithmetic mean roughness, as implied by the two forms of the factor
+    let s: f64 = 0.5 / 0.0254 * (1.27 / 1.13);
     let original = 0.0127 * 50.0 / (50.0 - s) * (3.17e8 * w / (10.0 * vs * vr * vr)).log10();
     assert!((coefficient(&spec(), &AT) / original - 1.0).abs() < 3e-4);
 }

@@ -13,7 +13,7 @@ fn peak_falls_from_static_to_kinetic() {
     };
     let at = |v: f64| coefficient(&spec, v);
     assert!((at(0.0) - 0.09).abs() < 1e-15);
-    // one e-th of the peak of 0.03 is left at v_S: 0.03/2.718281828459045 = 0.01103638323514327
+    // at v_S, 1/e of the peak of 0.03 is left: 0.03/2.718281828459045 = 0.01103638323514327
     assert!((at(0.02) - 0.07103638323514327).abs() < 1e-15);
     assert_eq!(at(-0.02), at(0.02));
     assert!((at(1.0) - 0.06).abs() < 1e-15);

@@ -1,4 +1,4 @@
-//! The law of ISO/TR 14179 by hand.
+//! The law of ISO/TR 14179, checked against hand calculations.
 
 use bevel_differential::friction::iso14179::*;
 use bevel_differential::friction::{Conditions, ToothFrictionSpec};
@@ -31,7 +31,7 @@ fn small_loads_count_as_150_newton_per_millimetre_and_are_reported() {
 }
 
 #[test]
-fn the_least_load_is_that_of_the_report() {
+fn the_minimum_load_matches_the_report() {
     // w ≥ 150 N/mm: one per cent inside and outside
     assert_eq!(outside(&Conditions { line_load: 151.5e3, ..AT }), None);
     assert!(outside(&Conditions { line_load: 148.5e3, ..AT }).is_some());

@@ -14,7 +14,7 @@ fn spec(law: FrictionLaw) -> ToothFrictionSpec {
 const AT: Conditions<f64> =
     Conditions { sliding: 0.3, sum_speed: 3.0, line_load: 300e3, radius: 8e-3, modulus: 1.15e11 };
 
-/// Zero, or a number of any size and sign.
+/// Zero, or a number of any magnitude and sign.
 fn any(random: &mut Rng) -> f64 {
     match random.u64(..8) {
         0 => 0.0,
@@ -96,7 +96,7 @@ fn derivatives_agree_with_central_differences_through_zero_sliding_and_at_every_
                     let at = Conditions { sliding, sum_speed, line_load, radius, modulus: at.modulus };
                     signed_coefficient(&spec(law), &at)
                 };
-                // fourth order, so that the comparison is as sharp as rounding lets it be
+                // fourth order, so that the comparison is limited only by rounding
                 let slope = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
                 let error = (exact[i] - slope).abs() * scale;
                 assert!(error < 1e-9, "{law:?} {at:?}, variable {i}: {} for {slope}", exact[i]);

@@ -1,4 +1,4 @@
-//! Friction between flanks: each law by hand, and what all have in common.
+//! Friction between flanks: hand calculations for each law, and properties of all laws.
 
 mod benedict_kelley;
 mod coulomb;

@@ -4,7 +4,7 @@ use bevel_differential::friction::smooth::*;
 use bevel_differential::numeric::Dual;
 
 #[test]
-fn a_bound_meets_both_sides_with_slope_and_curvature() {
+fn a_bound_joins_both_sides_with_continuous_slope_and_curvature() {
     let at = |x: f64| floor(Dual::<1>::variable(x, 0), 2.0, 0.5);
     let h = 1e-6;
     for x in [0.0, 1.5 - h, 1.5 + h, 1.7, 2.0, 2.3, 2.5 - h, 2.5 + h, 9.0] {

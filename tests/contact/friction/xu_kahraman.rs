@@ -1,11 +1,12 @@
-//! The law of Xu and Kahraman by hand.
+//! The law of Xu and Kahraman, checked against hand calculations.
 
 use bevel_differential::friction::xu_kahraman::*;
 use bevel_differential::friction::{Conditions, ToothFrictionSpec};
 
 #[test]
 fn value_equals_the_formula_by_hand() {
-    // w = π ρ P²/E* for P = 1 GPa, so that the pressure's power is one; SR = 0.5, ν0 = 10 cP, S = 0.2 µm, R = 10 mm
+    // w = π ρ P²/E* for P = 1 GPa, so that the power of the pressure is one; SR = 0.5, ν0 = 10 cP, S = 0.2 µm, R = 10
+    // mm
     let modulus = 1.15e11;
     let at = Conditions {
         sliding: 5.0,
@@ -36,7 +37,7 @@ fn value_equals_the_formula_by_hand() {
 }
 
 #[test]
-fn the_ranges_of_the_fit_are_those_of_the_thesis() {
+fn the_ranges_of_the_fit_match_the_thesis() {
     let spec = |rms: f64| ToothFrictionSpec { roughness: rms / 1.253_314_137_315_5, ..ToothFrictionSpec::default() };
     // entraining speed, slide-to-roll ratio, pressure in GPa, radius in mm, rms roughness in µm
     let quantity = |[speed, ratio, pressure, radius, rms]: [f64; 5]| {

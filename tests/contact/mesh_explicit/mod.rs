@@ -1,7 +1,7 @@
-//! Explicit spherical-involute gears from vectors and rotations alone: the oracle of the mesh tests.
-//!
-//! A great circle rolls without slip on the base circle; its tracing point draws the flank. Nothing here uses the
-//! program's formulas for the involute, the line of action, the gap of tip corners or the phases.
+//! Explicit spherical-involute gears built only from vectors and rotations: the reference of the mesh tests.
+//! //!
+//! A great circle rolls without slip on the base circle, and its tracing point draws the flank. The program's formulas
+//! for the involute, the line of action, the gap of tip corners and the phases are not used.
 
 #![allow(dead_code)] // each test binary uses its own part
 
@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 pub type V3 = Vector3<f64>;
 
-/// Random gear pairs whose gears stay well inside a half space (tips below 85°); `right` fixes Σ to 90°.
+/// Random gear pairs whose gears stay well inside a half space (tips below 85°). `right` fixes Σ at 90°.
 pub fn random_spec(random: &mut Rng, right: bool) -> GearSpec {
     loop {
         let spec = GearSpec {
@@ -29,7 +29,7 @@ pub fn random_spec(random: &mut Rng, right: bool) -> GearSpec {
         };
         let (delta, _) = pitch_angles(&spec);
         let cone = spec.module * f64::from(spec.planet_teeth) / (2.0 * delta[0].sin());
-        // face width is of no concern on the sphere, but must leave a toe
+        // the face width has no effect on the sphere, but must leave a toe
         let spec = GearSpec { face_width: 0.3 * cone, ..spec };
         // no addendum of these systems exceeds 1.5 modules
         if delta.iter().all(|d| d.to_degrees() + (1.5 * spec.module / cone).atan().to_degrees() < 85.0) {
@@ -38,7 +38,7 @@ pub fn random_spec(random: &mut Rng, right: bool) -> GearSpec {
     }
 }
 
-/// Pitch angles by bisection on the common pitch line, z_s sinδ_p = z_p sinδ_s with δ_p + δ_s = Σ, and the residual.
+/// Pitch angles by bisection for the common pitch line, z_s sinδ_p = z_p sinδ_s with δ_p + δ_s = Σ, and the residual.
 pub fn pitch_angles(spec: &GearSpec) -> ([f64; 2], f64) {
     let (z_p, z_s) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth));
     let f = |d: f64| z_s * d.sin() - z_p * (spec.shaft_angle - d).sin();
@@ -54,7 +54,7 @@ pub fn about(axis: V3, angle: f64) -> Rotation3<f64> {
     Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle)
 }
 
-/// One gear about +z, apex to heel, a tooth centred on the xz plane.
+/// One gear about +z from apex to heel, with a tooth centred on the xz plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Toothed {
     pub teeth: i32,
@@ -64,8 +64,8 @@ pub struct Toothed {
     pub base_azimuth: f64,
 }
 
-/// Tracing point of the great circle rolled by `roll` on a base circle of angle `base`, started on it at azimuth 0:
-/// the circle touches at azimuth roll/sin(base), and the point lies `roll` behind the point of tangency.
+/// Tracing point of the great circle rolled by `roll` on a base circle of angle `base`, starting on it at azimuth 0.
+/// The circle touches at azimuth roll/sin(base), and the point is `roll` behind the point of tangency.
 pub fn rolled(base: f64, roll: f64) -> V3 {
     let turn = roll / base.sin();
     let tangency = V3::new(base.sin() * turn.cos(), base.sin() * turn.sin(), base.cos());
@@ -91,7 +91,7 @@ impl Toothed {
         V3::new(left.x, side * left.y, left.z)
     }
 
-    /// Half tooth angle at polar angle given by its cosine.
+    /// Half tooth angle at the polar angle with the given cosine.
     pub fn half_at_cosine(&self, cosine: f64) -> f64 {
         let cb = self.base.cos();
         let roll = ((cb - cosine) * (cb + cosine)).max(0.0).sqrt().atan2(cosine);
@@ -100,17 +100,19 @@ impl Toothed {
     }
 }
 
-/// Roll at which the tracing point of a great circle on `base` has the polar angle `polar`, by Pythagoras on the sphere.
+/// Roll at which the tracing point of a great circle on `base` has the polar angle `polar`, by the spherical
+/// Pythagorean theorem.
 pub fn roll_at(base: f64, polar: f64) -> f64 {
     ((polar - base).sin() * (polar + base).sin()).max(0.0).sqrt().atan2(polar.cos())
 }
 
-/// The planet and the side gear of `spec` with Gleason, standard, ISO or explicit addenda `addendum` [m].
+/// Planet and side gear of `spec` with the addenda `addendum` [m], from Gleason's, the standard, the ISO or the
+/// explicit system.
 pub fn gears(spec: &GearSpec, addendum: [f64; 2]) -> [Toothed; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let (z_p, z_s, m) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth), spec.module);
     let cone = m * z_p / (2.0 * d_p.sin());
-    // each tooth's arc on the outer pitch circle: half the pitch, plus or minus the split, less half the backlash
+    // arc of each tooth on the outer pitch circle: half the pitch, plus or minus the split, minus half the backlash
     let split = (addendum[0] - addendum[1]) * spec.pressure_angle.tan();
     let thickness = [PI * m / 2.0 + split - spec.backlash / 2.0, PI * m / 2.0 - split - spec.backlash / 2.0];
     let half = [thickness[0] / (m * z_p), thickness[1] / (m * z_s)];
@@ -121,36 +123,37 @@ pub fn gears(spec: &GearSpec, addendum: [f64; 2]) -> [Toothed; 2] {
     ]
 }
 
-/// The assembled differential: x = carrier axis, planet i at azimuth 2πi/N about +x.
+/// The assembled differential, with x along the carrier axis and planet i at azimuth 2πi/N about +x.
 pub struct Differential {
     pub planet: Toothed,
     pub side: Toothed,
     pub planets: i32,
     /// Angle by which each planet is mounted about its axis.
     mount: Vec<f64>,
-    /// Azimuth about +x of a tooth centre of the side gears L and R.
+    /// Azimuth about +x of one tooth centre of each side gear, L and R.
     side_tooth: [f64; 2],
 }
 
-/// A flank of a planet's tooth that can touch a tooth of a side gear, with the side gear's rotation that makes it.
+/// A touch of a planet tooth's flank with a side gear tooth, and the side gear rotation at which it occurs.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch {
-    /// Angle of the planet tooth's centre past the plane of both axes, positive with the planet's travel.
+    /// Angle of the planet tooth's centre past the plane of both axes, positive in the direction of the planet's
+    /// travel.
     pub tooth_angle: f64,
     /// Side gear rotation at first touch [rad].
     pub alpha: f64,
-    /// Polar angle about the side gear's axis, and roll on the planet, where they touch.
+    /// Polar angle of the touch about the side gear's axis, and roll on the planet.
     pub side_polar: f64,
     pub roll: f64,
 }
 
 impl Differential {
-    /// Side gear L has a gap at planet 0's azimuth; every planet is put in to fit L, and R to fit planet 0.
-    /// Panics if then any planet does not fit R.
+    /// Assembles the differential. Side gear L has a gap at the azimuth of planet 0. Every planet is mounted to fit L,
+    /// and R is mounted to fit planet 0. Panics if any planet then does not fit R.
     pub fn new(planet: Toothed, side: Toothed, planets: i32) -> Self {
         let pitch_s = TAU / f64::from(side.teeth);
         let mut it = Self { planet, side, planets, mount: Vec::new(), side_tooth: [pitch_s / 2.0, 0.0] };
-        // a symmetric mount has a tooth or a gap of both gears on the plane of the axes
+        // a symmetric mount has a tooth or a gap of both gears in the plane of the axes
         let at = |centre: f64, angle: f64, pitch: f64| {
             let n = (angle - centre) / pitch;
             let rest = n - n.round();
@@ -167,7 +170,7 @@ impl Differential {
             let azimuth = it.azimuth(i);
             let side_has_tooth = at(it.side_tooth[0], azimuth, pitch_s).expect("planet fits the left side gear");
             it.mount.push(if side_has_tooth { pitch_p / 2.0 } else { 0.0 });
-            // the planet's tooth pattern where it faces R: half a turn on
+            // tooth pattern of the planet toward R, half a turn further
             let planet_has_tooth = at(it.mount[i as usize], PI, pitch_p).expect("planet is symmetric toward R");
             if i == 0 {
                 it.side_tooth[1] = if planet_has_tooth { pitch_s / 2.0 } else { 0.0 };
@@ -182,14 +185,14 @@ impl Differential {
         TAU * f64::from(i) / f64::from(self.planets)
     }
 
-    /// Whether planet `i` shows a tooth (rather than a gap) to side `sigma` as assembled.
+    /// True if planet `i` has a tooth (rather than a gap) toward side `sigma` as assembled.
     pub fn shows_tooth(&self, i: i32, sigma: f64) -> bool {
         let facing = if sigma > 0.0 { 0.0 } else { PI };
         let n = (facing - self.mount[i as usize]) * f64::from(self.planet.teeth) / TAU;
         (n - n.round()).abs() < 1e-9
     }
 
-    /// From the planet's own frame, tooth 0 on its x axis, to the world at spin `psi`.
+    /// Rotation from the planet's own frame, with tooth 0 on its x axis, to the world frame at spin `psi`.
     fn planet_to_world(&self, i: i32, psi: f64) -> Matrix3<f64> {
         let out = about(V3::x(), self.azimuth(i)) * V3::y();
         let frame = Matrix3::from_columns(&[V3::x(), out.cross(&V3::x()), out]);
@@ -197,17 +200,17 @@ impl Differential {
         about(-out, psi).matrix() * frame * about(V3::z(), self.mount[i as usize]).matrix()
     }
 
-    /// First touches of each planet tooth within `window` of the plane of the axes with the side gear's tooth ahead
-    /// (`push` = +1: the planet drives the side gear toward +x rotation) or behind it (−1), when the side gear comes
-    /// from its rotation `free`, at which the teeth stand clear, against the push.
+    /// First touches of each planet tooth within `window` of the plane of the axes. The planet tooth touches the side
+    /// gear tooth ahead (`push` = +1: the planet drives the side gear toward +x rotation) or behind (−1). The side gear
+    /// moves against the push from its rotation `free`, at which the teeth do not touch.
     pub fn touches(&self, i: i32, sigma: f64, psi: f64, push: f64, free: f64, window: f64) -> Vec<Touch> {
-        // seen in the frame turned about x so that the planet points along y
+        // frame rotated about x so that the planet is along y
         let to_world =
             about(V3::x(), -self.azimuth(i)) * Rotation3::from_matrix_unchecked(self.planet_to_world(i, psi));
         let (axis, travel) = (V3::x() * sigma, V3::z());
         let first = self.side_tooth[if sigma > 0.0 { 0 } else { 1 }] - self.azimuth(i);
         let pitch = TAU / f64::from(self.side.teeth);
-        // at L the planet's own azimuth runs against the travel, at R with it
+        // at L, the planet's own azimuth is opposite to the travel, at R along it
         let hand = -sigma * push;
         let mut found = Vec::new();
         for tooth in 0..self.planet.teeth {
@@ -217,7 +220,7 @@ impl Differential {
             if tooth_angle.abs() > window {
                 continue;
             }
-            // how far a side gear's tooth centred on y must be turned so that its flank holds the planet's point
+            // rotation of a side gear tooth centred on y at which its flank contains the planet's point
             let turn_needed = |roll: f64| {
                 let p = turn * self.planet.flank(roll, hand);
                 let cosine = p.dot(&axis);
@@ -228,8 +231,8 @@ impl Differential {
             else {
                 continue;
             };
-            // of the side gear's equal teeth the one met within a pitch from `free`; a quarter pitch of grace, for
-            // without backlash conjugate flanks touch at `free` itself
+            // touch of the side gear's equal teeth that is within one pitch of `free`; a quarter pitch of tolerance is
+            // needed because conjugate flanks without backlash touch at `free` itself
             let back = push * free - (needed - push * first);
             let alpha = free - push * (back - pitch * (back / pitch + 0.25).floor());
             let cosine = (turn * self.planet.flank(roll, hand)).dot(&axis);
@@ -239,8 +242,8 @@ impl Differential {
     }
 }
 
-/// Largest value of `f`, defined on part of [0, `end`], and where: samples, the edges of the part by bisection, and
-/// golden section about the best sample.
+/// Largest value of `f`, which is defined on part of [0, `end`], and its position. Uses samples, the edges of the part
+/// by bisection, and golden section around the best sample.
 fn furthest(f: impl Fn(f64) -> Option<f64>, end: f64) -> Option<(f64, f64)> {
     const SAMPLES: usize = 240;
     let at = |k: usize| end * k as f64 / SAMPLES as f64;
@@ -252,7 +255,7 @@ fn furthest(f: impl Fn(f64) -> Option<f64>, end: f64) -> Option<(f64, f64)> {
         inside
     };
     let best = (0..=SAMPLES).filter_map(|k| f(at(k)).map(|v| (v, k))).max_by(|a, b| a.0.total_cmp(&b.0));
-    // also where only an edge is high: the ends of every admissible stretch
+    // also check the ends of every admissible range, if only an edge is high
     let mut candidate = best.map(|(v, k)| (v, at(k)))?;
     let mut improve = |x: f64| {
         if let Some(v) = f(x)

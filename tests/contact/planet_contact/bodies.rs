@@ -1,5 +1,5 @@
-//! Loads of pairs on elastic gear bodies: what the compliance between them says, within a mesh, between a planet's two meshes, and
-//! under many small teeth.
+//! Loads of pairs on elastic gear bodies, checked against the compliance between pairs: within a mesh, between a
+//! planet's two meshes, and with many small teeth.
 
 use bevel_differential::contact::bodies::{GearBody, PairPlace};
 use bevel_differential::contact::shared::MOST_PAIRS;
@@ -11,13 +11,14 @@ use crate::mesh_laws::Kind;
 
 const ELASTIC: Contact = Contact { is_elastic: true, ..PLAIN };
 
-/// Drive flanks of the first `sides` meshes pressed together by `approach` [rad], the planet turned by `x` [rad] along the left path.
+/// State with drive flanks of the first `sides` meshes pressed together by `approach` [rad] and the planet turned by
+/// `x` [rad] along the left path.
 fn pressed(planet: &Planet, approach: f64, sides: usize, x: f64) -> At {
     let q = [0, 1].map(|side| if side < sides { planet.pressed(-1.0, approach) } else { 0.0 });
     At { position: [[q[0], x, 0.0], [q[1], -x, 0.0]], ..At::FREE }
 }
 
-/// Pairs of both meshes that touch, and true if the teeth of all are beams there.
+/// Touching pairs of both meshes, and true if the teeth of all of them are beams.
 fn pairs(planet: &Planet, at: &At) -> (Vec<PairPlace>, bool) {
     let [low, high] = planet.gears.stiffness[1].range;
     let (mut places, mut are_beams) = (Vec::new(), true);
@@ -31,8 +32,9 @@ fn pairs(planet: &Planet, at: &At) -> (Vec<PairPlace>, bool) {
     (places, are_beams)
 }
 
-/// Displacement t of one pair of drive flanks by a unit load on another, as the bodies have it for loads up to `past` [rad] beyond
-/// the ends of the path [1/Pa]. If the pairs belong to different meshes, the planet has an even number of teeth.
+/// Displacement t of one pair of drive flanks under a unit load on another, computed from the bodies for loads up to
+/// `past` [rad] beyond the ends of the path [1/Pa]. If the pairs belong to different meshes, the planet has an even
+/// number of teeth.
 fn between(gears: &Gears, past: f64, a: &PairPlace, b: &PairPlace) -> f64 {
     let [low, high] = [gears.stiffness[1].path[0] - past, gears.stiffness[1].path[1] + past];
     let teeth = &gears.on_bodies.teeth;
@@ -44,7 +46,8 @@ fn between(gears: &Gears, past: f64, a: &PairPlace, b: &PairPlace) -> f64 {
             let sign = if i == 0 && pair.side == 0 { -1.0 } else { 1.0 };
             [sign * across, along, sign * moment]
         };
-        // teeth of both meshes are opposite as they pass the pitch point, and numbers of pairs stay while they are in contact
+        // teeth of both meshes are opposite when they pass the pitch point, and pair numbers are constant during
+        // contact
         let half_turn = f64::from(gears.pair.gears[0].teeth) / 2.0;
         let further = match (i, a.side, b.side) {
             (0, 0, 1) => half_turn + (a.number + b.number) as f64,
@@ -58,10 +61,10 @@ fn between(gears: &Gears, past: f64, a: &PairPlace, b: &PairPlace) -> f64 {
 }
 
 #[test]
-fn pairs_carry_what_their_common_compliance_says_within_a_mesh_and_between_meshes() {
+fn pair_loads_satisfy_their_common_compliance_within_a_mesh_and_between_meshes() {
     const APPROACH: f64 = 1e-5;
     let mut counts = [[0; 3]; 3];
-    // teeth that have play, so that a mesh that is not pressed is free
+    // teeth with backlash, so that a mesh that is not pressed is free
     for (gear, sides, j) in [(0, 1), (0, 2), (2, 1)].iter().flat_map(|of| (0..200).map(move |j| (of.0, of.1, j))) {
         let planet = Planet::new(ELASTIC, &GEARS[gear]);
         let gears = &planet.gears;
@@ -81,13 +84,13 @@ fn pairs_carry_what_their_common_compliance_says_within_a_mesh_and_between_meshe
         }
         let left = pairs.iter().filter(|pair| pair.side == 0).count();
         counts[left][pairs.len() - left] += 1;
-        // a twentieth of a pair's own
+        // the coupling is a few hundredths of a pair's own compliance
         assert!(left != 1 || pairs.len() != 2 || compliance[(0, 1)] > 0.03 * compliance[(0, 0)], "{compliance}");
     }
     assert!([[1, 0], [2, 0], [1, 1]].iter().all(|&[left, right]| counts[left][right] > 10), "{counts:?}");
 }
 
-/// Teeth and bores [m] of planet and side gear: few and many, thin shafts and thick ones.
+/// Teeth and bores [m] of planet and side gear: few and many teeth, thin and thick shafts.
 const SETS: [([i32; 2], [f64; 2]); 8] = [
     ([10, 16], [0.0, 0.0]),
     ([40, 40], [0.0, 0.0]),
@@ -100,12 +103,12 @@ const SETS: [([i32; 2], [f64; 2]); 8] = [
 ];
 
 #[test]
-fn many_pairs_are_coupled_as_the_bodies_are_lose_no_energy_and_carry_alike_in_both_evaluators() {
+fn many_coupled_pairs_match_the_bodies_lose_no_energy_and_have_equal_loads_in_both_evaluators() {
     let mut crowded = 0;
     for (teeth, bores) in SETS {
         let planet = Planet::new(Contact { law: Kind::LineWeber, ..ELASTIC }, &Gears::new(teeth, bores, 1.5, 1e-4));
         let (gears, stiffness) = (&planet.gears, &planet.gears.stiffness[1]);
-        // Hertz's part is least under the highest load, by its slope
+        // the Hertz part is smallest under the highest load, because of its slope
         let ratio = stiffness.limit / stiffness.reference;
         let stiffer = STEEL.local() * (1.0 + if ratio >= 1.0 { ratio.ln() } else { ratio - 1.0 });
         let alone = |pair: &PairPlace| stiffness.line().compliance(pair.s) - stiffer;
@@ -116,7 +119,7 @@ fn many_pairs_are_coupled_as_the_bodies_are_lose_no_energy_and_carry_alike_in_bo
             let at = pressed(&planet, 0.5 * share * pitch, 2, pitch * f64::from(j) / 6.0);
             let (pairs, _) = pairs(&planet, &at);
             crowded += usize::from(pairs.len() > MOST_PAIRS);
-            // both evaluators choose the same pairs if there are more than fit
+            // if there are more pairs than fit, both evaluators choose the same ones
             let ((a, _), (b, _)) = (planet.linearised(&at), whole.linearised(&at));
             for i in planet.coordinates(0..6) {
                 let off = (a.readings[i / 3][i % 3] - b.readings[i / 3][i % 3]).abs();
@@ -129,7 +132,7 @@ fn many_pairs_are_coupled_as_the_bodies_are_lose_no_energy_and_carry_alike_in_bo
                     return alone(&pairs[k]) / scale;
                 }
                 let t = gears.couplings.coupling::<false>(&pairs[k], &pairs[l]).value;
-                // one value serves for places further past the ends
+                // one value is used for positions further past the ends
                 let off = (t - between(gears, 0.25 * gears.pair.base_pitch, &pairs[k], &pairs[l])).abs();
                 assert!(off < 0.03 * scale, "{teeth:?} {bores:?}: {off:e} of {scale:e}");
                 t / scale

@@ -1,4 +1,4 @@
-//! Forces are the gradient of the energy, do not jump, and have the derivatives that they say, under every kind of contact.
+//! Under every kind of contact, forces are the gradient of the energy, are continuous, and have the stated derivatives.
 
 use bevel_differential::contact::damping::Damping;
 
@@ -12,7 +12,7 @@ fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
     for_each_point(1, 20, those(|_| true), |planet, at| {
         let (contact, mut tested) = (&planet.contact, false);
         for side in 0..2 {
-            // the energy of a stiff planet's other mesh would only add rounding
+            // with a stiff planet, the energy of the other mesh would only add rounding errors
             let at = if contact.is_elastic { at.at_rest() } else { at.at_rest().only(side) };
             let coordinates = planet.coordinates(3 * side..3 * side + 3);
             let scale = planet.scale(&at);
@@ -21,8 +21,8 @@ fn forces_at_rest_are_minus_the_gradient_of_the_energy() {
             };
             (tested, _) = (true, pattern.count(&mut counts));
             assert_eq!(planet.energy_gained(&at, &at), 0.0);
-            // twelve points over a partly loaded face have force and energy of a logarithmic law to 1e-8 each, and own arcs on
-            // elastic bodies are solved to rounding of the deepest arc
+            // twelve points over a partly loaded face compute force and energy of a logarithmic law to 1e-8 each, and
+            // own arcs on elastic bodies are solved to rounding of the deepest arc
             let is_summed = contact.law == Kind::LineWeber && pattern.is_partly_loaded();
             let limit = if is_summed || contact.is_elastic { 3e-8 } else { 1e-8 };
             for i in coordinates {
@@ -44,9 +44,9 @@ fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; READINGS]; 2]) {
     for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
         let (a, b) = (entry(i, j), entry(j, i));
         let limit = match planet.contact {
-            // the same product both ways round
+            // the same product in both orders
             Contact { face: Face::Plain, is_elastic: false, .. } => 1e-14 * a.abs(),
-            // twelve points over a partly loaded face have a logarithmic law to 1e-8
+            // twelve points over a partly loaded face integrate a logarithmic law to 1e-8
             Contact { face: Face::Cut, law: Kind::LineWeber, .. } => 1e-8 * largest,
             _ => 1e-12 * largest,
         };
@@ -54,32 +54,33 @@ fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; READINGS]; 2]) {
     }
 }
 
-/// True if damping is a step, which is no polynomial over the face.
+/// True if damping is a step, which is not a polynomial over the face.
 fn is_step(contact: &Contact) -> bool {
     matches!(contact.damping, Damping::Step { coefficient, .. } if coefficient > 0.0)
 }
 
-/// Largest error of a derivative, over the largest derivative of its mesh with respect to positions or rates.
+/// Largest error of a derivative relative to the largest derivative of its mesh with respect to positions or rates.
 fn slope_limit(contact: &Contact, is_partly_loaded: bool) -> f64 {
     if !(is_partly_loaded && contact.law == Kind::Line && is_step(contact)) {
-        // rounding ε F/(h F′) ~ 1e-12, which grows where forces nearly cancel
+        // rounding error ε F/(h F′) ~ 1e-12, which grows if forces nearly cancel
         return 1e-6;
     }
-    // Four points over a partly loaded face are exact for a linear law, so its derivatives leave out how the points move. The step
-    // of damping and, with it, friction that depends on the load are no polynomials over the face. Where crowning exceeds the
-    // depth of full damping, the step even has its bend on the face, and four points have its damping to a hundredth.
+    // Four points over a partly loaded face are exact for a linear law, so its derivatives omit the motion of the
+    // points. The step of damping, and friction that depends on the damped load, are not polynomials over the face. If
+    // crowning exceeds the depth of full damping, the step even has its bend on the face, and four points integrate its
+    // damping only to one hundredth.
     let has_bend = matches!(contact.teeth, Teeth::Made(spec, _) if spec.crowning * PER_FULL_DEPTH > 1.0);
     if has_bend { 1e-2 } else { 3e-4 }
 }
 
 #[test]
-fn derivatives_are_those_of_the_forces_and_symmetric_without_dissipation() {
+fn derivatives_match_the_forces_and_are_symmetric_without_dissipation() {
     let (mut counts, mut across) = ([0; 5], 0);
     for_each_point(2, 40, those(|_| true), |planet, at| {
         let (forces, slopes) = planet.linearised(at);
         assert_eq!(forces, planet.forces(at));
         let energy = planet.energy(at);
-        // arcs of flanks that barely touch are rounded
+        // arcs of flanks that barely touch are dominated by rounding
         assert!((slopes.energy - energy).abs() <= 1e-10 * energy.max(1e-6), "{} {energy}", slopes.energy);
         let contact = &planet.contact;
         if contact.damping == UNDAMPED && contact.friction.is_none() {
@@ -102,7 +103,7 @@ fn derivatives_are_those_of_the_forces_and_symmetric_without_dissipation() {
                 let sizes = (0..3 * READINGS).map(|k| (by[k / 3][own + k % 3] * unit(k / 3) * planet.unit(k)).abs());
                 let (scale, exact) = (sizes.fold(1e-30, f64::max), by[row][i]);
                 let off = (found - exact).abs() * unit(row) * planet.unit(i) / scale;
-                // a stiff planet has nothing of its other mesh
+                // a stiff planet has no terms of its other mesh
                 assert!(found == exact || off < limit, "side {side} row {row} by {i}: {exact} {found} off {off:e}");
             }
         }
@@ -121,10 +122,10 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         let at = |x: f64| start.moved(1, x).moved(4, -x);
         let pattern = |x: f64| planet.pattern(&at(x)).points;
         let place = |k: usize| planet.gears.pair.base_pitch * k as f64 / STEPS as f64;
-        // harsh damping may leave no force at all
+        // strong damping may leave no force at all
         let scale = (0..STEPS).map(|k| planet.scale(&at(place(k)).at_rest())).fold(0.0, f64::max);
-        // eight and twelve points over a face take turns: on a broken tooth they have a logarithmic law to 1e-8, and a step of damping
-        // that has its bend on the face to 1e-6
+        // the sums switch between eight and twelve points over a face; on a broken tooth they integrate a logarithmic
+        // law to 1e-8, and a step of damping with its bend on the face to 1e-6
         let limit = match planet.contact {
             Contact { law: Kind::LineWeber, face: Face::Cut, .. } if is_step(&planet.contact) => 1e-6,
             Contact { law: Kind::LineWeber, teeth: Teeth::Made(_, [_, depth]), .. } if depth > 0.0 => 1e-8,
@@ -147,7 +148,7 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
                 let jump = (a.0[i / 3][i % 3] - b.0[i / 3][i % 3]).abs() * planet.unit(i);
                 assert!(jump <= limit * scale, "{i} jumps by {jump:e} of {scale:e} at x {before}");
             }
-            // with it, forces are the gradient of the energy across switches, too
+            // together with continuous energy, forces are the gradient of the energy also across switches
             assert!((a.1 - b.1).abs() <= 1e-9 * a.1.max(1e-3 * scale), "energy jumps at x {before}: {} {}", a.1, b.1);
         }
         true

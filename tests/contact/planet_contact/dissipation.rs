@@ -1,4 +1,4 @@
-//! Damping and friction only ever dissipate, and what they take from the motion becomes heat.
+//! Damping and friction only dissipate, and the power that they take from the motion becomes heat.
 
 use bevel_differential::contact::Flank;
 
@@ -13,7 +13,7 @@ fn power(readings: &[[f64; READINGS]; 2], at: &At) -> f64 {
 }
 
 #[test]
-fn power_of_the_forces_plus_heat_is_what_the_energy_loses() {
+fn power_of_the_forces_plus_heat_equals_the_loss_of_energy() {
     let mut hot = [0; 2];
     for_each_point(11, 40, those(|_| true), |planet, at| {
         let (forces, resting) = (planet.forces(at), planet.forces(&at.at_rest()));
@@ -30,7 +30,7 @@ fn power_of_the_forces_plus_heat_is_what_the_energy_loses() {
 }
 
 #[test]
-fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arms_and_heats_by_its_power() {
+fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arms_and_its_power_becomes_heat() {
     const MU: f64 = 0.07;
     let mut seen = [0; 3];
     let wanted = |of: &Contact| of.face == Face::Plain && of.law != Kind::Lumped && of.damping == UNDAMPED;
@@ -39,8 +39,8 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
         let smooth = Planet::new(whole, &planet.gears);
         let rough = Planet::new(Contact { friction: coulomb(MU, 1e-9), ..whole }, &planet.gears);
         let (at, pair) = (at.only(0), &planet.gears.pair);
-        // Directions to the pitch point of a right-angled pair and, along the line of action, toward the planet's tip; the line
-        // leans by α out of the direction of motion, away from the planet's axis
+        // Directions to the pitch point of a right-angled pair and, along the line of action, toward the planet's tip.
+        // The line is inclined by α to the direction of motion, away from the planet's axis.
         let (delta, axes) = (pair.gears[0].pitch, [V3::z(), V3::x()]);
         let start = V3::new(delta.sin(), 0.0, delta.cos());
         let outward = V3::new(delta.cos(), 0.0, -delta.sin());
@@ -52,11 +52,12 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
         let speeds = [dx / p, (dq + dx) / q];
         let (mut torques, mut heat, mut scale, mut slowest) = ([0.0; 2], 0.0, 0.0f64, f64::INFINITY);
         rough.loaded(&at, |point, _| {
-            // on the drive flank the planet's tooth moves against the line of action, toward which its tip is; the coast flank is
-            // its mirror image
+            // On the drive flank, the planet's tooth moves against the line of action, and its tip is in the direction
+            // of this line. The coast flank is the mirror image.
             let sign = if point.flank == Flank::Coast { 1.0 } else { -1.0 };
             let contact = (start * point.s.cos() + tangent * point.s.sin()) * point.cone;
             // travel along the tangent is positive rotation about the planet's axis, negative about the side gear's
+            // axis
             let ways = [axes[0] * -sign, axes[1] * sign];
             let sliding = (ways[0] * speeds[0] - ways[1] * speeds[1]).cross(&contact).dot(&tip_ward);
             slowest = slowest.min(sliding.abs());

@@ -1,6 +1,6 @@
-//! Kinds of contact of a planet with both side gears, and the one interface to the library's evaluators.
-//!
-//! A new kind of contact is a line in [`kinds`]. No other file of this suite names an evaluator.
+//! Kinds of contact of a planet with both side gears, and the single interface to the library's evaluators.
+//! //!
+//! A new kind of contact is a line in [`kinds`]. No other file of this suite refers to an evaluator.
 
 use std::sync::{Arc, LazyLock};
 
@@ -20,16 +20,17 @@ use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, RESTITUTION, STEP, UNDAMPED}
 use crate::tooth_errors::every_kind;
 
 pub const STEEL: Elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
-/// Line load of Hertz's part at the mean cone distance [N/m].
+/// Line load of the Hertz part at the mean cone distance [N/m].
 const LINE_LOAD: f64 = 4e5;
 /// Laws of elastic teeth, which are valid at every cone distance and on elastic bodies.
 pub const OF_TEETH: [Kind; 2] = [Kind::Line, Kind::LineWeber];
-/// The planet of the tests, the number of planets, and pairs by which its position was wrapped, in the sense of x of each mesh.
+/// Index of the tested planet, number of planets, and pairs by which its position was wrapped, positive in the
+/// direction of x of each mesh.
 const PLANET: usize = 1;
 const PLANETS: usize = 2;
 pub const WRAPPED: [i64; 2] = [3, -3];
 
-/// Position [q, x, w] and rates of the left and the right mesh, and pairs by which x was wrapped.
+/// Position [q, x, w] and rates of the left and the right mesh, and number of pairs by which x was wrapped.
 #[derive(Clone, Copy, Debug)]
 pub struct At {
     pub position: [[f64; 3]; 2],
@@ -43,8 +44,8 @@ impl At {
     }
 }
 
-/// Readings of a mesh: forces conjugate to q, x, w, then thrust on planet and side gear, and tangential force, which are zero under
-/// plain kinds.
+/// Number of readings of a mesh: forces conjugate to q, x, w, then thrust on planet and side gear, and tangential
+/// force. Thrusts and tangential force are zero under plain kinds.
 pub const READINGS: usize = 6;
 
 /// Readings of each mesh, and its heat of contact and of friction.
@@ -54,14 +55,15 @@ pub struct Forces {
     pub heat: [[f64; 2]; 2],
 }
 
-/// Derivatives of the readings of both meshes with respect to [q, x, w] left and right, then to their rates, and the energy.
+/// Derivatives of the readings of both meshes with respect to [q, x, w] left and right and to their rates, and the
+/// energy.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slopes {
     pub by: [[[f64; 12]; READINGS]; 2],
     pub energy: f64,
 }
 
-/// Evaluator: a plain mesh, or one in detail with one resultant or with loads over the face.
+/// Evaluator: a plain mesh, or a detailed mesh with one resultant or with loads over the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     Plain,
@@ -69,7 +71,8 @@ pub enum Face {
     Cut,
 }
 
-/// Perfect teeth, or teeth with errors of which one is broken: at a fraction of its face from the heel a depth [m] is missing.
+/// Perfect teeth, or teeth with errors, one of which is broken: over a fraction of its face from the heel, a depth [m]
+/// is missing.
 #[derive(Clone, Copy, Debug)]
 pub enum Teeth {
     Perfect,
@@ -79,7 +82,7 @@ pub enum Teeth {
 /// No broken tooth.
 pub const SOUND: [f64; 2] = [0.0; 2];
 
-/// A kind of contact; side gears that are displaced move along their axes.
+/// A kind of contact. If side gears are displaced, they move along their axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
     pub law: Kind,
@@ -92,7 +95,7 @@ pub struct Contact {
     pub has_corners: bool,
 }
 
-/// Plain teeth with the law `line`.
+/// Plain teeth under the law `line`.
 pub const PLAIN: Contact = Contact {
     law: Kind::Line,
     damping: UNDAMPED,
@@ -113,7 +116,7 @@ pub fn kinds() -> Vec<Contact> {
     let xu = ToothFrictionSpec { law: FrictionLaw::XuKahraman, regularisation_speed: 0.05, ..Default::default() };
     let dissipation =
         [(UNDAMPED, None), (STEP, None), (RESTITUTION, None), (RESTITUTION, coulomb(0.07, 0.05)), (STEP, Some(xu))];
-    // and so much damping that flanks often let go
+    // damping so strong that flanks often separate
     let stepping = Damping::Step { coefficient: 1e7, per_full_depth: PER_FULL_DEPTH };
     let dampings = [UNDAMPED, STEP, RESTITUTION, stepping, Damping::HuntCrossley { lambda: 60.0 }];
     let spec = ToothErrorSpec::default();
@@ -126,7 +129,7 @@ pub fn kinds() -> Vec<Contact> {
         Teeth::Made(spec, [0.5, 1e-3]),
         Teeth::Made(spec, [0.5, 4e-6]),
         Teeth::Made(every_kind(), SOUND),
-        // excess material that is the same all over the face
+        // excess material that is uniform over the face
         Teeth::Made(ToothErrorSpec { side_axial_offset: -2e-4, ..spec }, SOUND),
     ];
     let mut kinds = Vec::new();
@@ -149,7 +152,8 @@ pub fn kinds() -> Vec<Contact> {
     kinds
 }
 
-/// A pair of gears with the exponent of IMPACT: stiff and with elastic bodies, without and with contact of tip corners.
+/// A pair of gears with the exponent of IMPACT, with stiff and with elastic bodies, without and with contact of tip
+/// corners.
 pub struct Gears {
     pub pair: Pair,
     pub exponent: f64,
@@ -170,7 +174,7 @@ pub static GEARS: LazyLock<[Arc<Gears>; 4]> = LazyLock::new(|| {
 });
 
 impl Gears {
-    /// Gears with `teeth`, `bores` [m] and `backlash` [m].
+    /// Returns gears with `teeth`, `bores` [m] and `backlash` [m].
     pub fn new([planet_teeth, side_teeth]: [i32; 2], bores: [f64; 2], exponent: f64, backlash: f64) -> Arc<Self> {
         let pair = Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() });
         let sections = PairStiffness::teeth(&pair, &RootSpec::default(), STEEL).unwrap();
@@ -185,7 +189,8 @@ impl Gears {
         Arc::new(Self { pair, exponent, teeth, stiffness: [stiff, elastic], on_bodies, couplings, engagements })
     }
 
-    /// Number of the planet's tooth that stands at the right mesh's line as tooth 0 does at the left one's.
+    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// mesh.
     pub fn opposite(&self) -> i64 {
         self.teeth.opposite(PLANET)
     }
@@ -241,7 +246,7 @@ fn linearised<C: PlanetContact>(contact: &C, at: &PlanetState) -> (Forces, Slope
     contact.linearise(at, &mut loads);
     let mut slopes = Slopes { energy: loads.iter().map(C::Linearised::energy).sum(), ..Slopes::default() };
     for (side, load) in loads.iter().enumerate() {
-        // with respect to q, x, w, their rates, and q, x, w of the other mesh
+        // derivatives with respect to q, x, w, to their rates, and to q, x, w of the other mesh
         let blocks = [load.by_position(), load.by_rate(), load.by_other()];
         let [q, x, w] = [0, 1, 2].map(|row| std::array::from_fn(|i| blocks[i / 3][row][i % 3]));
         let pressing = load.pressing_slopes();
@@ -316,8 +321,8 @@ impl Planet {
         sum
     }
 
-    /// The cone distance of a point of a face, unless it moves with the loaded part, and whether both ends of the face, and the
-    /// edge of a broken tooth on both sides, are loaded.
+    /// Cone distance of a point of a face, unless it moves with the loaded part. The flags are true if the two ends of
+    /// the face, and the edge of a broken tooth on both sides, are loaded.
     pub fn fixed(&self, load: &ToothLoad, slice: Option<&SliceLoad>) -> (Option<f64>, [bool; 4]) {
         let Some(slice) = slice else { return (Some(load.cone), [true; 4]) };
         let face = &self.constants.detailed.face;
@@ -329,7 +334,7 @@ impl Planet {
         (Some(load.cone).filter(|cone| is_fixed(*cone)), ends.map(is_loaded))
     }
 
-    /// Pairs of perfect teeth of the mesh `side` that touch.
+    /// Touching pairs of perfect teeth of the mesh `side`.
     pub fn pairs(&self, at: &At, side: usize) -> Vec<ToothPair> {
         let [q, x, _] = at.position[side];
         self.constants.mesh.engagement.pairs([q, x]).collect()
@@ -342,7 +347,7 @@ impl Planet {
         self.constants.gaps(false).map_or(Opening::NONE, |gaps| gaps.opening(&name, *s))
     }
 
-    /// Elastic torque per ∫R² dR of teeth at the arc `arc` and the place `s` [rad].
+    /// Elastic torque per ∫R² dR of teeth at the arc `arc` and the position `s` [rad].
     pub fn torque(&self, arc: f64, s: f64) -> f64 {
         self.constants.mesh.spring.at(arc, s).torque
     }

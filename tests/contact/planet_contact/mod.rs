@@ -1,5 +1,5 @@
-//! One planet with both side gears under every kind of contact: laws, plain and detailed meshes, tooth errors, friction, displaced
-//! side gears, stiff and elastic gear bodies.
+//! One planet with both side gears under every kind of contact: laws, plain and detailed meshes, tooth errors,
+//! friction, displaced side gears, stiff and elastic gear bodies.
 
 mod bodies;
 mod derivatives;

@@ -1,4 +1,4 @@
-//! Points at random, inside and outside the lash, and differences that stay clear of switches.
+//! Random points inside and outside the backlash, and differences whose steps avoid switches.
 
 use std::ops::Range;
 
@@ -9,11 +9,11 @@ use super::kinds::{At, Contact, GEARS, Planet, READINGS, Teeth, WRAPPED, kinds};
 use crate::mesh_laws::PER_FULL_DEPTH;
 use crate::random::Draws;
 
-/// Depths of loaded flanks from which steps of differences are taken [rad]: the opening of crowned flanks is rounded to 1e-17, and
-/// tables of teeth have kinks of third order.
+/// Depths of loaded flanks from which the steps of differences are derived [rad]. The opening of crowned flanks is
+/// rounded to 1e-17, and tables of teeth have kinks of third order.
 const DEPTHS: [f64; 2] = [2e-5, 3e-3];
 
-/// What is tested; it is shown if the test fails.
+/// The present case, printed if the test fails.
 struct Case<'a>(&'a Contact, &'a At);
 
 impl Drop for Case<'_> {
@@ -24,15 +24,16 @@ impl Drop for Case<'_> {
     }
 }
 
-/// Those kinds of contact that are `wanted`.
+/// Returns the kinds of contact that are `wanted`.
 pub fn those(wanted: impl Fn(&Contact) -> bool) -> Vec<Contact> {
     kinds().into_iter().filter(|contact| wanted(contact)).collect()
 }
 
-/// Calls `test` with `count` points of each of these kinds of contact. It returns false at a point next to a switch.
+/// Calls `test` with `count` points of each of these kinds of contact. `test` returns false at a point next to a
+/// switch.
 pub fn for_each_point(seed: u64, count: usize, of: Vec<Contact>, mut test: impl FnMut(&Planet, &At) -> bool) {
     for contact in of {
-        // a kind has the same gears and points whatever other kinds there are
+        // the gears and points of a kind do not depend on the other kinds
         let bytes = format!("{contact:?}").into_bytes();
         let number = bytes.into_iter().fold(seed, |number, byte| number.wrapping_mul(31).wrapping_add(u64::from(byte)));
         let planet = Planet::new(contact, &GEARS[(number % GEARS.len() as u64) as usize]);
@@ -47,14 +48,14 @@ pub fn for_each_point(seed: u64, count: usize, of: Vec<Contact>, mut test: impl 
 }
 
 impl At {
-    /// Both meshes in the middle of their lash.
+    /// Both meshes in the middle of their backlash.
     pub const FREE: Self = Self { position: [[0.0; 3]; 2], rate: [[0.0; 3]; 2], wrapped: WRAPPED };
 
     pub fn at_rest(self) -> Self {
         Self { rate: [[0.0; 3]; 2], ..self }
     }
 
-    /// The mesh `side` as it is, the other one free.
+    /// Keeps the mesh `side` and frees the other one.
     pub fn only(mut self, side: usize) -> Self {
         (self.position[1 - side], self.rate[1 - side]) = ([0.0; 3], [0.0; 3]);
         self
@@ -67,7 +68,7 @@ impl At {
         self
     }
 
-    /// Central difference of fourth order.
+    /// Fourth-order central difference.
     pub fn difference<const N: usize>(&self, i: usize, h: f64, f: impl Fn(&Self) -> [f64; N]) -> [f64; N] {
         let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| f(&self.moved(i, k * h)));
         std::array::from_fn(|n| (8.0 * (c[n] - b[n]) - (d[n] - a[n])) / (12.0 * h))
@@ -76,8 +77,9 @@ impl At {
 
 /// Side, flank and teeth of a pair.
 type Name = (usize, Flank, [usize; 2]);
-/// Pair of a loaded point, kind of contact, cone distance if the point does not move, and whether ends of the face and of a broken
-/// tooth's parts are loaded, flanks are about to part, and damping is full. Where this changes, derivatives jump or bend.
+/// Pair of a loaded point, kind of contact, and cone distance if the point does not move. The flags tell which ends of
+/// the face and of a broken tooth's parts are loaded, whether flanks are about to separate, and whether damping is
+/// full. At changes of these values, derivatives jump or have kinks.
 type Point = (Name, Spot, Option<f64>, [bool; 4], [bool; 2]);
 
 /// Loaded points of both meshes.
@@ -90,16 +92,16 @@ pub struct Pattern {
 }
 
 impl Planet {
-    /// Position q at which the flanks of the side `hand` approach by `approach` [rad].
+    /// Position q at which the flanks of direction `hand` approach by `approach` [rad].
     pub fn pressed(&self, hand: f64, approach: f64) -> f64 {
         hand * (self.gears.pair.normal_backlash / 2.0 + approach).max(0.0)
     }
 
-    /// A point at random: on either flank, within the lash or barely out of it, next to a tip corner, or under loads that no gear
-    /// bears; half of the points are those of teeth on one body.
+    /// A random point: on either flank, within or barely outside the backlash, next to a tip corner, or under loads
+    /// beyond those of any gear. In half of the points, the teeth of both meshes belong to one body.
     fn point(&self, random: &mut Rng) -> At {
         let (pair, mut at) = (&self.gears.pair, At::FREE);
-        // excess material presses teeth whose flanks would not touch yet
+        // excess material also presses teeth whose flanks would not touch yet
         let least = if matches!(self.contact.teeth, Teeth::Perfect) { -3e-4 } else { -1.3e-3 };
         for side in 0..2 {
             let depth = match random.below(8) {
@@ -119,7 +121,7 @@ impl Planet {
             at.position[side] = [self.pressed(hand, depth), x, w * random.between(-1.0, 1.0)];
             at.rate[side] = [1.0, 1.0, dw].map(|most| random.between(-most, most));
             if self.contact.friction.is_some() {
-                // flanks roll: friction bends where they stop
+                // flanks roll, because friction has a kink at zero rolling speed
                 let [q, x, _] = at.rate[side];
                 at.rate[side][..2].copy_from_slice(&[0.4 * q, 0.5 * (x + x.signum())]);
             }
@@ -127,19 +129,20 @@ impl Planet {
         if random.chance(2) { self.joined(at) } else { at }
     }
 
-    /// The right mesh at the travel that follows from the left one's, as teeth of one body have it.
+    /// Sets the travel of the right mesh to that of teeth on the same body as those of the left mesh.
     pub fn joined(&self, mut at: At) -> At {
         at.position[1][1] = 0.5 * self.off_opposite() - at.position[0][1];
         at
     }
 
-    /// Travel between the planet's tooth at the right mesh's line and the place opposite to the left one, twice [rad].
+    /// Twice the travel between the planet tooth at the right mesh's line and the position opposite to the left line
+    /// [rad].
     pub fn off_opposite(&self) -> f64 {
         let pair = &self.gears.pair;
         (i64::from(pair.gears[0].teeth) - 2 * self.gears.opposite()) as f64 * pair.base_pitch
     }
 
-    /// Those of the coordinates `of` that this kind of contact has.
+    /// Returns the coordinates in `of` that this kind of contact has.
     pub fn coordinates(&self, of: Range<usize>) -> Vec<usize> {
         of.filter(|i| i % 3 < if self.contact.is_displaced { 3 } else { 2 }).collect()
     }
@@ -162,7 +165,7 @@ impl Planet {
         let mut pairs: Vec<(Name, f64)> = Vec::new();
         self.loaded(at, |load, slice| {
             let arc = load.depth / load.cone;
-            // others pull teeth together, too, that do not touch then
+            // other pairs can also pull teeth into contact that then do not touch
             if arc <= 0.0 {
                 return;
             }
@@ -184,7 +187,8 @@ impl Planet {
         pattern
     }
 
-    /// Steps of differences by `coordinates`, the fraction `share` of the depth of each mesh, if nothing switches within them.
+    /// Steps of differences by `coordinates`: the fraction `share` of the depth of each mesh, or `None` if anything
+    /// switches within them.
     pub fn smooth_steps(&self, at: &At, share: f64, coordinates: &[usize]) -> Option<([f64; 12], Pattern)> {
         let here = self.pattern(at);
         let depth = here.deepest.map(|depth| depth.clamp(DEPTHS[0], DEPTHS[1]));
@@ -200,12 +204,12 @@ impl Planet {
 }
 
 impl Pattern {
-    /// True if a part of the face of some pair is loaded, whose points move with the load.
+    /// True if some pair has a partly loaded face, whose points move with the load.
     pub fn is_partly_loaded(&self) -> bool {
         self.points.iter().any(|(_, _, cone, ..)| cone.is_none())
     }
 
-    /// Counts points with a partly loaded face, pairs by kind of contact, and flanks that let go.
+    /// Counts points with a partly loaded face, pairs by kind of contact, and flanks that separate.
     pub fn count(&self, counts: &mut [usize; 5]) {
         counts[0] += usize::from(self.is_partly_loaded());
         for (_, spot, _, _, [is_clipped, _]) in &self.points {

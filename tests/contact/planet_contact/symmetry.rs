@@ -1,4 +1,4 @@
-//! Symmetries of the forces, and kinds of contact that are the same thing.
+//! Symmetries of the forces, and equivalent kinds of contact.
 
 use std::ops::Range;
 
@@ -24,8 +24,8 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
-/// Checks that two contacts have the same energy, heat and `rows` of readings, and the same derivatives of these with respect to the
-/// first `coordinates`, within `limit` of the largest. `sign` is that of a row and of a coordinate.
+/// Checks that two contacts have the same energy, heat and `rows` of readings, and the same derivatives with respect to
+/// the first `coordinates`, within `limit` of the largest. `sign` is the sign of a row and of a coordinate.
 fn compare([a, b]: [(&Planet, At); 2], (rows, coordinates): (Range<usize>, usize), sign: [f64; READINGS], limit: f64) {
     let resting = a.0.scale(&a.1.at_rest());
     let [(a, da), (b, db)] = [a, b].map(|(planet, at)| planet.linearised(&at));
@@ -46,11 +46,11 @@ fn compare([a, b]: [(&Planet, At); 2], (rows, coordinates): (Range<usize>, usize
 #[test]
 fn coasting_is_the_mirror_image_of_driving() {
     for_each_point(5, 40, those(is_perfect), |planet, at| {
-        // teeth of one body, which an elastic planet needs, and side gears that are displaced outward stay so
+        // an elastic planet needs teeth of one body; side gears displaced outward stay displaced outward
         let at = if planet.contact.is_elastic { planet.joined(*at) } else { *at };
         let turned = |values: [[f64; 3]; 2]| values.map(|[q, x, w]| [-q, -x, w]);
         let mirror = At { position: turned(at.position), rate: turned(at.rate), ..at };
-        // pairs on both flanks, which displaced gears and elastic bodies press, are summed in another order
+        // pairs on both flanks, pressed by displaced gears and elastic bodies, are summed in a different order
         let (mirror, limit) = match planet.contact {
             // the teeth at both meshes' lines are not opposite
             Contact { is_elastic: true, .. } => (mirror.moved(4, planet.off_opposite()), 1e-10),
@@ -73,8 +73,8 @@ fn contact_is_the_same_a_base_pitch_further() {
 }
 
 #[test]
-fn contact_is_the_same_where_the_position_is_wrapped_by_another_number_of_pairs() {
-    // one spring has no teeth
+fn contact_does_not_depend_on_the_number_of_pairs_by_which_the_position_is_wrapped() {
+    // a mesh with one spring has no teeth
     for_each_point(13, 40, those(|of| of.law != Kind::Lumped), |planet, at| {
         let further = 2.0 * planet.gears.pair.base_pitch;
         let mut next = at.moved(1, further).moved(4, -further);
@@ -91,7 +91,7 @@ fn contact_is_the_same_where_the_position_is_wrapped_by_another_number_of_pairs(
 }
 
 #[test]
-fn flanks_that_do_not_touch_carry_nothing() {
+fn flanks_that_do_not_touch_are_not_loaded() {
     for_each_point(7, 40, those(|of| is_perfect(of) && !of.is_displaced), |planet, at| {
         let (mut at, half) = (*at, planet.gears.pair.normal_backlash / 2.0);
         at.position.iter_mut().for_each(|[q, ..]| *q = 0.999_999 * half * q.signum());
@@ -101,7 +101,7 @@ fn flanks_that_do_not_touch_carry_nothing() {
 }
 
 #[test]
-fn without_corner_contact_each_pair_on_the_path_carries_the_whole_approach() {
+fn without_corner_contact_each_pair_on_the_path_has_the_whole_approach() {
     for_each_point(8, 4000, those(|of| of.law == Kind::Impact && !of.has_corners), |planet, at| {
         let (at, pair) = (at.at_rest().only(0), &planet.gears.pair);
         let [q, x, _] = at.position[0];
@@ -114,7 +114,7 @@ fn without_corner_contact_each_pair_on_the_path_carries_the_whole_approach() {
         let e = planet.gears.exponent;
         let expected = count * impact(e).stiffness * (pair.mean_cone * approach).powf(e + 1.0) / (e + 1.0);
         same(planet.energy(&at), expected, 1e-12 * expected);
-        // straight along the path: no force by x
+        // straight along the path, there is no force along x
         assert_eq!(planet.forces(&at).readings[0][1], 0.0);
         true
     });
@@ -133,10 +133,10 @@ fn kinds_without_effects_are_the_plain_mesh() {
             spots[point.spot as usize] += 1;
             coast += usize::from(point.flank == Flank::Coast);
         });
-        // own arcs on elastic bodies are solved, not summed
+        // own arcs on elastic bodies are solved iteratively, not summed
         let limit = if planet.contact.is_elastic { 1e-10 } else { 1e-12 };
         compare([(planet, at), (&plain, at)], (0..2, 2), [1.0; READINGS], limit);
-        // thrusts and the force on side gears have one resultant
+        // thrusts and the force on side gears are compared with one resultant
         compare([(planet, at), (&whole, at)], (2..READINGS, 2), [1.0; READINGS], limit);
         let scale = limit * plain.scale(&at).max(plain.scale(&at.at_rest())) / plain.cone();
         let loads_are_the_same = |a: &ToothLoad, _: Option<&SliceLoad>| {
@@ -151,7 +151,7 @@ fn kinds_without_effects_are_the_plain_mesh() {
 }
 
 #[test]
-fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
+fn components_of_a_normal_force_match_the_normal_in_space() {
     let mut spots = [0; 3];
     let wanted = |of: &Contact| is_perfect(of) && of.face != Face::Cut && of.law == Kind::Line;
     for_each_point(10, 200, those(wanted), |planet, at| {
@@ -159,15 +159,15 @@ fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
         let shaft_angle = planet.gears.pair.shaft_angle;
         let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
         planet.loaded(at, |point, _| {
-            // the first cell of a corner's table of gaps has their slope to 2e-8
+            // the first cell of a corner's table of gaps has slopes accurate to 2e-8
             if point.spot != Spot::Path && point.place < 1e-6 {
                 return;
             }
             spots[point.spot as usize] += 1;
-            // from the planet into the side gear: it pushes the planet back
+            // the normal from the planet into the side gear; its reaction pushes the planet back
             let normal = action.contact(point.spot, point.place, 1.0).normal;
             let [planet, side] = [-normal.z, normal.dot(&side_axis)];
-            // what is left is along the rotation, in which drive flanks push the side gear
+            // the remaining component is along the rotation, in which drive flanks push the side gear
             let left = (1.0 - planet * planet - side * side).sqrt();
             let expected = [planet, side, if point.flank == Flank::Drive { left } else { -left }];
             (0..3).for_each(|i| same(point.parts[i], expected[i], 1e-8));

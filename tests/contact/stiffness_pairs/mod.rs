@@ -1,4 +1,5 @@
-//! Gear pairs for tests of tooth stiffness: those of the references, and random ones as odd as the interface admits.
+//! Gear pairs for tests of tooth stiffness: those of the references, and random pairs as extreme as the interface
+//! allows.
 #![allow(dead_code)] // each test file uses its part
 
 use crate::random::Draws;
@@ -42,16 +43,16 @@ pub fn default() -> PairStiffness {
     stiffness(&GearSpec::default(), RootSpec::default().fillet)
 }
 
-/// Endless specifications.
+/// An endless sequence of random specifications.
 pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
     let mut u = Rng::with_seed(seed);
     std::iter::repeat_with(move || {
-        // few teeth as often as many
+        // few teeth are as frequent as many
         let teeth = |u: &mut Rng| (5.0 * 40.999f64.powf(u.f64())) as i32;
         let system = (u.f64() * 6.0) as i32;
         let (planet_teeth, side_teeth) = (teeth(&mut u), teeth(&mut u));
         let module = 1e-3 * u.between(0.5, 20.0);
-        // odd addenda with dedenda that leave some clearance
+        // unusual addenda with dedenda that leave some clearance
         let addenda = [u.between(0.05, 2.0), u.between(0.05, 2.0)];
         let clearance = [u.between(0.001, 0.6), u.between(0.001, 0.6)];
         let spec = GearSpec {
@@ -78,7 +79,7 @@ pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
     })
 }
 
-/// Whether the pair passes the checks, with both pitch angles below 90°.
+/// True if the pair passes the checks and both pitch angles are below 90°.
 pub fn buildable(spec: &GearSpec) -> bool {
     let pair = Pair::new(spec);
     let bevel = pair.gears.iter().all(|g| g.pitch > 0.0 && g.pitch < 1.55);

@@ -1,4 +1,4 @@
-//! Taylor arithmetic against differences.
+//! Test that compares Taylor arithmetic with finite differences.
 
 use bevel_differential::numeric::*;
 

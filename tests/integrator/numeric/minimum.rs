@@ -1,4 +1,4 @@
-//! Minima of landscapes with wells, valleys and slopes.
+//! Tests of minima of landscapes with wells, valleys and slopes.
 
 use bevel_differential::numeric::*;
 use nalgebra::{DMatrix, DVector};

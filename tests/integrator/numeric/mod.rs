@@ -1,4 +1,4 @@
-//! The numerics under everything.
+//! Tests of the numerics on which everything else is built.
 
 mod elementary;
 mod jet;

@@ -1,4 +1,4 @@
-//! Numbers with derivatives against differences.
+//! Test that compares numbers with derivatives with finite differences.
 
 use bevel_differential::numeric::*;
 

@@ -1,4 +1,5 @@
-//! What a scene is said not to feel changes no bit of any output; what it is said to feel changes some output in some scene.
+//! A value declared to have no effect in a scene changes no bit of any output. A value declared to have an effect
+//! changes some output in some scene. The conditions are those of `variables::felt`.
 
 mod ways;
 
@@ -16,10 +17,11 @@ use bevel_differential::variables::{Access, Range, Variable, number, table};
 use fastrand::Rng;
 use ways::{Test, ways};
 
-/// Gears of starts before: most values do not shape them, and what does is tried against fresh ones in `gear_cache`.
+/// Cache of gears from earlier starts. Most values do not affect the gears; `gear_cache` compares those that do with
+/// fresh gears.
 static GEARS: LazyLock<GearCache> = LazyLock::new(GearCache::default);
 
-/// Parameters and inputs of a scene, and its steps.
+/// Parameters, inputs and steps of a scene.
 #[derive(Clone)]
 struct Run {
     parameters: Parameters,
@@ -38,28 +40,28 @@ impl Run {
         Some(Self { parameters: scene.parameters, inputs: scene.inputs, steps: scene.steps })
     }
 
-    /// The simulation at its start.
+    /// Simulation at its start.
     fn started(&self) -> Result<Simulation, Vec<Problem>> {
         let given = Given { cache: Some(&GEARS), ..Given::default() };
         Simulation::start_with(&self.parameters, &self.inputs, 0.0, &given)
     }
 
-    /// Whether it can start.
+    /// True if the simulation can start.
     fn starts(&self) -> bool {
         self.started().is_ok()
     }
 
-    /// Bits of all outputs at the start and after each step; a step that fails is the last.
+    /// Bits of all outputs at the start and after each step. A step that fails ends the run.
     fn bits(&self) -> Result<Vec<u64>, Vec<Problem>> {
         self.bits_while(|_| true)
     }
 
-    /// Whether its bits are others than these.
+    /// True if the bits differ from the bits in `from`.
     fn differs(&self, from: &[u64]) -> Result<bool, Vec<Problem>> {
         Ok(self.bits_while(|bits| from.starts_with(bits))? != from)
     }
 
-    /// The same, to the first point at which `go_on` says no of all bits so far.
+    /// Bits of all outputs, up to the first point at which `go_on` returns false for all bits so far.
     fn bits_while(&self, go_on: impl Fn(&[u64]) -> bool) -> Result<Vec<u64>, Vec<Problem>> {
         let mut simulation = self.started()?;
         let mut bits = Vec::new();
@@ -98,7 +100,7 @@ impl Run {
             Access::Boolean(at) => *at(&mut self.parameters) = value != 0.0,
             Access::Enumeration(_, _, set) => set(&mut self.parameters, value as i32),
             Access::Input(at) => {
-                // inputs change when they did: a change begins a step anew, whatever it changes
+                // inputs change at the same times as before, because any change restarts the integration
                 let Range { max, .. } = row.range.unwrap_or(Range { min: 0.0, max: 1.0 });
                 let by = value - *at(&mut self.inputs);
                 let moved = |now: f64| if max > 1.0 { now + by } else { 1.0 - now };
@@ -122,7 +124,7 @@ impl Run {
     }
 }
 
-/// Another value of `row` within its range.
+/// Returns another value of `row` within its range.
 fn other(row: &Variable, now: f64, d: &mut Rng) -> f64 {
     match row.access {
         Access::Boolean(_) => 1.0 - now,
@@ -146,7 +148,7 @@ fn settable() -> impl Iterator<Item = (usize, &'static Variable)> {
     rows.filter(|(_, row)| !matches!(row.access, Access::Output(_)))
 }
 
-/// Makes `test` hold.
+/// Changes `run` so that `test` is met.
 fn satisfy(run: &mut Run, test: &Test, d: &mut Rng) {
     let (row, start) = (test.row, Situation::START);
     let value = match test.sign {
@@ -179,13 +181,13 @@ fn satisfy(run: &mut Run, test: &Test, d: &mut Rng) {
 }
 
 #[test]
-fn a_value_that_no_scene_feels_changes_no_bit() {
+fn a_value_without_effect_in_a_scene_changes_no_bit() {
     let count: u64 = std::env::var("FELT_SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
     let (mut compared, mut wrong) = (0, Vec::new());
     for index in 0..count {
         let Some(mut run) = Run::random(index) else { continue };
         let d = &mut Rng::with_seed(index ^ 0x5eed);
-        // conditions that scenes seldom meet by themselves
+        // conditions that random scenes seldom meet
         for (_, row) in settable() {
             for test in ways(row).concat() {
                 if !d.share(0.03) {
@@ -212,7 +214,7 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
             changed.iter().for_each(|&(row, value, situation)| run.set(row, value, situation));
             run
         };
-        // values that are refused are not taken in silence
+        // values that are refused need not be compared
         let found = loop {
             match with(&changed).bits() {
                 Ok(bits) => break bits,
@@ -220,7 +222,7 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
                     let before = changed.len();
                     changed.retain(|(row, ..)| problems.iter().all(|problem| problem.variable != row.name));
                     if changed.len() == before {
-                        // refused by the name of a value that stays, beside which another one cannot be what it is
+                        // the named value is unchanged, but another one contradicts it
                         changed.retain(|one| with(&[*one]).starts());
                     }
                     assert!(changed.len() < before, "scene {index}: {problems:?}");
@@ -257,7 +259,7 @@ fn a_value_that_no_scene_feels_changes_no_bit() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Representations of teeth and laws: each reads other parameters.
+/// Levels of gear contact, with their laws. Each uses different parameters.
 const LEVELS: [(GearContact, ContactLaw); 6] = [
     (GearContact::Ideal, ContactLaw::Impact),
     (GearContact::Lumped, ContactLaw::Impact),
@@ -266,12 +268,12 @@ const LEVELS: [(GearContact, ContactLaw); 6] = [
     (GearContact::Tooth, ContactLaw::LineWeber),
     (GearContact::Solid, ContactLaw::Impact),
 ];
-/// Scenes that are tried until one feels a value.
+/// Maximum number of scenes in which an effect of a value is searched for.
 const TRIES: u64 = 60;
-/// One in so many of them has planets that roll over some teeth.
+/// One in `ROLLING` of these scenes has planets that roll over some teeth.
 const ROLLING: u64 = 3;
 
-/// Puts a scene on a level of teeth, and switches off what does not work there.
+/// Sets the level of gear contact of a scene, and switches off effects that this level does not support.
 fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     let p = &mut run.parameters;
     (p.scene.gear_contact, p.contact.law) = (contact, law);
@@ -293,17 +295,19 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     }
 }
 
-/// A scene on a level in which tests hold, the bits of its outputs, and draws that go on from it.
+/// Scene on a level that meets some tests, with the bits of its outputs, and the state of the random generator after
+/// it.
 struct Case {
     run: Run,
     expected: Vec<u64>,
     draw: Rng,
 }
 
-/// How the tooth fault of a case is set, where a row of it is looked for: a tooth that is broken, or that breaks.
+/// Tooth fault of a case for rows of this effect: true for a tooth that breaks at its onset, false for one that only
+/// the trigger breaks.
 type Fault = Option<bool>;
 
-/// Cases by attempt, level, fault and tests: many rows ask for the same.
+/// Cases by attempt, level, fault and tests. They are cached, because many rows need the same cases.
 #[derive(Default)]
 struct Cases(HashMap<String, Option<Case>>);
 
@@ -335,7 +339,8 @@ impl Cases {
         Some(Case { run, expected, draw })
     }
 
-    /// Whether some scene of a level, in which `tests` hold, feels row `index`; none where there is no such scene.
+    /// True if row `index` has an effect in some scene of a level that meets `tests`. Returns `None` without such a
+    /// scene.
     fn has_witness(&mut self, index: usize, level: (GearContact, ContactLaw), tests: &[Test]) -> Option<bool> {
         let row = &table().rows[index];
         let of_level = [("scene.gear_contact", level.0 as i32), ("contact.law", level.1 as i32)];
@@ -372,11 +377,11 @@ impl Cases {
 }
 
 #[test]
-fn a_value_that_scenes_feel_changes_some_output_on_every_level_of_teeth_and_in_every_way_that_its_condition_names() {
+fn a_value_with_effect_changes_some_output_on_every_level_of_teeth_and_in_every_alternative_of_its_condition() {
     let (mut wrong, mut cases) = (Vec::new(), Cases::default());
     let chosen = std::env::var("FELT_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
-        // what every scene feels need be shown once; a value of which every other one is refused is not taken in silence
+        // a value that always has an effect needs one witness; if all other values are refused, none is needed
         let always = row.switch.is_none() && row.when.is_none();
         let mut found = Vec::new();
         for level in LEVELS {

@@ -1,8 +1,8 @@
-//! Conditions of rows as the ways to meet them, read by a reader of the tests' own.
+//! Conditions of rows as alternatives to meet them. The parser is independent of the program's parser.
 
 use bevel_differential::variables::{Access, Variable, named};
 
-/// A test of a condition: `=` one of the values, `!` none of them, `>` more than the first.
+/// Test in a condition: `=` one of the values, `!` none of them, `>` more than the first.
 #[derive(Clone)]
 pub struct Test {
     pub row: &'static Variable,
@@ -10,7 +10,8 @@ pub struct Test {
     pub values: Vec<f64>,
 }
 
-/// Ways in which a scene can feel `row`: each is a list of tests that all hold. Tests of the situation are left out.
+/// Alternatives in which `row` has an effect: each is a list of tests that must all be met. Tests of the situation are
+/// left out.
 pub fn ways(row: &Variable) -> Vec<Vec<Test>> {
     let switch = row.switch.map_or(vec![vec![]], |name| read(&format!("{name} = true")));
     both(switch, row.when.map_or(vec![vec![]], read))
@@ -28,7 +29,7 @@ fn read(text: &str) -> Vec<Vec<Test>> {
     found
 }
 
-/// Words are taken from the end.
+/// Parses alternatives joined by "or". Words are taken from the end.
 fn any(words: &mut Vec<String>) -> Vec<Vec<Test>> {
     let mut found = all(words);
     while words.pop_if(|word| word == "or").is_some() {

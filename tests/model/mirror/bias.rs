@@ -1,11 +1,11 @@
-//! Torque bias and locking value of a differential with friction that is driven in all senses.
+//! Torque bias and locking value of a differential with friction, for all directions of drive.
 
 use bevel_differential::model::{CarrierDrive, Inputs, Parameters, SideDrive};
 
 use super::scene::{Course, Scene, Step, output};
 use super::teeth::View;
 
-/// Wheels held at different speeds, the carrier driven by torque; washers, pins and flanks with friction.
+/// Scene with wheels held at different speeds, a carrier driven by torque, and friction of washers, pins and flanks.
 fn held_apart(torque: f64, carrier: f64, apart: f64) -> Scene {
     let mut p = Parameters::default();
     p.scene.carrier_drive = CarrierDrive::Torque;
@@ -28,14 +28,14 @@ fn readings(course: &Course, name: &str) -> Vec<f64> {
 
 #[test]
 fn a_bias_by_friction_is_above_one_in_every_sense() {
-    // together 0.055 at the pitch point (theory.md, section 9), less some per cent over the path
+    // sum of 0.055 at the pitch point (theory.md, section 9); over the path, it is some per cent less
     let expected = (1.0 + 0.055) / (1.0 - 0.055) - 1.0;
     for torque in [1670.0, -1670.0] {
         for (carrier, apart) in [(50.0, 2.5), (-50.0, 2.5), (50.0, -2.5), (0.0, 2.5), (0.0, -2.5)] {
             let course = held_apart(torque, carrier, apart).run().expect("a scene that starts");
             assert_eq!(course.failure, None);
             let ratio = readings(&course, "torque_bias_ratio");
-            // a tooth cycle takes 0.157 s; from then on its mean is read
+            // a tooth cycle takes 0.157 s; from then on, its mean is read
             let settled = &ratio[60..];
             assert!(settled.iter().all(|ratio| *ratio >= 1.0), "{torque} {carrier} {apart}: {settled:?}");
             let last = settled[settled.len() - 1];
@@ -45,7 +45,7 @@ fn a_bias_by_friction_is_above_one_in_every_sense() {
 }
 
 #[test]
-fn the_means_of_a_mesh_cycle_are_the_same_forward_backward_and_from_side_to_side_at_every_instant() {
+fn the_means_of_a_mesh_cycle_are_the_same_forward_backward_and_with_swapped_sides_at_every_instant() {
     let scene = held_apart(1670.0, 50.0, 2.5);
     let forward = scene.run().expect("a scene that starts");
     for view in [View::Reversed, View::Swapped] {

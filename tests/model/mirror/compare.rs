@@ -1,4 +1,4 @@
-//! Compares a course with that of an image, as long as a twin that is disturbed by 1e-15 stays close.
+//! Compares a course with the course of an image, as long as twins that are disturbed by 1e-15 stay close.
 
 use bevel_differential::variables::Variable;
 
@@ -6,35 +6,38 @@ use super::image::Mapped;
 use super::scene::{Course, Scene, output, outputs};
 use super::table::{line_of, lines};
 
-/// Part of its scale to which an output is compared, and where dry friction switches.
+/// Allowed deviation of an output, as a fraction of its scale.
 pub const CLOSE: f64 = 1e-9;
+/// Allowed deviation after a switch of dry friction.
 pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
-/// Part to which the size of a step is compared where dry friction switches: the difference of two solutions of a step
-/// decides on it, and keeps few of their digits.
+/// Allowed deviation of the step size after a switch of dry friction. The step size depends on the difference of two
+/// solutions, which has only a few significant digits.
 const CLOSE_IN_SIZE: f64 = 1e-4;
-/// Part of that within which the twin stays.
+/// Fraction of the allowed deviation within which the twins must stay.
 const TWIN: f64 = 0.01;
-/// Tolerances to which motions agree that were reached in different steps, at their ends or in between; and what follows from
-/// accelerations: an error of a speed times 8 kHz, at which meshes ring, is a hundred times as large a part of them.
+/// Allowed deviation of motions that result from different steps, in tolerances of the solver.
 const TOLERANCES: f64 = 10.0;
+/// Allowed deviation of quantities that follow from accelerations, if steps differ. Meshes ring at 8 kHz, which
+/// amplifies errors of speeds a hundred times.
 const RINGING: f64 = 1000.0;
-/// Units whose quantities are measured by the largest among them; others are by their entry in the table.
+/// Units whose outputs share a scale, the largest value among them. Other outputs have the scale of their entry in the
+/// table.
 const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
 
-/// What was found.
+/// Findings of a comparison.
 #[derive(Default)]
 pub struct Findings {
-    /// Scenes compared.
+    /// Number of scenes compared.
     pub scenes: usize,
-    /// Values compared, and values there were, by line of the table.
+    /// Number of values compared and number of all values, by line of the table.
     pub compared: Vec<[usize; 2]>,
-    /// Values compared that are not 0, by line of the table.
+    /// Number of compared values that are not 0, by line of the table.
     pub telling: Vec<usize>,
-    /// Scenes whose image takes other steps than the scene and its twins.
+    /// Number of scenes whose image takes other steps than the scene and its twins.
     pub alone: usize,
-    /// What does not map.
+    /// Descriptions of outputs that do not map.
     pub wrong: Vec<String>,
-    /// Largest deviations that were allowed: without switches of dry friction, with them, and after other steps.
+    /// Largest accepted deviations: before switches of dry friction, after switches, and after different steps.
     pub largest: [f64; 3],
 }
 
@@ -43,7 +46,7 @@ impl Findings {
         Self { compared: vec![[0; 2]; lines().len()], telling: vec![0; lines().len()], ..Self::default() }
     }
 
-    /// Part of all values that was compared.
+    /// Fraction of all values that was compared.
     pub fn share(&self) -> f64 {
         let [compared, all] = self.compared.iter().fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
         compared as f64 / all.max(1) as f64
@@ -71,11 +74,11 @@ fn kind(row: &Variable) -> &'static str {
     shared.copied().unwrap_or_else(|| line_of(row.name).map_or("", |line| lines()[line].pattern))
 }
 
-/// Largest magnitude over the run of the kind of quantity of each output.
+/// Scale of each output: the largest magnitude of its kind of quantity over the run.
 fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
     let largest = |i: usize| course.values.iter().fold(0.0f64, |most, values| most.max(values[i].abs()));
     let kinds: Vec<&str> = outputs().iter().map(|row| kind(row)).collect();
-    // energies are measured by what is turned over, and by what the carrier carries
+    // the scale of energies includes the converted energy and the kinetic energy of the carrier
     let power = [output("power.in"), output("power.out")];
     let turned: f64 = (1..course.times.len())
         .map(|k| (course.times[k] - course.times[k - 1]) * power.map(|i| course.values[k][i].abs()).iter().sum::<f64>())
@@ -89,7 +92,7 @@ fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
         .collect()
 }
 
-/// Compares the image of `base` with what it must be by `map`, where the twins stay close.
+/// Compares the image of `base` with the values expected by `map`, as long as the twins stay close.
 pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, map: &[Mapped]) -> Findings {
     let mut found = Findings { scenes: 1, ..Findings::new() };
     let scales = scales(scene, base);
@@ -100,14 +103,14 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
         found.wrong.push(format!("ends at {:?}, not at {:?}", image.times.last(), base.times.last()));
     }
     let reached = reached.min(image.values.len());
-    // rounding may decide whether a step is repeated: from there on results agree to what the solver promises
+    // rounding may decide whether a step is repeated; from then on, results agree within the accuracy of the solver
     let counts = [output("solver.steps"), output("solver.rejected")];
     let differs = |other: &Course, k: usize| counts.iter().any(|&i| other.values[k][i] != base.values[k][i]);
     let apart = (0..reached).find(|&k| differs(image, k)).unwrap_or(reached);
     found.alone = usize::from(apart < reached && !twins.iter().any(|twin| (0..=apart).any(|k| differs(twin, k))));
     let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
     let close = |k: usize| if k < switched { CLOSE } else { CLOSE_AT_SWITCHES };
-    // the time in which the twins stay close in an output
+    // number of values for which the twins stay close in an output
     let near = |i: usize| {
         let far = |k: usize, twin: &Course| {
             (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close(k) * scales[i].max(f64::MIN_POSITIVE)
@@ -117,8 +120,8 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
     for (i, row) in outputs().iter().enumerate() {
         let Some(line) = line_of(row.name) else { continue };
         let Mapped { output: to, factor, added, magnitude } = map[i];
-        // a mesh that carries next to nothing has no certain number of pairs; nor has any after other steps, as the parts of
-        // a face come and go at once, be it with the least force
+        // the number of pairs is uncertain if a mesh is almost unloaded, and after different steps: slices of a face
+        // come and go simultaneously, even under very small forces
         let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
         let carries = |k: usize, load: usize| base.values[k][load] > close(k) * scales[load];
         let certain = |k: usize| load.is_none_or(|load| k < apart && carries(k, load));
@@ -126,7 +129,7 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
         let is_motion = matches!(unit(row), "rad" | "rad/s");
         let tolerances = if is_motion { TOLERANCES } else { RINGING };
         let promised = tolerances * scene.parameters.solver.relative_tolerance;
-        // counts of steps say nothing before they differ; their size does
+        // counts of steps do not show how close the twins are, but the step size does
         let is_count = row.name.starts_with("solver.");
         let window = if is_count { near(i).min(near(output("solver.step_size"))).min(apart) } else { near(i) };
         found.compared[line][0] += window;

@@ -1,4 +1,4 @@
-//! Images of a scene, by the table of symmetries: its parameters and inputs, its start, and where its outputs are found.
+//! Images of a scene by the table of symmetries: parameters, inputs, start, and the mapping of its outputs.
 
 use std::f64::consts::TAU;
 
@@ -10,22 +10,23 @@ use super::scene::{Scene, output, outputs};
 use super::table::{Parity, line_of, lines};
 use super::teeth::{self, View};
 
-/// First planet and first wheel among the bodies that may stick; side gears come first.
+/// Index of the first planet among the bodies that may stick; side gears come first.
 const PLANETS: usize = 2;
+/// Index of the first wheel among the bodies that may stick.
 const WHEELS: usize = 6;
 
-/// An output in an image: `factor` times its value plus `added`.
+/// Output in an image: `factor` times the value in the scene plus `added`.
 #[derive(Clone, Copy)]
 pub struct Mapped {
     pub output: usize,
     pub factor: f64,
     pub added: f64,
-    /// Whether only its magnitude is known.
+    /// True if only the magnitude of the output is known.
     pub magnitude: bool,
 }
 
 impl Scene {
-    /// The scene in the image `view`, by the table.
+    /// Scene in the image `view`, by the table.
     pub fn image(&self, view: View) -> Self {
         let mut image = self.clone();
         image.inputs = self.image_of_inputs(view, &self.inputs);
@@ -60,8 +61,8 @@ impl Scene {
         image
     }
 
-    /// Angles by which planets, left and right side gear stand further in the image [rad]: an image that starts in a cycle
-    /// of the teeth that is not the first.
+    /// Angles by which planets, left and right side gear are ahead in the image [rad]. They are not zero if the image
+    /// starts in another cycle of the teeth.
     pub fn ahead(&self, view: View) -> [f64; 3] {
         let pitches = match view {
             View::Swapped if self.parameters.geometry.planet_teeth % 2 == 1 => 0.5,
@@ -72,16 +73,17 @@ impl Scene {
         [planet, side, -side]
     }
 
-    /// Where the image goes on from, if it does not start as a scene does.
+    /// State from which the image continues, or `None` if it starts like a scene.
     pub fn image_of_start(&self, view: View, start: &State, layout: &Layout) -> Option<State> {
         let ahead = self.ahead(view);
-        // of two equal wells a start takes the one of positive spin, which in a swapped image is the other one
+        // of two equivalent minima, a start selects the one with positive spin angle; in a swapped image, this is the
+        // other minimum
         if ahead == [0.0; 3] && view != View::Swapped {
             return None;
         }
         let mut image = *start;
         if view == View::Shifted {
-            // whole pitches are counted
+            // whole pitches are stored in counters
             for (i, pitches) in [(0, 1), (1, -1)].into_iter().chain((0..layout.groups).map(|g| (layout.planet(g), 1))) {
                 image.whole_periods[i] += pitches;
             }
@@ -122,7 +124,7 @@ impl Scene {
         image
     }
 
-    /// How a variable maps.
+    /// Parity of a variable.
     fn parity(&self, view: View, name: &str) -> Parity {
         let line = &lines()[line_of(name).unwrap_or_else(|| panic!("{name} is in no table"))];
         match view {
@@ -135,7 +137,7 @@ impl Scene {
     /// Factor of a variable in the image.
     fn sign(&self, view: View, name: &str) -> f64 {
         let by_torque = self.parameters.scene.carrier_drive == CarrierDrive::Torque;
-        // two planets that change places stand half a turn further
+        // two planets that change places are turned by half a turn
         if view == View::Renumbered && self.planets() == 2 && name == "tooth_errors.axis_offset" {
             return -1.0;
         }
@@ -159,14 +161,14 @@ impl Scene {
         }
     }
 
-    /// Where each output is found in the image, and what becomes of it there.
+    /// Mapping of each output to the image.
     pub fn map(&self, view: View) -> Vec<Mapped> {
         let pair = self.pair();
         let (lash, [ahead, left, right]) = (pair.normal_backlash * pair.mean_cone, self.ahead(view));
         outputs()
             .iter()
             .map(|row| {
-                // planets that there are not have no lash, nor have gears without teeth
+                // neither missing planets nor ideal gears have a lash
                 let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
                 let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
                 let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };

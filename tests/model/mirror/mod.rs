@@ -1,9 +1,9 @@
-//! Symmetry of the whole program: a differential and its mirror images must do the same.
+//! Symmetry of the whole program: a differential and its mirror images must behave identically.
 //!
-//! A differential that is reflected, with all speeds and torques reflected too, is one that could be built, and it must do
-//! what the other does. How each variable maps stands in `tests/data/symmetry.csv`; the images of a scene are simulated,
-//! and every output is compared. Where a motion is chaotic, rounding grows until nothing can be said: twins that are
-//! disturbed by 1e-15 show how far a comparison reaches.
+//! A reflected differential, with all speeds and torques reflected as well, could be built, and its motion must be the
+//! reflected motion. `tests/data/symmetry.csv` describes how each variable maps. The images of a scene are simulated,
+//! and every output is compared. In a chaotic motion, rounding errors grow until a comparison is meaningless. Twins,
+//! which are disturbed by 1e-15, show how long a comparison is valid.
 
 mod bias;
 mod compare;
@@ -18,23 +18,25 @@ use scene::Scene;
 use table::lines;
 use teeth::View;
 
-/// Random scenes of a survey, and those among them that are looked at in all ways.
+/// Number of random scenes of a survey.
 const SCENES: usize = 50;
+/// Number of these scenes that are compared in all views.
 const OTHERWISE: usize = 10;
-/// Random scenes whose planets change places.
+/// Number of random scenes whose planets change places.
 const RENUMBERED: usize = 20;
-/// Scenes whose planets roll over some teeth.
+/// Number of scenes whose planets roll over some teeth.
 const ROLLING: usize = 10;
-/// Least part of all values that twins let compare, and of the values of any one output.
+/// Minimum fraction of all values that the twins allow to compare.
 const SHARE: f64 = 0.7;
+/// Minimum fraction of the values of each output that the twins allow to compare.
 const SHARE_OF_ONE: f64 = 0.2;
 
-/// Per scene, images that take steps of their own where their twins do not: one in twenty, as far as so few scenes tell,
-/// to two standard deviations.
+/// Expected fraction of images that take other steps than the scene, although its twins do not.
 const ALONE: f64 = 0.05;
+/// Standard deviations by which the number of such images may exceed its expected value.
 const DEVIATIONS: f64 = 2.0;
 
-/// Compares a scene with its images in `views`; `None` if there is no such scene.
+/// Compares a scene with its images in `views`. Returns `None` if the scene cannot be built.
 fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     let base = scene.run().ok()?;
     let twins = [1.0, -1.0].map(|sign| scene.disturbed(sign).run());
@@ -48,8 +50,8 @@ fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     Some(found.collect())
 }
 
-/// Compares `count` of the scenes that `draw` gives, from number `first` on, with their images in the first view, and some of them with
-/// their images in all `views`. Returns what is found in each view.
+/// Compares `count` scenes of `draw`, from number `first` on, with their images in the first view. Some of them are
+/// compared with their images in all `views`. Returns the findings of each view.
 fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usize, views: [View; N]) -> [Findings; N] {
     let mut all = views.map(|_| Findings::new());
     for index in first.. {
@@ -66,7 +68,7 @@ fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usi
     all
 }
 
-/// Scene number `index` with parts that warm up, and with friction that depends on speed and temperature.
+/// Scene number `index` with nodes that warm up, and with friction that depends on speed and temperature.
 fn warm(index: u64) -> Option<Scene> {
     let Scene { mut parameters, inputs, steps, .. } = random::scene(index)?;
     random::warm(&mut fastrand::Rng::with_seed(index ^ random::WARM), &mut parameters);
@@ -83,7 +85,7 @@ fn renumberable(index: u64) -> Option<Scene> {
         // the pins are displaced in the direction of planet 1
         p.specs.tooth_errors.axis_offset = 0.0;
     }
-    // otherwise neighbours are half a pitch apart
+    // otherwise, the meshes of neighbours differ by half a pitch
     (2 * p.geometry.side_teeth / n % 2 == 0).then_some(scene)
 }
 
@@ -98,7 +100,7 @@ fn report(view: View, found: &Findings) {
 
 #[test]
 fn a_reversed_a_swapped_and_a_shifted_differential_do_the_same() {
-    // a start one tooth further changes nothing
+    // a start that is shifted by one tooth changes nothing
     const VIEWS: [View; 3] = [View::Reversed, View::Swapped, View::Shifted];
     let mut found = std::thread::scope(|scope| {
         let other = scope.spawn(|| survey(warm, 1000, SCENES, VIEWS));
@@ -110,7 +112,7 @@ fn a_reversed_a_swapped_and_a_shifted_differential_do_the_same() {
         found[0].add(rolling);
         found
     });
-    // every output takes part, and is something else than 0 at times
+    // every output is compared, and is not always 0
     let reversed = &found[0];
     for (i, line) in lines().iter().enumerate().filter(|&(i, _)| reversed.compared[i][1] > 0) {
         let [compared, all] = reversed.compared[i].map(|count| count as f64);

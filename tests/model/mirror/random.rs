@@ -13,17 +13,17 @@ use fastrand::Rng;
 use super::scene::{Scene, Step};
 use crate::common::random::Draws;
 
-/// Communication steps of a scene.
+/// Number of communication steps of a scene.
 const STEPS: usize = 14;
-/// Module to which loads and sizes are given; others are similar [m].
+/// Module for which loads and sizes are given [m]. They are scaled for other modules.
 const MODULE: f64 = 4.5e-3;
 
-/// Tells generators of one scene apart.
+/// Bits that give separate random generators for one scene.
 const LATER: u64 = 1 << 40;
 const ROLLING: u64 = 1 << 41;
 pub const WARM: u64 = 1 << 42;
 
-/// Scene number `index`; some cannot be built or loaded.
+/// Scene number `index`, or `None` if it cannot be built.
 pub fn scene(index: u64) -> Option<Scene> {
     let d = &mut Rng::with_seed(index);
     let mut p = Parameters::default();
@@ -127,7 +127,7 @@ fn effects(d: &mut Rng, p: &mut Parameters) {
     e.tooth_fault = tooth && d.share(0.25);
     let f = &mut s.tooth_fault;
     (f.gear, f.missing_fraction) = (d.pick(&[FaultyGear::Planet, FaultyGear::Side]), d.between(0.55, 1.0));
-    // teeth that are in mesh at the start, or come into it soon
+    // teeth that are in mesh at the start or soon after
     f.index = d.whole(0, 1);
     let teeth = if f.gear == FaultyGear::Planet { p.geometry.planet_teeth } else { p.geometry.side_teeth };
     f.tooth = d.whole(-2, 2).rem_euclid(teeth);
@@ -157,14 +157,14 @@ fn effects(d: &mut Rng, p: &mut Parameters) {
     e.final_drive = d.share(0.2);
     s.final_drive.ring_teeth = d.whole(20, 60);
     e.strength = contact != GearContact::Ideal && d.share(0.4);
-    // so weak that damage shows in a moment
+    // so weak that damage is visible after a short time
     s.strength.bending_cycles = 1e5;
     s.strength.bending_strength = d.about(3e8, 2.0);
     s.strength.contact_strength = d.about(5e8, 2.0);
     e.wheel_brake = d.share(0.3);
 }
 
-/// Gear bodies, drawn by a generator of their own.
+/// Gear bodies, drawn with a separate generator.
 fn bodies(d: &mut Rng, p: &mut Parameters) {
     let m = p.geometry.module;
     p.effects.body_compliance =
@@ -173,12 +173,13 @@ fn bodies(d: &mut Rng, p: &mut Parameters) {
     p.geometry.side_bore = if d.share(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
 }
 
-/// Effects that were added later, drawn by a generator of their own, which leaves the scenes what they were.
+/// Effects that were added later, drawn with a separate generator, so that all other values of the scenes are
+/// unchanged.
 fn later(d: &mut Rng, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
 }
 
-/// Small nodes, which warm up within a moment, and frictions that feel it.
+/// Small nodes, which warm up quickly, and friction that depends on their temperatures.
 pub fn warm(d: &mut Rng, p: &mut Parameters) {
     p.effects.warm_up = d.share(0.3);
     let s = &mut p.specs;
@@ -252,7 +253,7 @@ fn solver(d: &mut Rng, p: &mut Parameters) {
         Method::Adaptive,
         Method::FixedStep,
         Method::Radau,
-        // keeps the scenes that the seeds were chosen for
+        // the number of entries is fixed, because the seeds were chosen for it
         Method::Adaptive,
     ]);
     p.solver.relative_tolerance = 10f64.powf(d.between(-6.5, -4.5));
@@ -272,12 +273,12 @@ fn inputs(d: &mut Rng, p: &Parameters) -> Inputs {
     i.side_speed = [i.carrier_speed + d.between(-10.0, 10.0), i.carrier_speed + d.between(-10.0, 10.0)];
     i.brake_torque = if d.share(0.5) { [0.0; 2] } else { [load * d.f64(), 0.5 * load * d.f64()] };
     i.lock = if d.share(0.15) { d.f64() } else { 0.0 };
-    // without draws of their own, so that the others stay what they were
+    // without separate draws, so that all other values are unchanged
     (i.ambient_change, i.sump_change) = (i.side_speed[0] / 6.0, i.planet_spin / 3.0);
     i
 }
 
-/// Irregular steps; at some of them inputs jump, or begin to change with time.
+/// Irregular steps. At some of them, inputs jump or start to change with time.
 fn steps(d: &mut Rng, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<Step> {
     let sizes: Vec<f64> = (0..STEPS).map(|_| d.between(0.2, 1.0)).collect();
     let whole: f64 = sizes.iter().sum();
@@ -310,7 +311,7 @@ fn steps(d: &mut Rng, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<
         });
         steps.push(Step { size, inputs, derivatives });
         if let Some(derivatives) = derivatives {
-            // the next step begins where this one ends
+            // the next step starts with the inputs at the end of this one
             inputs = derivatives.after(size, &inputs).0;
         }
     }

@@ -1,4 +1,4 @@
-//! A scene, and its course in time.
+//! Scenes and their courses in time.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use bevel_differential::model::{
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, OutputSource, Variable, table};
 
-/// A communication step.
+/// Communication step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
     pub size: f64,
@@ -18,15 +18,15 @@ pub struct Step {
     pub derivatives: Option<InputDerivatives>,
 }
 
-/// A scene from its start to its end.
+/// Scene from its start to its end.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub parameters: Parameters,
     pub inputs: Inputs,
     pub steps: Vec<Step>,
-    /// Teeth of all gears, where they differ.
+    /// Teeth of all gears, if they differ.
     pub teeth: Option<Vec<GearTeeth>>,
-    /// Where it goes on from, instead of starting.
+    /// State from which the scene continues, instead of a start.
     pub from: Option<State>,
     /// Angle by which gears are displaced before every step [rad].
     pub nudge: f64,
@@ -36,30 +36,31 @@ pub struct Scene {
 pub struct Course {
     pub times: Vec<f64>,
     pub values: Vec<Vec<f64>>,
-    /// State at the start, and where its bodies stand in it.
+    /// State at the start.
     pub start: State,
+    /// Indices of the bodies in this state.
     pub layout: Layout,
-    /// Number of the first values after dry friction has switched.
+    /// Index of the first values after dry friction has switched.
     pub switched: usize,
-    /// Why it ended before its time.
+    /// Error message, if the course ended early.
     pub failure: Option<String>,
 }
 
-/// Rows of the outputs and local variables, and the way to their values. Single tooth pairs are read of one mesh alone, which has
-/// no image: `tests/model/pair_lines.rs` reverses them.
+/// Rows of outputs and local variables, except single tooth pairs. Those are read from only one mesh, which has no
+/// image; `tests/model/pair_lines.rs` reverses them.
 pub fn outputs() -> &'static [&'static Variable] {
     static OUTPUTS: OnceLock<Vec<&'static Variable>> = OnceLock::new();
     let is_mapped = |row: &&'static Variable| matches!(row.access, Access::Output(source) if !matches!(source, OutputSource::Pair(..)));
     OUTPUTS.get_or_init(|| table().rows.iter().filter(is_mapped).collect())
 }
 
-/// Index of an output.
+/// Index of the output `name`.
 pub fn output(name: &str) -> usize {
     outputs().iter().position(|row| row.name == name).unwrap_or_else(|| panic!("no output {name}"))
 }
 
 impl Scene {
-    /// A scene whose teeth, where they differ, are listed one by one.
+    /// Scene whose teeth are listed individually if they differ.
     pub fn new(parameters: Parameters, inputs: Inputs, steps: Vec<Step>) -> Result<Self, Vec<Problem>> {
         let mut scene = Self { parameters, inputs, steps, teeth: None, from: None, nudge: 0.0 };
         if parameters.effects.tooth_errors && parameters.scene.gear_contact == GearContact::Tooth {
@@ -116,8 +117,8 @@ impl Scene {
         Ok(course)
     }
 
-    /// Displaces side gears and planets to and fro, in a twin. Its integration then begins anew, and so must that of others,
-    /// which are displaced by nothing.
+    /// Displaces side gears and planets alternately by `nudge`. This restarts the integration of a twin. Other courses
+    /// are displaced by zero, so that they restart as well.
     fn nudge(&self, simulation: &mut Simulation) {
         let mut states = simulation.states();
         for (k, body) in BODIES.iter().enumerate() {
@@ -128,8 +129,9 @@ impl Scene {
         simulation.set_states(&states);
     }
 
-    /// The same scene disturbed by 1e-15, up or down (`sign` = ±1): its inputs and the pressure angle by that part of
-    /// themselves, the angles of its gears before every step by that of a radian. Rounding in an image is of that size.
+    /// Twin of the scene, disturbed up or down (`sign` = ±1) by 1e-15, which is the size of rounding errors in an
+    /// image. Inputs and pressure angle change by this fraction of their values, the angles of the gears by 1e-15 rad
+    /// before every step.
     pub fn disturbed(&self, mut sign: f64) -> Self {
         const BY: f64 = 1e-15;
         let mut twin = Self { nudge: sign * BY, ..self.clone() };

@@ -1,30 +1,30 @@
-//! The table of symmetries, `tests/data/symmetry.csv`: how each variable maps where a differential is reflected.
+//! Table of symmetries, `tests/data/symmetry.csv`: the parity of each variable in a reflected differential.
 
 use std::sync::OnceLock;
 
 use bevel_differential::variables::{Access, Causality, table};
 
-/// How a variable maps.
+/// Parity of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parity {
-    /// It keeps its value.
+    /// The variable keeps its value.
     Even,
-    /// It changes its sign.
+    /// The variable changes its sign.
     Odd,
-    /// It is odd about minus half the backlash.
+    /// The variable is odd about minus half the backlash.
     Lash,
-    /// It is even, but odd where the carrier is driven by torque.
+    /// The variable is even, but odd if the carrier is driven by torque.
     Wave,
     /// Gears and teeth are renumbered.
     Teeth,
 }
 
-/// A line of the table.
+/// Line of the table.
 #[derive(Debug)]
 pub struct Line {
-    /// Variables that it stands for.
+    /// Pattern of the variables to which the line applies.
     pub pattern: &'static str,
-    /// How they map where rotation is reversed, and where sides are swapped.
+    /// Parities of these variables if rotation is reversed, and if sides are swapped.
     pub parity: [Parity; 2],
 }
 
@@ -39,7 +39,7 @@ fn parity(text: &str) -> Parity {
     }
 }
 
-/// All lines.
+/// All lines of the table.
 pub fn lines() -> &'static [Line] {
     static LINES: OnceLock<Vec<Line>> = OnceLock::new();
     LINES.get_or_init(|| {
@@ -53,14 +53,14 @@ pub fn lines() -> &'static [Line] {
     })
 }
 
-/// The name with sides and planets left open; a derivative is what its state is.
+/// Name with placeholders for sides and planets. A derivative has the name of its state.
 fn open(name: &str) -> String {
     let state = name.strip_prefix("der(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(name);
     let open = state.replace("left", "SIDE").replace("right", "SIDE");
     (1..=4).fold(open, |open, i| open.replace(&format!("planet[{i}]"), "planet[I]"))
 }
 
-/// Number of the line of a variable: its own, or that of its group.
+/// Index of the line of a variable: a line for the variable itself, or else for its group.
 pub fn line_of(name: &str) -> Option<usize> {
     let open = open(name);
     let find = |matches: &dyn Fn(&Line) -> bool| lines().iter().position(matches);
@@ -79,7 +79,7 @@ fn every_variable_has_an_entry_and_every_entry_a_variable() {
 }
 
 #[test]
-fn outputs_and_inputs_have_entries_of_their_own() {
+fn outputs_and_inputs_have_separate_entries() {
     let is_parameter = |causality| matches!(causality, Causality::Parameter | Causality::CalculatedParameter);
     for row in table().rows.iter().filter(|row| !is_parameter(row.causality)) {
         let pattern = line_of(row.name).map_or("*", |line| lines()[line].pattern);

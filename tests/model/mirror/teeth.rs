@@ -1,39 +1,40 @@
-//! How the teeth of a differential are numbered in its images.
+//! Numbers of the teeth in the images of a differential.
 //!
-//! Planet teeth are counted with positive spin, side gear teeth forward; tooth 0 of a planet stands in its left mesh at the
-//! start, or half a pitch forward of it where the meshes are shifted by half a pitch (`assembly::phases`).
+//! Planet teeth are counted with positive spin, side gear teeth forward. At the start, tooth 0 of a planet is in its
+//! left mesh. It is half a pitch ahead if the meshes are shifted by half a pitch (`assembly::phases`).
 
 use bevel_differential::contact::errors::GearTeeth;
 use bevel_differential::geometry::GearSpec;
 
-/// How a differential is looked at.
+/// View of a differential.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
-    /// Reflected in the plane of the carrier's axis and planet 1's.
+    /// Reflection in the plane of the axes of carrier and planet 1.
     Reversed,
-    /// Reflected in the plane across the carrier's axis; with an odd number of planet teeth half a pitch later.
+    /// Reflection in the plane across the carrier's axis; with an odd number of planet teeth, half a pitch later.
     Swapped,
-    /// Turned about the carrier's axis, so that each planet takes the place of the next one.
+    /// Rotation about the carrier's axis, so that each planet takes the place of the next one.
     Renumbered,
-    /// With tooth 0 of each gear a pitch further back: planets are a pitch ahead, left side gear ahead, right one back.
+    /// Shift of tooth 0 of each gear by a pitch: planets and the left side gear are a pitch ahead, the right side gear
+    /// is a pitch behind.
     Shifted,
 }
 
-/// A gear: side gears 0 left and 1 right, then planets.
+/// Number of a gear: side gears 0 left and 1 right, then planets.
 pub type Number = usize;
 
-/// Where the teeth of one gear are found in an image.
+/// Numbers of the teeth of one gear in an image.
 pub struct Renumbered {
-    /// The gear.
+    /// Number of the gear in the image.
     pub gear: Number,
-    /// Whether its teeth are counted the other way.
+    /// True if teeth are counted in the opposite direction.
     backward: bool,
-    /// Number that tooth 0 has.
+    /// Number of tooth 0 in the image.
     first: i64,
 }
 
 impl Renumbered {
-    /// Number of tooth `j`, before it is taken modulo the number of teeth.
+    /// Number of tooth `j` in the image, before the modulo operation with the number of teeth.
     pub fn tooth(&self, j: i64) -> i64 {
         if self.backward { self.first - j } else { self.first + j }
     }
@@ -43,7 +44,7 @@ impl Renumbered {
 pub fn renumbered(view: View, spec: &GearSpec, gear: Number) -> Renumbered {
     let [z_p, z_s, n] = [spec.planet_teeth, spec.side_teeth, spec.planet_count].map(i64::from);
     let planet = gear as i64 - 2;
-    // whether the planet's meshes are shifted by half a pitch
+    // 1 if the planet's meshes are shifted by half a pitch
     let shifted = if planet > 0 { 2 * z_s * planet / n % 2 } else { 0 };
     match (view, gear) {
         (View::Reversed, 0) => Renumbered { gear, backward: true, first: -1 },
@@ -58,7 +59,7 @@ pub fn renumbered(view: View, spec: &GearSpec, gear: Number) -> Renumbered {
     }
 }
 
-/// The teeth of all gears in the image `view`.
+/// Teeth of all gears in the image `view`.
 pub fn image(view: View, spec: &GearSpec, gears: &[GearTeeth]) -> Vec<GearTeeth> {
     let mut images = vec![GearTeeth::default(); gears.len()];
     for (number, teeth) in gears.iter().enumerate() {
@@ -70,7 +71,7 @@ pub fn image(view: View, spec: &GearSpec, gears: &[GearTeeth]) -> Vec<GearTeeth>
         for flank in 0..2 {
             for (j, position) in teeth.positions[flank].iter().enumerate() {
                 let tooth = to.tooth(j as i64).rem_euclid(count) as usize;
-                // a flank that faced the way in which teeth are counted faces the other way, and ahead is behind
+                // flanks change sides and position errors change signs if teeth are counted in the opposite direction
                 let (flank, position) = if to.backward { (1 - flank, -position) } else { (flank, *position) };
                 image.positions[flank][tooth] = position;
             }

@@ -1,6 +1,7 @@
-//! The centrifugal force of the planets on their washers: m r ω², with mass and centre of mass of their solids.
+//! Centrifugal force of the planets on their washers: m r ω², with mass and centre of mass of their solids.
 //!
-//! Teeth apart in the middle of their gaps bear nothing, so that what imposes the spin overcomes the washers alone.
+//! Teeth in the middle of their gaps are unloaded, so that the torque that imposes the spin only overcomes the friction
+//! of the washers.
 
 use bevel_differential::geometry::GearSpec;
 use bevel_differential::model::{
@@ -9,7 +10,7 @@ use bevel_differential::model::{
 
 use super::solids::Solid;
 
-/// Planets that roll at `spin` on a carrier at `carrier` [rad/s], without load.
+/// Scene with planets that roll at `spin` on a carrier that turns at `carrier` [rad/s], without load.
 fn rolling(carrier: f64, spin: f64) -> (Parameters, Inputs) {
     let mut p = Parameters::default();
     (p.scene.planet_spin, p.scene.start, p.effects.thrust_friction) = (PlanetSpin::Imposed, Start::Rolling, true);
@@ -17,7 +18,7 @@ fn rolling(carrier: f64, spin: f64) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
-/// Torque of what imposes the spin, per planet.
+/// Torque that imposes the spin, per planet [N·m].
 fn spin_torque(p: &Parameters, inputs: &Inputs) -> f64 {
     let mut simulation = Simulation::start(p, inputs, 0.0).expect("a scene");
     let forces = simulation.forces();
@@ -66,11 +67,11 @@ fn the_study_s_planets_at_60_km_h_press_with_ten_newtons() {
 }
 
 #[test]
-fn without_friction_of_washers_nothing_of_it_is_felt() {
+fn without_washer_friction_the_centrifugal_force_has_no_effect() {
     let (mut p, inputs) = rolling(2861f64.to_radians(), 1.0);
     p.effects.thrust_friction = false;
     assert_eq!(spin_torque(&p, &inputs), 0.0);
-    // tooth friction sums the teeth slice by slice, and washers stay out of it
+    // tooth friction uses detailed loads, but no washer friction
     p.effects.tooth_friction = true;
     assert_eq!(spin_torque(&p, &inputs), 0.0);
 }
@@ -106,10 +107,10 @@ fn start_values_of_given_inertias_are_those_of_the_study_s_solids_to_three_digit
 }
 
 #[test]
-fn the_planets_deceleration_has_the_exact_slope_by_the_speed_that_throws_them() {
+fn the_deceleration_of_planets_has_the_exact_derivative_with_respect_to_their_orbital_speed() {
     for pins in [false, true] {
         let (mut p, mut inputs) = rolling(50.0, 0.0);
-        // shafts between wheels of different speeds leave carrier and planets free, and without torque
+        // wheels with different imposed speeds leave carrier and planets free and without torque
         (p.scene.planet_spin, p.scene.carrier_drive) = (PlanetSpin::Free, CarrierDrive::Torque);
         (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Speed, SideDrive::Speed);
         p.effects.pin_compliance = pins;
@@ -130,7 +131,7 @@ fn the_planets_deceleration_has_the_exact_slope_by_the_speed_that_throws_them() 
             (slopes[speed(Body::Planet(0))], -arm * 2.0 * planet.moment * states[speed(orbit)] / planet.axial);
         assert!((found / wanted - 1.0).abs() < 1e-12, "pins {pins}: {found} for {wanted}");
         if pins {
-            // the carrier does not throw what its pins carry
+            // the centrifugal force depends on the speed of the pin, not of the carrier
             let mut change = [0.0; STATES];
             change[speed(Body::Carrier)] = 1.0;
             let slopes = simulation.rate_slopes(&simulation.direction(&change, &Inputs::ZERO));

@@ -1,5 +1,5 @@
-//! Forces of the teeth in space: their parts and moments as they are reported, and as they press on washers and pins,
-//! against the places and normals of the contacts.
+//! Tooth forces in space: reported components and moments, and loads on washers and pins, compared with points and
+//! normals of the contacts.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::geometry::Pair;
@@ -9,10 +9,10 @@ use bevel_differential::model::{BODIES, Body, Inputs, Parameters, PlanetSpin, Si
 use super::solids::Solid;
 use super::space::UnitForce;
 
-/// Of the forces: rounding, and the tables of tip corners (1e-11 of a gap).
+/// Relative error of the forces from rounding and from the tables of tip corners (1e-11 of a gap).
 const ROUNDING: f64 = 1e-9;
 
-/// Turns with each kind of contact, plain and in detail.
+/// Turns with each kind of contact, plain and detailed.
 fn turns() -> Vec<(&'static str, Parameters, Inputs)> {
     let mut all = Vec::new();
     type Change = fn(&mut Parameters);
@@ -43,7 +43,7 @@ fn turns() -> Vec<(&'static str, Parameters, Inputs)> {
 }
 
 #[test]
-fn places_normals_thrusts_and_pin_forces_are_those_in_space() {
+fn points_normals_thrusts_and_pin_forces_equal_those_computed_in_space() {
     let mut spots = [0; 3];
     for (name, p, inputs) in turns() {
         let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
@@ -93,7 +93,7 @@ fn washers_and_pins_rub_with_the_forces_of_the_teeth_in_space_and_of_the_orbit()
         let mut p = Parameters::default();
         (p.scene.planet_spin, p.contact.law) = (PlanetSpin::Imposed, law);
         (p.effects.thrust_friction, p.effects.pin_compliance) = (true, pins);
-        // nothing but dry friction makes heat
+        // only dry friction produces heat
         (p.contact.damping, p.specs.pin_compliance.damping_time) = (0.0, 0.0);
         let with = &mut p.specs.thrust_friction;
         (with.coefficient, with.pin_coefficient) = (0.07, 0.04);
@@ -109,7 +109,7 @@ fn washers_and_pins_rub_with_the_forces_of_the_teeth_in_space_and_of_the_orbit()
                 thrust += parts[0];
                 across += parts[2];
                 along += if load.side == 0 { parts[1] } else { -parts[1] };
-                // both planets are alike
+                // both planets are identical
                 sides[load.side] += 2.0 * parts[1];
             });
             let states = simulation.states();

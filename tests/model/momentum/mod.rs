@@ -1,5 +1,5 @@
-//! Forces of the teeth in space and masses of the gears, computed without the program: from the geometry of the teeth and from the
-//! surfaces of the exported solids. `tests/python/momentum.py` balances the angular momentum with them.
+//! Tooth forces in space and masses of the gears, computed independently of the program: from the geometry of the teeth
+//! and from the surfaces of the exported solids. `tests/python/momentum.py` balances the angular momentum with them.
 
 mod centrifugal;
 mod forces;

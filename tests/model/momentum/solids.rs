@@ -8,10 +8,10 @@ use bevel_differential::geometry::solid::GearSolid;
 use bevel_differential::geometry::{GearSpec, Pair};
 use nalgebra::{Matrix3, Vector3};
 
-/// Facets per flank of the solids that the simulation takes.
+/// Number of facets per flank of the solids in the simulation.
 const FACETS: usize = 96;
 
-/// Mass properties about the apex, z along the gear's axis from there to the heel.
+/// Mass properties about the apex, with z along the gear's axis from the apex to the heel.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     /// Mass [kg].
@@ -20,12 +20,12 @@ pub struct Solid {
     pub moment: f64,
     /// Moment of inertia about the axis [kg·m²].
     pub axial: f64,
-    /// Moment of inertia about the apex, across the axis [kg·m²].
+    /// Moment of inertia about an axis through the apex, across the gear's axis [kg·m²].
     pub transverse: f64,
 }
 
 impl Solid {
-    /// Gear `gear` (0 planet, 1 side gear) of `spec` at the density `density` [kg/m³].
+    /// Solid of gear `gear` (0 planet, 1 side gear) of `spec` with the density `density` [kg/m³].
     pub fn new(spec: &GearSpec, gear: usize, density: f64) -> Self {
         let surface = GearSolid::new(&Pair::new(spec), spec, gear, FACETS, 1);
         let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());

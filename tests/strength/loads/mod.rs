@@ -1,4 +1,4 @@
-//! Standing differentials with errors, and what is read from them.
+//! Differentials that do not roll, with errors, and functions to read their results.
 
 #![allow(dead_code)] // each test binary uses its own part
 
@@ -27,7 +27,7 @@ pub fn middles(pair: &Pair, n: usize) -> (impl Iterator<Item = f64> + Clone, f64
     ((0..n).map(move |j| inner + (j as f64 + 0.5) * width), width)
 }
 
-/// Loaded pairs by mesh: planet, side, flank, place.
+/// Loaded pairs by mesh: planet, side, flank, position.
 pub fn pairs_of(loads: &[ToothLoad]) -> Vec<(usize, usize, Flank, f64)> {
     let mut pairs: Vec<(usize, usize, Flank, f64)> = Vec::new();
     for load in loads {
@@ -39,7 +39,7 @@ pub fn pairs_of(loads: &[ToothLoad]) -> Vec<(usize, usize, Flank, f64)> {
     pairs
 }
 
-/// A standing differential with errors.
+/// A differential with errors that does not roll.
 pub fn standing(law: ContactLaw, errors: &ToothErrorSpec) -> Simulation {
     let mut p = Parameters::default();
     (p.effects.strength, p.effects.tooth_errors) = (true, true);

@@ -1,18 +1,18 @@
-//! Loads at the roots of teeth and what their body answers, against sums over points and closed forms.
+//! Loads at tooth roots and displacements of the gear body, checked against sums over points and closed forms.
 
 use super::*;
 use crate::contact::stiffness::SectionSpec;
 use crate::geometry::GearSpec;
 use crate::numeric::cos;
 
-/// A number with an imaginary part.
+/// A complex number: real and imaginary part.
 #[derive(Clone, Copy)]
 struct Complex(f64, f64);
 
 /// Points over a root.
 const POINTS: usize = 4000;
 
-/// The root's middle ζ and width dζ of part `k`, and tractions (along R, φ and ζ) of unit loads there.
+/// ζ at the middle of strip `k` of the root, its width dζ, and the tractions (along R, φ and ζ) of unit loads there.
 fn tractions(root: &RootPatch, k: usize) -> (f64, f64, [[f64; 3]; 3]) {
     let y = 2.0 * (k as f64 + 0.5) / POINTS as f64 - 1.0;
     let zeta = y * root.half_azimuth;
@@ -28,8 +28,8 @@ fn tractions(root: &RootPatch, k: usize) -> (f64, f64, [[f64; 3]; 3]) {
 }
 
 #[test]
-fn displacements_of_other_teeth_are_those_of_the_field() {
-    // the field of one load summed wave by wave, and its work on another tooth, without any use of parity
+fn displacements_of_other_teeth_match_the_summed_field() {
+    // the field of one load is summed harmonic by harmonic, and then its work on another tooth, without use of parity
     let pair = Pair::new(&GearSpec::default());
     let section = SectionSpec::of_gear(&pair, 1).with_fillet(0.4 * pair.module, "").expect("a gap");
     let elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
@@ -86,12 +86,13 @@ fn displacements_of_other_teeth_are_those_of_the_field() {
 }
 
 #[test]
-fn a_bore_that_takes_torque_lets_all_teeth_turn_with_the_load() {
+fn a_bore_that_transmits_torque_lets_all_teeth_turn_with_the_load() {
     let pair = Pair::new(&GearSpec::default());
     let section = SectionSpec::of_gear(&pair, 1).with_fillet(0.4 * pair.module, "").expect("a gap");
     let elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
     let body = |support| GearBody::new(&pair, 1, (&section, &elasticity), support, "").expect("a body");
-    // held by its bore, a body turns with the load; free to turn, the mean of all its roots stands still
+    // a body held by its bore turns with the load; if the body is free to turn, the mean displacement of all roots is
+    // zero
     let [held, free] = [Support::Bore(0.01), Support::FreeBore(0.01)].map(body);
     let mean =
         |body: &GearBody| (0..64).map(|k| body.compliance_between(TAU * f64::from(k) / 64.0)[0][0]).sum::<f64>() / 64.0;
@@ -100,7 +101,7 @@ fn a_bore_that_takes_torque_lets_all_teeth_turn_with_the_load() {
 }
 
 #[test]
-fn waves_too_short_for_a_finite_face_go_on_where_it_ends() {
+fn compliances_beyond_the_finite_harmonics_continue_smoothly() {
     let pair = Pair::new(&GearSpec::default());
     let section = SectionSpec::of_gear(&pair, 1).with_fillet(0.4 * pair.module, "").expect("a gap");
     let elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };

@@ -9,7 +9,7 @@ fn cone(surface: f64, clamp: f64) -> HollowCone {
 }
 
 #[test]
-fn torsion_is_that_of_the_closed_form() {
+fn torsion_matches_the_closed_form() {
     // T = 2πG sin³φ θ′ ∫R²dR: θ = T/(2πG) [ln tan(φ/2)/2 − cos φ/(2 sin²φ)], with and without ends
     let integral = |x: f64| 0.5 * libm::log(tan(0.5 * x)) - cos(x) / (2.0 * sin(x) * sin(x));
     let shear = 0.5 * STEEL.young / (1.0 + STEEL.poisson);
@@ -24,14 +24,14 @@ fn torsion_is_that_of_the_closed_form() {
 }
 
 #[test]
-fn short_waves_see_a_half_space() {
+fn short_waves_behave_as_on_a_half_space() {
     let n = 400;
     let cone = cone(0.8, 0.3);
     let (found, expected) = (cone.compliance(n, false, 1).expect("elastic"), cone.half_space(n));
     assert!((found - expected).norm() < 0.01 * expected.norm(), "{found} {expected}");
 }
 
-/// Part of the stiffness that a displacement of the nodes of an element meets, from R and φ to U, V and w.
+/// Relative force that resists a displacement of the nodes of an element. `displacement` maps R and φ to U, V and w.
 fn resistance(body: &HollowCone, n: usize, displacement: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
     let range = [0.2, 0.5];
     let k = body.element(n, range, 3);
@@ -47,11 +47,11 @@ fn resistance(body: &HollowCone, n: usize, displacement: impl Fn(f64, f64) -> [f
 }
 
 #[test]
-fn rigid_motions_of_the_whole_body_cost_nothing() {
+fn rigid_motions_of_the_whole_body_need_no_force() {
     let face = [36e-3, 42e-3];
     let bodies =
         [HollowCone { face, ..cone(0.8, 0.3) }, HollowCone { face, held: Held::Cylinder(6e-3), ..cone(0.8, 0.3) }];
-    // quadratics meet sines and 1/R nearly; a wrong sign of any term is a hundredth and more
+    // quadratics approximate sines and 1/R closely; a wrong sign of any term causes an error of at least one hundredth
     for body in &bodies {
         // rotations about the gear's axis and across it: W = −cos φ sin ζ is w = cos φ with W = i w
         assert!(resistance(body, 0, |_, p| [0.0, 0.0, sin(p)]) < 1e-4);
@@ -59,7 +59,7 @@ fn rigid_motions_of_the_whole_body_cost_nothing() {
         // translations along the axis and across it
         assert!(resistance(body, 0, |r, p| [cos(p) / r, -sin(p) / r, 0.0]) < 1e-4);
         assert!(resistance(body, 1, |r, p| [sin(p) / r, cos(p) / r, 1.0 / r]) < 1e-4);
-        // and what is none
+        // a motion that is not rigid
         assert!(resistance(body, 1, |r, p| [sin(p) / r, cos(p) / r, -1.0 / r]) > 1e-2);
     }
 }
@@ -75,7 +75,7 @@ fn compliances_are_symmetric_and_positive() {
 
 #[test]
 fn free_ends_soften() {
-    // the motion that is the same at all R is one of those that a finite face can have
+    // the motion that is the same at all R is one of the motions that a finite face can have
     for n in [1, 2, 5, 8] {
         let [endless, finite] = [1, 3].map(|across| cone(0.86, 0.3).compliance(n, false, across).expect("elastic"));
         assert!((finite - endless).cholesky().is_some(), "{n}: {endless} {finite}");
@@ -102,9 +102,10 @@ fn elements_are_fine_enough() {
     }
 }
 
-/// A plane annulus in plane strain between the radii `inner`, held along r but not along θ, and `outer`: displacements
-/// (u_r, u_θ) of the outer edge under loads p cos nθ along r and t sin nθ along θ, n ≥ 2. J. H. Michell's stress functions
-/// r^n, r^-n, r^(n+2), r^(2-n), times cos nθ (Timoshenko & Goodier, Theory of Elasticity, section 43).
+/// Compliance of a plane annulus in plane strain: displacements (u_r, u_θ) of the edge at radius `outer` under loads p
+/// cos nθ along r and t sin nθ along θ, n ≥ 2. At radius `inner` it is held along r but not along θ. It uses J. H.
+/// Michell's stress functions r^n, r^-n, r^(n+2), r^(2-n), times cos nθ (Timoshenko & Goodier, Theory of Elasticity,
+/// section 43).
 fn annulus(n: f64, [inner, outer]: [f64; 2]) -> nalgebra::Matrix2<f64> {
     let shear = 0.5 * STEEL.young / (1.0 + STEEL.poisson);
     let kappa = 3.0 - 4.0 * STEEL.poisson;
@@ -149,8 +150,9 @@ fn annulus(n: f64, [inner, outer]: [f64; 2]) -> nalgebra::Matrix2<f64> {
 }
 
 #[test]
-fn a_planet_of_small_angles_is_an_annulus_on_a_pin() {
-    // near the axis the sphere is flat: φ is a radius, and U a displacement out of the plane, which plane strain has not
+fn a_planet_of_small_angles_matches_an_annulus_on_a_pin() {
+    // near the axis the sphere is flat: φ is a radius, and U is a displacement out of the plane, which plane strain
+    // excludes
     for [inner, outer] in [[0.6e-2, 1e-2], [0.3e-2, 1e-2]] {
         for n in [2, 3, 4, 6] {
             let cone = HollowCone { surface: outer, ..cone(outer, inner) };

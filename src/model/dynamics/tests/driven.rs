@@ -1,4 +1,4 @@
-//! Inputs that change: what they add as a parabola of time is what the equations give at the inputs of that time.
+//! Tests of inputs that change with time: the parabola that they add equals the equations at the inputs of each time.
 
 use super::shape::{Any, LARGEST, LEAST, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds};
 use super::{Acted, Equations};
@@ -19,8 +19,8 @@ fn derivatives() -> InputDerivatives {
     InputDerivatives { rates: [rates(1.0), rates(-7.0)] }
 }
 
-/// Largest difference of accelerations and input power, relative to the largest of them, between the parabola and the equations at the
-/// inputs of the time, in the shape `S`.
+/// Largest relative difference of accelerations and input power between the parabola, in the shape `S`, and the
+/// equations at the inputs of each time.
 fn difference<const N: usize, S: Shape<N>>(parameters: &Parameters) -> f64 {
     let inputs = Inputs::default();
     let mut simulation = Simulation::start(parameters, &inputs, 0.0).unwrap();
@@ -42,7 +42,7 @@ fn difference<const N: usize, S: Shape<N>>(parameters: &Parameters) -> f64 {
             largest = largest.max((a - b).abs() / scale);
         }
         largest = largest.max((rates.input - expected_rates.input).abs() / expected_rates.input.abs());
-        // the slope by time, by differences of the equations
+        // the derivative with respect to time, by differences of the equations
         let step = 1e-6;
         let slope = equations.drift(&at, time);
         let ends = [time - step, time + step].map(|time| whole.later(time).evaluate(&state.point()).0);
@@ -59,7 +59,7 @@ fn difference<const N: usize, S: Shape<N>>(parameters: &Parameters) -> f64 {
 }
 
 #[test]
-fn a_parabola_of_time_is_what_the_equations_give_at_the_inputs_of_the_time() {
+fn a_parabola_of_time_equals_the_equations_at_the_inputs_of_each_time() {
     for (drive, spin) in [
         (CarrierDrive::Speed, PlanetSpin::Free),
         (CarrierDrive::Speed, PlanetSpin::Imposed),

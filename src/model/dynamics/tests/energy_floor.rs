@@ -1,4 +1,4 @@
-//! Tests of the least energy that the balance of a step resolves.
+//! Tests of the smallest energy that the balance of a step resolves.
 
 use super::with_equations;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
@@ -6,10 +6,11 @@ use crate::model::assembly::{Given, Model};
 use crate::model::scene::{CarrierDrive, GearContact, Inputs, Start};
 use crate::model::{Parameters, Simulation};
 
-/// Factor on the rounding of positions, so that the change of the energy is far above the rounding of the energy itself.
+/// Factor on the rounding of positions, so that the change of the energy is far above the rounding of the energy
+/// itself.
 const MAGNIFIED: f64 = 1e6;
 
-/// Wheels that brakes hold against 300 N·m of the carrier, behind half-shafts.
+/// Wheels on half-shafts, held by brakes against 300 N·m on the carrier.
 fn held(contact: GearContact) -> (Parameters, Inputs) {
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     parameters.scene.gear_contact = contact;
@@ -26,7 +27,7 @@ fn held(contact: GearContact) -> (Parameters, Inputs) {
 }
 
 #[test]
-fn the_floor_exceeds_what_rounding_of_a_position_changes_and_not_by_much() {
+fn the_floor_exceeds_the_energy_of_one_rounded_position_by_a_limited_factor() {
     for contact in [GearContact::Ideal, GearContact::Lumped, GearContact::Tooth] {
         let (parameters, inputs) = held(contact);
         let mut simulation = Simulation::start(&parameters, &inputs, 0.0).unwrap();
@@ -47,13 +48,13 @@ fn the_floor_exceeds_what_rounding_of_a_position_changes_and_not_by_much() {
         });
         println!("{contact:?}: shifts change {largest:e} J, floor {floor:e} J");
         assert!(largest > 1e-17 && largest <= floor, "{contact:?}: {largest:e} J, floor {floor:e} J");
-        // all positions together, at both ends, and the carrier's angle for all bodies on it
+        // the floor adds all positions at both ends, and counts the carrier's angle for each body on the carrier
         assert!(floor < 1e3 * largest, "{contact:?}: {largest:e} J, floor {floor:e} J");
     }
 }
 
 #[test]
-fn unresolved_speeds_count_near_rest_only() {
+fn unresolved_speeds_count_only_near_rest() {
     let (parameters, inputs) = held(GearContact::Ideal);
     let mut simulation = Simulation::start(&parameters, &inputs, 0.0).unwrap();
     simulation.advance(0.05).unwrap();
@@ -63,7 +64,7 @@ fn unresolved_speeds_count_near_rest_only() {
         let floor =
             |speed: f64, tolerance: f64| equations.energy_floor([&moving_at(speed), &moving_at(speed)], tolerance, 0.0);
         let (tolerance, still) = (1e-6, floor(0.0, 0.0));
-        // the norm does not resolve 1e-6 rad/s: kinetic energy of both wheels, of the gears and the carrier at this speed
+        // the norm does not resolve 1e-6 rad/s, so the kinetic energy of all bodies at this speed counts
         let [kinetic, _] = equations.energy(&moving_at(tolerance));
         assert!((floor(0.0, tolerance) - still - kinetic).abs() < 1e-6 * kinetic);
         assert_eq!(floor(5e-4, tolerance), floor(0.0, tolerance));

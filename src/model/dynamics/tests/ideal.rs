@@ -1,5 +1,5 @@
-//! Tests of the equations of ideal gears with effects: scenes with half-shafts only have equations of their own, and other methods
-//! run them in a larger size.
+//! Tests of the equations of ideal gears with effects. Scenes with only half-shafts have separate equations, and other
+//! methods use a larger size.
 
 use super::{Acted, IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
@@ -10,7 +10,8 @@ use crate::model::run::Widened;
 use crate::model::scene::{CarrierDrive, GearContact, InputDerivatives, Inputs, PlanetSpin, SideDrive};
 use crate::model::{Parameters, Simulation};
 
-/// Scenes with half-shafts: driven by torques, with one end, and with imposed speeds of the carrier, the spin and a side.
+/// Scenes with half-shafts: driven by torques, with one end, and with imposed speeds of the carrier, the spin and a
+/// side.
 fn scenes() -> Vec<Parameters> {
     let mut parameters = Parameters::default();
     parameters.scene.gear_contact = GearContact::Ideal;
@@ -25,7 +26,7 @@ fn scenes() -> Vec<Parameters> {
     scenes
 }
 
-/// Calls `check` with the constants, the state and the inputs of each scene, where inputs have derivatives, and a random point.
+/// Calls `check` with constants, state, inputs and random points of each scene. All inputs have derivatives.
 fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<MOST>)) {
     let mut random = fastrand::Rng::with_seed(7);
     for parameters in scenes() {
@@ -47,7 +48,7 @@ fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<MO
 }
 
 #[test]
-fn half_shafts_alone_have_the_bits_of_the_equations_with_any_effects() {
+fn equations_of_only_half_shafts_have_the_bits_of_the_equations_with_any_effects() {
     at_random_points(|ideal, state, inputs, at| {
         let any = IdealWithEffects { linear: None, ..ideal.clone() };
         assert!(ideal.linear.is_some());
@@ -69,7 +70,7 @@ fn derivatives_of_the_accelerations_equal_differences() {
     at_random_points(|ideal, state, inputs, at| {
         let equations = IdealEquations::new(ideal, inputs, state);
         let lin = equations.linearise(at);
-        // the equations are linear, so that differences are exact but for rounding
+        // the equations are linear, so that differences are exact except for rounding
         for j in 0..ideal.layout.count() {
             let (mut turned, mut faster) = (*at, *at);
             turned.q[j] += 1.0;

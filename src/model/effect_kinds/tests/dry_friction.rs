@@ -1,4 +1,4 @@
-//! Tests of dry friction that sticks.
+//! Tests of dry friction with sticking.
 
 use super::body_friction::BodyFriction;
 use super::dry_friction::*;
@@ -41,11 +41,11 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
 }
 
 #[test]
-fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
+fn a_crossing_from_one_limit_to_the_other_is_found_in_one_call() {
     let (clutch, sources, by) = (clutch(), [FrictionSource::new(0)], pressed(10.0));
     let clutch = DryFriction::new(&clutch, &sources);
-    // wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100 mrad; damping, as that of
-    // a turn by the speed in the damping time, takes some of it before
+    // the spring is wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100
+    // mrad; damping reaches the limit earlier, by the rotation within the damping time
     let hold = FrictionState { mode: Mode::Stuck, anchor: -0.01, stiffness: STIFFNESS };
     let turn = |position| Slip { position, speed: -1.0 };
     let part = clutch.crossing(&hold, (&turn(0.0), &by), (&turn(-0.1), &by)).unwrap();
@@ -54,10 +54,10 @@ fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
 }
 
 #[test]
-fn a_held_body_slides_where_its_command_falls_below_its_torque() {
+fn a_held_body_slides_when_its_command_falls_below_its_torque() {
     let (brake, sources) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [FrictionSource::new(0)]);
     let brake = DryFriction::new(&brake, &sources);
-    // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached at six tenths of the way
+    // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached after six tenths of the step
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
     for speed in [0.0, 1e-12, -1e-12] {
         let turn = Slip { position: 4.0 / STIFFNESS, speed };
@@ -65,7 +65,7 @@ fn a_held_body_slides_where_its_command_falls_below_its_torque() {
         assert!((part - 0.6).abs() < 1e-4, "{part}");
         assert!(brake.is_due(&hold, &turn, &pressed(3.9), false) && !brake.is_due(&hold, &turn, &pressed(4.1), false));
     }
-    // a command of 0 N·m holds nothing: a body that reverses goes on sliding
+    // a command of 0 N·m holds nothing: a body that reverses continues to slide
     let mut slides = FrictionState { mode: Mode::Forward, ..hold };
     brake.settle(&mut slides, (&Slip { position: 0.0, speed: -0.1 }, &pressed(0.0)), false, 1.0, &mut [0.0]);
     assert_eq!(slides.mode, Mode::Backward);
@@ -88,7 +88,7 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
 }
 
 #[test]
-fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_on() {
+fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_further() {
     let (sources, by) = ([FrictionSource::new(0)], pressed(10.0));
     let (clutch, brake) = (clutch(), by_load(BodyFriction::commanded(DAMPING_TIME, 0)));
     // a jump of an imposed speed may leave a braked wheel at a speed of some ulps
@@ -104,10 +104,10 @@ fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_on() {
                 let mut state = slides;
                 friction.settle(&mut state, (&slip, &by), true, 1.0, &mut [0.0]);
                 assert_eq!(state.mode, Mode::Stuck);
-                // its spring has the limit torque to the last bit, which does not release it again
+                // the spring has exactly the limit torque, which does not release the body again
                 assert!(!friction.is_due(&state, &Slip { position: 0.0, speed: 0.0 }, &by, false));
             }
-            // beyond the tolerance of the speed the sign of the speed decides
+            // beyond the speed tolerance, the sign of the speed decides
             let fast = Slip { position: 0.0, speed: 1e-3 * mode.direction() };
             assert!(!friction.is_due(&slides, &fast, &by, true));
         }
@@ -116,7 +116,8 @@ fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_on() {
 
 #[test]
 fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
-    // rounding of an angle of a turn, 2.8e-15 rad, is 2.8e-6 N·m in this spring: far beyond a hundred thousandth of 1 mN·m
+    // the rounding of an angle of one turn, 2.8e-15 rad, is 2.8e-6 N·m in this spring: far more than the tolerance of
+    // 1e-5 of 1 mN·m
     let stiff = 1e9;
     let mut body = BodyFriction::commanded(DAMPING_TIME, 0);
     body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], stiff, false);
@@ -129,7 +130,8 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
         assert_eq!(brake.crossing(&hold, (&at(0.9e-3), &by), (&at(1e-3 + 2e-6), &by)), None);
         assert!(brake.is_due(&hold, &at(1e-3 + 1e-5), &by, false));
         assert!(brake.crossing(&hold, (&at(0.9e-3), &by), (&at(1e-3 + 1e-4), &by)).is_some());
-        // the step ends at a speed whose damping torque the limit bears: 1e5 N·m·s/rad at 1e-6 rad/s would be 100 times the limit
+        // the step ends at a speed whose damping torque is below the limit: 1e5 N·m·s/rad at 1e-6 rad/s would be 100
+        // times the limit
         let slides = FrictionState { mode: Mode::Forward, anchor: 0.0, stiffness: stiff };
         let moving = |speed: f64| Slip { position: 0.0, speed };
         assert!(brake.crossing(&slides, (&moving(1e-3), &by), (&moving(-4e-9), &by)).is_none());

@@ -1,8 +1,9 @@
-//! Extremes within the present mesh cycle, and peak-to-peak values of the last whole one.
+//! Extremes within the present mesh cycle, and peak-to-peak values of the last whole cycle.
 //!
-//! A mesh cycle is one tooth of every planet past a side gear: half the difference of both side gears' angles by one tooth
-//! pitch. Cycles begin where the motion began, and at whole pitches from there; one in which rolling returns past its
-//! beginning begins again. Rolling forward or backward thus divides the motion in the same way.
+//! In a mesh cycle, one tooth of every planet passes a side gear: half the difference of both side gears' angles
+//! changes by one tooth pitch. The first cycle begins at the start of the motion, and the others at whole pitches from
+//! there. If rolling returns past the beginning of a cycle, the cycle starts again. Forward and backward rolling
+//! therefore divide the motion in the same way.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,27 +11,29 @@ use crate::integrate::Curve;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS, Plan};
 use crate::numeric::Finite;
 
-/// Most quantities: speeds of both side gears, then transmission errors by group of planets and side.
+/// Maximum number of quantities: speeds of both side gears, then transmission errors by group of planets and side.
 pub const MOST_QUANTITIES: usize = 2 + 2 * MAX_GROUPS;
 
-/// Least and largest value of a quantity.
+/// Minimum and maximum of a quantity.
 type Extremes = [f64; 2];
 
-/// What is kept from step to step.
+/// Extremes and peak-to-peak values, carried from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshHistory {
-    /// Cycles rolled since the present one began, backward negative.
+    /// Cycles rolled since the present cycle began; negative for backward rolling.
     rolled: f64,
-    /// Extremes since then.
+    /// Extremes since the present cycle began.
     extremes: Option<[Extremes; MOST_QUANTITIES]>,
-    /// Peak-to-peak values over the last whole cycle; 0 before.
+    /// Peak-to-peak values over the last whole cycle; 0 before the first one is complete.
     last: [f64; MOST_QUANTITIES],
 }
 
 impl MeshHistory {
-    /// Adds the part of a step up to its fraction `part`: its rolling in cycles, and the quantities in their order.
+    /// Adds a step up to its fraction `part`. `rolling` is its rolling in cycles, and `quantities` are in their fixed
+    /// order.
     ///
-    /// Whole cycles are counted, not run through: a step may have any number of them, and only the last leaves a value.
+    /// A step may contain any number of whole cycles, of which only the last one gives values. They are counted without
+    /// a loop.
     pub fn add(&mut self, rolling: &Curve, quantities: &[Curve], part: f64) {
         let (mut from, mut begin) = (0.0, rolling.at(0.0) - self.rolled);
         let rolled = rolling.at(part) - begin;
@@ -51,12 +54,12 @@ impl MeshHistory {
             from = to;
         }
         self.extend(quantities, [from, part]);
-        // angles so large that rounding takes whole cycles from them have no place within one
+        // if an angle is so large that its rounding exceeds a cycle, the position within the cycle is unknown
         let rest = rolling.at(part) - begin;
         self.rolled = if rest.abs() < 1.0 { rest } else { 0.0 };
     }
 
-    /// Extends the extremes over a span of a step.
+    /// Extends the extremes over a span of fractions of a step.
     fn extend(&mut self, quantities: &[Curve], span: [f64; 2]) {
         let is_new = self.extremes.is_none();
         let all = self.extremes.get_or_insert_default();
@@ -68,7 +71,7 @@ impl MeshHistory {
         }
     }
 
-    /// Sets the readings: both side gears, then each planet with both.
+    /// Sets the readings: both side gears, then each planet with both side gears.
     pub fn read(&self, plan: &Plan, readings: &mut [f64]) {
         let (speeds, errors) = readings.split_at_mut(2);
         speeds.copy_from_slice(&self.last[..2]);
@@ -78,7 +81,7 @@ impl MeshHistory {
         }
     }
 
-    /// Whether a simulation can continue from all numbers.
+    /// True if a simulation can continue from these numbers.
     pub fn is_valid(&self) -> bool {
         let Self { rolled, extremes, last } = self;
         rolled.abs() < 1.0 && extremes.is_finite() && last.is_finite()
@@ -94,7 +97,7 @@ mod tests {
         Curve { start, end, coefficients: [0.0; 3] }
     }
 
-    /// Peak-to-peak values of a quantity that is the place itself, rolling from place to place in cycles.
+    /// History of a quantity that equals the position, while the gears roll through `places` in cycles.
     fn rolled(places: &[f64]) -> MeshHistory {
         let mut history = MeshHistory::default();
         for pair in places.windows(2) {
@@ -116,9 +119,9 @@ mod tests {
     }
 
     #[test]
-    fn several_cycles_in_a_step_leave_the_last() {
+    fn several_cycles_in_a_step_leave_the_values_of_the_last() {
         let mut history = MeshHistory::default();
-        // 2 s of a quantity that grows as it rolls
+        // the quantity grows by 2 in each of 3.5 cycles
         history.add(&line(0.0, 3.5), &[line(0.0, 7.0)], 1.0);
         assert!((history.last[0] - 2.0).abs() < 1e-14 && (history.rolled - 0.5).abs() < 1e-14);
         let [least, largest] = history.extremes.unwrap()[0];
@@ -126,15 +129,15 @@ mod tests {
     }
 
     #[test]
-    fn cycles_without_number_are_counted_at_once() {
-        // more cycles than could be run through, up to those that no number resolves, either way
+    fn any_number_of_cycles_is_counted_without_a_loop() {
+        // more cycles than a loop could handle, up to numbers that do not resolve a single cycle, in both directions
         for cycles in [1e6 + 0.5, 1e12 + 0.25, 1e17, 1e40, 1e300] {
             for sign in [1.0, -1.0] {
                 for start in [0.0, 0.375, 3e16] {
                     let mut history = MeshHistory { rolled: 0.125 * sign, ..MeshHistory::default() };
                     history.add(&line(start, start + sign * cycles), &[line(0.0, 1.0)], 1.0);
                     assert!(history.is_valid(), "{cycles} {sign} {start}: {history:?}");
-                    // the share of a step that one cycle takes, to what the place's own digits leave of it
+                    // fraction of a step that one cycle takes, within the resolution of the position
                     let left = (history.last[0] - 1.0 / cycles).abs();
                     let digits = (start + cycles) / cycles * 4.0 * f64::EPSILON;
                     assert!(left <= digits, "{cycles} {sign} {start}: {}", history.last[0]);
@@ -144,14 +147,14 @@ mod tests {
     }
 
     #[test]
-    fn a_way_out_and_back_is_no_cycle() {
+    fn rolling_out_and_back_does_not_complete_a_cycle() {
         let history = rolled(&[0.0, 0.8, -0.1, 0.9, -0.9]);
         assert_eq!(history.last, [0.0; MOST_QUANTITIES]);
         assert!((rolled(&[0.0, 0.8, -1.05]).last[0] - 1.0).abs() < 1e-15);
     }
 
     #[test]
-    fn a_step_in_parts_is_the_step() {
+    fn a_step_up_to_a_fraction_agrees_with_the_whole_step() {
         let rolling = Curve { start: 0.3, end: 1.6, coefficients: [0.02, -0.05, 0.01] };
         let quantity = Curve { start: 1.0, end: 0.5, coefficients: [4.0, -9.0, 3.0] };
         let mut whole = MeshHistory::default();

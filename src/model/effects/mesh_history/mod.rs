@@ -1,4 +1,4 @@
-//! Peak-to-peak values over whole mesh cycles: declaration, and what is kept from step to step.
+//! Peak-to-peak values over whole mesh cycles: declaration and history.
 
 mod history;
 mod spec;

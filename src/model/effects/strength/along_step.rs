@@ -1,8 +1,9 @@
-//! Damage and largest stresses along a step, by a quadrature over its continuous extension.
+//! Damage and largest stresses along a step, by a quadrature over its dense output.
 //!
-//! Step control follows the motion alone, but damage grows with the ninth or thirteenth power of the load. So loads are taken at
-//! both ends and in the middle of a step. The step is halved while Simpson's rule differs from the trapezoidal rule by more than
-//! [`ROUGH`] of the damage; the error of Simpson's rule is then some 1e-5. Peaks are those of the parabolas through these loads.
+//! Step-size control considers only the motion, but damage grows with the ninth or thirteenth power of the load. Loads
+//! are therefore sampled at both ends and in the middle of a step. The step is halved while Simpson's rule differs from
+//! the trapezoidal rule by more than [`ROUGH`] of the damage; the error of Simpson's rule is then about 1e-5. Peaks are
+//! the maxima of the parabolas through these loads.
 
 use super::overload::{Overload, Stressed};
 use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
@@ -10,25 +11,27 @@ use crate::model::scene::MAX_GROUPS;
 use crate::strength::interval::{Three, crest, extremum, mean, second_difference};
 use crate::strength::{Cycle, Rating, loaded_flank};
 
-/// Largest difference of Simpson's from the trapezoidal rule, as a part of the mean damage of a cycle in the step or the run.
+/// Tolerated difference between Simpson's rule and the trapezoidal rule, as a fraction of the mean damage per cycle in
+/// the step or the run.
 const ROUGH: f64 = 0.02;
-/// Largest second difference of a load at a turn, as a part of the largest load. The parabola then turns within a hundredth of
-/// that part.
+/// Tolerated second difference of a load at an extremum, as a fraction of the largest load. The extremum of the
+/// parabola is then within an eighth of this difference from the nearest sample.
 const BLUNT: f64 = 0.005;
-/// How often a step may be halved.
+/// Maximum number of halvings of a step.
 const HALVINGS: u32 = 6;
 
 /// Angles of the planets relative to the carrier by group [rad], or their rates [rad/s].
 ///
-/// Side gears roll with them: their own angles contain the elastic wind-up under the load, which brings no tooth into mesh.
+/// Side gears roll with the planets. Their own angles are not used, because they contain the elastic wind-up under
+/// load, which brings no tooth into mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rolled {
-    /// Planets by group.
+    /// Values of the planets by group.
     pub spin: [f64; MAX_GROUPS],
 }
 
 impl Rolled {
-    /// The mean of all planets, `members` of them in each group.
+    /// Mean over all planets, with `members` planets in each group.
     fn mean(&self, members: &[f64]) -> f64 {
         let (sum, count) =
             self.spin.iter().zip(members).fold((0.0, 0.0), |(sum, count), (spin, n)| (sum + n * spin, count + n));
@@ -58,21 +61,21 @@ pub struct RatedStep<'a> {
     pub begin: f64,
     /// Size of the step [s].
     pub h: f64,
-    /// Part of the step before which nothing is counted, from 0 to 1.
+    /// Fraction of the step before which nothing is counted.
     pub from: f64,
     /// Number of planets in each group.
     pub members: &'a [f64],
-    /// Writes the sample at a part of the step, from 0 to 1.
+    /// Writes the sample at a fraction of the step.
     pub sample: &'a mut dyn FnMut(f64, &mut Sample),
 }
 
-/// Damage of a cycle to the planet's root, the side gear's root and the flanks.
+/// Damage per cycle to the planet's root, the side gear's root and the flanks.
 type PerCycle = [f64; 3];
 const PLANET_ROOT: usize = 0;
 const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
-/// A sample and the damage of a cycle under its loads, by group, side and flank. It is large, so it is written in place.
+/// Sample, and the damage per cycle under its loads, by group, side and flank. It is large, so it is written in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rated {
     part: f64,
@@ -80,14 +83,14 @@ pub struct Rated {
     damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
 }
 
-/// Damage of a cycle and bending force of the worst tooth, as measures for differences.
+/// Damage per cycle and bending force of the worst tooth, with which differences are compared.
 struct Scale {
     damage: PerCycle,
     bending: f64,
 }
 
 impl GearStrength {
-    /// Lets the gears roll through a step without counting its damage.
+    /// Advances the rolling of the gears over a step without counting its damage.
     pub fn roll(&self, fatigue: &mut Fatigue, members: &[f64], [from, to]: [&Rolled; 2]) {
         let Fatigue { planets, sides, in_mesh, .. } = fatigue;
         let rating = &self.rating;
@@ -101,8 +104,8 @@ impl GearStrength {
         in_mesh.roll(rating, to.mean(members) - from.mean(members));
     }
 
-    /// Counts the damage of a step. `loads` are those at its beginning if `are_known`; on return they are those at its end, for
-    /// the next step.
+    /// Counts the damage of a step. If `are_known` is true, `loads` contains the loads at its beginning. On return,
+    /// `loads` contains the loads at its end, for the next step.
     pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, loads: &mut Rated, are_known: bool) {
         if !are_known {
             self.rate(step, step.from, loads);
@@ -123,7 +126,7 @@ impl GearStrength {
         self.count_part(fatigue, step, parts, &scale, HALVINGS);
     }
 
-    /// Writes the sample at `part` of the step, and the damage of a cycle under its loads.
+    /// Writes the sample at the fraction `part` of the step, and the damage per cycle under its loads.
     fn rate(&self, step: &mut RatedStep, part: f64, rated: &mut Rated) {
         rated.part = part;
         (step.sample)(part, &mut rated.sample);
@@ -140,7 +143,7 @@ impl GearStrength {
         });
     }
 
-    /// Counts the damage of an interval as a whole or by halves.
+    /// Counts the damage of an interval, which is halved if necessary.
     fn count_part(
         &self,
         fatigue: &mut Fatigue,
@@ -160,10 +163,10 @@ impl GearStrength {
         }
     }
 
-    /// Whether parabolas describe the loads and the damage of an interval.
+    /// True if parabolas describe the loads and the damage of an interval.
     fn is_smooth(&self, fatigue: &Fatigue, members: &[f64], parts: [&Rated; 3], scale: &Scale) -> bool {
         let pitch = self.rating.pitch;
-        // the part of the interval in which the teeth of a gear count, and the rates at which it turns
+        // fraction of the interval in which the teeth of a gear count, and the rates at which the gear turns
         let planet = |g: usize| {
             let step = parts[2].sample.angle.spin[g] - parts[0].sample.angle.spin[g];
             (fatigue.planets[g].rolling.counting(step, pitch[0]), parts.map(|at| at.sample.rate.spin[g]))
@@ -185,7 +188,7 @@ impl GearStrength {
         smooth
     }
 
-    /// Adds the damage of an interval, and swings of the forces that bend teeth in mesh.
+    /// Adds the damage of an interval, and the swings of the forces that bend teeth in mesh.
     fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         self.watch(fatigue, step, parts);
         let rating = &self.rating;
@@ -220,8 +223,8 @@ impl GearStrength {
         fatigue.in_mesh.add(rating, planets, to - from, forces);
     }
 
-    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its idler
-    /// strength while it rolls.
+    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its
+    /// idler strength while it rolls.
     fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         let rating = &self.rating;
         let span = parts[2].part - parts[0].part;
@@ -259,17 +262,18 @@ impl GearStrength {
     }
 }
 
-/// Whether a parabola describes the damage at these rates to within `least`, where the part `counting` of the interval counts.
+/// True if a parabola describes the damage at these rates to within `least`. `counting` is the fraction of the interval
+/// that counts.
 fn is_smooth(damage: Three, rates: Three, counting: f64, least: f64) -> bool {
     let rates = rates.map(f64::abs);
     let fastest = rates.into_iter().fold(0.0, f64::max);
     let done = [0, 1, 2].map(|k| damage[k] * rates[k]);
-    // where a part of the interval counts, the load in that part is unknown: the damage must hardly change
+    // if only a fraction of the interval counts, the load within it is unknown, so the damage must be almost constant
     let spread = damage.into_iter().fold(0.0, f64::max) - damage.into_iter().fold(f64::INFINITY, f64::min);
     second_difference(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
 }
 
-/// Visits all flanks: group, side, and 0 for drive or 1 for coast.
+/// Visits all flanks with group, side, and 0 for drive or 1 for coast.
 fn for_each_flank(groups: usize, mut visit: impl FnMut(usize, usize, usize)) {
     for g in 0..groups {
         for s in 0..2 {

@@ -19,23 +19,24 @@ pub struct Fatigue {
     pub in_mesh: TeethInMesh,
     /// Stresses that exceeded their strength.
     pub overloads: Overloads,
-    /// Largest stresses by their strengths.
+    /// Largest ratios of stress to strength.
     pub utilisation: Utilisation,
-    /// Time from which all of it counts [s].
+    /// Time from which damage and stresses count [s].
     pub from: f64,
-    /// Whether it counts a start that was not in equilibrium.
+    /// True if a start that was not in equilibrium counts.
     pub has_blow: bool,
 }
 
 finite!(Fatigue { planets, sides, in_mesh, overloads, utilisation, from; has_blow });
 
 impl Fatigue {
-    /// Damage of a run that begins at `start` [s] and is rated `later` [s] than that; `in_equilibrium`: whether it begins so.
+    /// Damage of a run that begins at `start` [s] and is rated from `later` [s] after that. `in_equilibrium` is true if
+    /// the run begins in equilibrium.
     pub fn new(start: f64, later: f64, in_equilibrium: bool) -> Self {
         Self { from: start + later, has_blow: later == 0.0 && !in_equilibrium, ..Self::default() }
     }
 
-    /// Damage of a cycle on the mean so far, of the worst planet's root, the worse side gear's, and the worst flank.
+    /// Mean damage per cycle so far: of the worst planet's root, the worse side gear's root, and the worst flank.
     pub fn worst_per_cycle(&self) -> [f64; 3] {
         let worst = |gears: &[ToothDamage], of: fn(&FlankDamage) -> &Damage| {
             gears.iter().flat_map(|gear| &gear.flanks).map(|flank| of(flank).per_cycle()).fold(0.0, f64::max)
@@ -48,7 +49,8 @@ impl Fatigue {
         ]
     }
 
-    /// Damage sums of the worst teeth: roots of the worst planet and side gear, then their flanks. `planets`: their number.
+    /// Damage sums of the worst teeth: roots of the worst planet and side gear, then their flanks. `planets` is the
+    /// number of planets.
     pub fn sums(&self, rating: &Rating, planets: usize) -> [f64; 4] {
         let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
         let root = |gear: &ToothDamage, swings: [f64; 2]| {

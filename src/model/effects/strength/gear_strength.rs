@@ -15,11 +15,11 @@ use crate::strength::flash::Flash;
 /// Number of readings of damage; the readings of safety follow them.
 const DAMAGES: usize = 4;
 
-/// Number of readings of stress; those of temperature follow them.
+/// Number of readings of stress; the readings of temperature follow them.
 const STRESSES: usize = 5;
-/// Place of the contact temperature among the readings.
+/// Index of the contact temperature among the readings.
 pub const CONTACT_TEMPERATURE: usize = STRESSES + 1;
-/// Largest safety factor that is told.
+/// Largest safety factor that is reported.
 const MOST_SAFETY: f64 = 1000.0;
 
 /// Rating constants of planet and side gear.
@@ -34,7 +34,7 @@ pub struct GearStrength {
 }
 
 impl GearStrength {
-    /// Strength of the gears of `setting`, or why they cannot be rated.
+    /// Strength of the gears of `setting`. Fails if the tool leaves a tooth without a valid root section.
     pub fn new(spec: &StrengthSpec, setting: &Setting) -> Result<Self, Problem> {
         let strength = spec.tooth_strength();
         let elastic = (setting.material.young_modulus, setting.material.poisson_ratio);
@@ -51,18 +51,19 @@ impl GearStrength {
         Ok(Self { rating, application, mean_cone, flash, scuffing: spec.scuffing_temperature })
     }
 
-    /// Adds the load of a pair to that of its mesh.
+    /// Adds the load of a pair to the load of its mesh.
     pub fn add_load(&self, mesh: &mut MeshLoad, load: &PairLoad) {
         let moment = self.application * load.moment;
         let flank = mesh.flank(load.flank);
         let force = moment / load.cone;
         flank.normal += force;
         flank.pressing += force * load.face_factor;
-        // the formula of the root takes the force at the mean cone distance
+        // the root formula needs the force at the mean cone distance
         flank.bending += moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
     }
 
-    /// Raises the pressure of a mesh to that of one of its pairs. The pressure is a reading that no rating uses.
+    /// Raises the pressure of a mesh to the pressure of one of its pairs. This pressure is only a reading; no rating
+    /// uses it.
     pub fn add_pressure(&self, mesh: &mut MeshLoad, load: &PairLoad) {
         let flank = mesh.flank(load.flank);
         let line_load = self.application * load.steepest * self.mean_cone;
@@ -70,8 +71,8 @@ impl GearStrength {
         flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
     }
 
-    /// Raises the pressure of a mesh to those at both ends of the face of the pair of `load`, whose load per width [N/m] at a cone
-    /// distance [m] is `line_load`.
+    /// Raises the pressure of a mesh to the pressures of the pair of `load` at both ends of the face. `line_load`
+    /// returns the load per width [N/m] at a cone distance [m].
     pub fn add_pressure_at_ends(&self, mesh: &mut MeshLoad, load: &ToothLoad, line_load: &dyn Fn(f64) -> f64) {
         let flank = mesh.flank(load.flank);
         for cone in self.rating.contact.cone_range {
@@ -96,8 +97,8 @@ impl GearStrength {
         }
     }
 
-    /// Largest flash temperature over the face of the pair of `slice` [K], a slice of a mesh `detailed` under the friction `law`;
-    /// beyond the path's ends the radii there count, as for pressure.
+    /// Largest flash temperature over the face of a pair [K]. `slice` is a slice of the pair in the mesh `detailed`,
+    /// with the friction `law`. Beyond the ends of the path, the radii at the ends are used, as for pressure.
     pub fn flash(&self, detailed: &Detailed, law: &ToothFriction, slice: &SliceLoad) -> f64 {
         let Some(radius) = self.rating.contact.relative_radius(slice.s) else { return 0.0 };
         detailed.largest_on_face(slice, law, |place| {
@@ -106,8 +107,8 @@ impl GearStrength {
         })
     }
 
-    /// Sets the readings of temperature and of the safety against scuffing by the largest `flash` temperature, with oil and
-    /// gears at `temperatures` [K].
+    /// Sets the readings of temperature and of the safety against scuffing, from the largest `flash` temperature [K]
+    /// and the `temperatures` of the nodes [K].
     pub fn read_flash(&self, flash: f64, temperatures: &[f64; NODES], readings: &mut [f64]) {
         let (contact, oil) = (temperatures[GEARS] + flash, temperatures[OIL]);
         let safety = (self.scuffing - oil) / (contact - oil);

@@ -1,4 +1,4 @@
-//! Load of a mesh as its strength is rated, flank by flank.
+//! Load of a mesh for rating its strength, flank by flank.
 
 use crate::contact::Flank;
 
@@ -7,15 +7,17 @@ use crate::contact::Flank;
 pub struct FlankLoad {
     /// Normal force at the cone distance of the law's resultant [N].
     pub normal: f64,
-    /// The same, each pair's times its face load factor K_Hβ: what the pressure follows [N].
+    /// Normal force at the cone distance of the law's resultant, with each pair's force multiplied by its face load
+    /// factor K_Hβ [N]. Contact pressure follows from it.
     pub pressing: f64,
-    /// Normal force at the mean cone distance, each pair's times K_Fβ: what bends the roots [N].
+    /// Normal force at the mean cone distance, with each pair's force multiplied by K_Fβ [N]. Root bending follows from
+    /// it.
     pub bending: f64,
     /// Largest pressure of a pair [Pa].
     pub pressure: f64,
 }
 
-/// Load of one mesh. Both flanks carry at once only where errors or displacements use up the backlash.
+/// Load of one mesh. Both flanks are loaded at the same time only if errors or displacements use up the backlash.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshLoad {
     flanks: [FlankLoad; 2],
@@ -32,13 +34,13 @@ impl MeshLoad {
         &self.flanks
     }
 
-    /// Largest value of `of` of both flanks.
+    /// Larger value of `of` over both flanks.
     pub fn largest(&self, of: impl Fn(&FlankLoad) -> f64) -> f64 {
         let [drive, coast] = &self.flanks;
         of(drive).max(of(coast))
     }
 
-    /// Force that bends the teeth, positive from the drive flank [N].
+    /// Force that bends the teeth, positive on the drive flank [N].
     pub fn bending(&self) -> f64 {
         self.flanks[0].bending - self.flanks[1].bending
     }

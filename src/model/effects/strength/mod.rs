@@ -1,7 +1,8 @@
-//! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the strength.
+//! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the
+//! strength.
 //!
-//! Passages of teeth through their mesh are counted by relative revolutions (`strength::counting`), swings of the load while a
-//! tooth is in mesh by rainflow, tooth by tooth (`strength::TeethInMesh`).
+//! Passages of teeth through their mesh are counted by relative revolutions (`strength::counting`). Load swings while a
+//! tooth is in mesh are counted by the rainflow method, tooth by tooth (`strength::TeethInMesh`).
 
 mod along_step;
 mod fatigue;

@@ -1,4 +1,4 @@
-//! Stresses that exceed the strength: each is recorded when it first does so in a run.
+//! Stresses above the strength. The first of each kind in a run is recorded.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,23 +6,23 @@ use crate::model::scene::{MAX_GROUPS, Plan};
 use crate::numeric::{Finite, finite};
 use crate::problem::Problem;
 
-/// What is stressed.
+/// Kinds of stress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stressed {
-    /// Root of a planet's tooth.
+    /// Bending stress at the root of a planet's tooth.
     PlanetRoot,
-    /// Root of a side gear's tooth.
+    /// Bending stress at the root of a side gear's tooth.
     SideRoot,
-    /// Flanks of both.
+    /// Contact stress of the flanks.
     Flanks,
 }
 
 impl Stressed {
-    /// All of them.
+    /// All kinds of stress.
     pub const ALL: [Self; 3] = [Self::PlanetRoot, Self::SideRoot, Self::Flanks];
 }
 
-/// A stress and its strength, which it may exceed.
+/// Stress and the corresponding strength.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Overload {
     /// Time [s].
@@ -37,7 +37,7 @@ pub struct Overload {
     pub side: usize,
 }
 
-/// The first overload of each kind in a run.
+/// First overload of each kind in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Overloads {
     first: [Option<Overload>; Stressed::ALL.len()],
@@ -54,7 +54,7 @@ impl Finite for Overload {
 }
 
 impl Overloads {
-    /// Records `load` if it is the first above its strength.
+    /// Records `load` if it is the first of its kind above the strength.
     pub fn watch(&mut self, what: Stressed, load: Overload) {
         let first = &mut self.first[what as usize];
         if first.is_none() && load.stress > load.strength {
@@ -62,7 +62,7 @@ impl Overloads {
         }
     }
 
-    /// The first overload of `what`.
+    /// First overload of the kind `what`.
     pub fn of(&self, what: Stressed) -> Option<&Overload> {
         self.first[what as usize].as_ref()
     }

@@ -19,7 +19,7 @@ spec! {
         pub bending_cycles: f64 = 3e6,
         /// Life factor of bending at 10³ cycles Y_NT.
         pub bending_life_factor: f64 = 2.5,
-        /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
+        /// Idler factor Y_M: fraction of the bending strength of teeth that are loaded on alternate flanks.
         pub idler_factor: f64 = 0.7,
         /// Contact strength of the flanks at the knee σ_Hlim [Pa].
         pub contact_strength: f64 = 1.5e9,
@@ -75,7 +75,8 @@ impl Declare for StrengthSpec {
         temperature(
             "temperature.contact",
             (units::KELVIN, Some(DEG_C)),
-            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash temperature",
+            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash \
+             temperature",
         ),
         Reading {
             name: "safety.scuffing",

@@ -1,28 +1,28 @@
-//! How much of their strength roots and flanks have been asked for, and the safety factors that follow.
+//! Utilisation of the strength of roots and flanks, and the safety factors that follow.
 
 use serde::{Deserialize, Serialize};
 
 use super::overload::{Overload, Stressed};
 use crate::numeric::finite;
 
-/// Largest safety factor that is given: that of teeth without load.
+/// Largest safety factor that is reported; teeth without load have it.
 pub const MOST: f64 = 1e3;
 
-/// Largest stress over strength so far.
+/// Largest ratio of stress to strength so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Largest {
-    /// Stress over strength; 0 before any.
+    /// Stress over strength; 0 before the first stress.
     pub share: f64,
-    /// When that was [s].
+    /// Time at which it occurred [s].
     pub time: f64,
 }
 
-/// The same of roots and flanks.
+/// Largest ratios of stress to strength of roots and flanks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Utilisation {
-    /// Of all roots.
+    /// Largest ratio of all roots.
     pub root: Largest,
-    /// Of all flanks.
+    /// Largest ratio of all flanks.
     pub flank: Largest,
 }
 

@@ -1,4 +1,4 @@
-//! Tests of the thermal network against closed forms and its own linear system.
+//! Tests of the thermal network against closed forms and solutions of its linear system.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -21,7 +21,7 @@ fn network(conductances: [f64; NODES], to_ambient: f64) -> Network<2> {
     }
 }
 
-/// Heat enters at `power` [W] for `time` [s] in steps of `h`.
+/// Runs the network for `time` [s] in steps of `h` [s] with the heat rates `power` [W].
 fn run(network: &Network<2>, power: [f64; 2], time: f64, h: f64) -> Thermal {
     let mut thermal = Thermal::uniform(START);
     for k in 1..=(time / h).round() as usize {
@@ -76,7 +76,7 @@ fn no_heat_is_lost_whether_the_sump_is_free_or_given() {
 }
 
 #[test]
-fn a_node_cools_exponentially_where_the_sump_is_given() {
+fn a_node_cools_exponentially_if_the_sump_is_given() {
     let network =
         Network { around: Around { sump: Some(START), ..AROUND }, ..network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0) };
     let mut thermal = Thermal::uniform(START);
@@ -93,14 +93,14 @@ fn a_node_cools_exponentially_where_the_sump_is_given() {
 fn steps_that_a_burst_of_heat_has_shortened_grow_again() {
     let network = network([0.0, 0.0, 10.0, 0.0, 0.0], 0.0);
     let mut thermal = Thermal::uniform(START);
-    // a blow: 1 J within a microsecond, at which rate half a kelvin takes 0.5 K · 300 J/K / 1 MW
+    // a blow: 1 J within a microsecond; at this rate, half a kelvin takes 0.5 K · 300 J/K / 1 MW
     network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
     assert!(thermal.is_to_be_felt());
     thermal.feel();
     assert!((thermal.longest / 150e-6 - 1.0).abs() < 1e-6, "{}", thermal.longest);
-    // and no heat after it
+    // no heat after the blow
     network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
-    assert!(!thermal.is_to_be_felt(), "a short step says nothing of a long one");
+    assert!(!thermal.is_to_be_felt(), "a short step says nothing about a long one");
     network.advance(&mut thermal, &[1.0, 0.0], 140e-6, (0.0, [AROUND; 2]));
     assert!(thermal.is_to_be_felt());
     thermal.feel();
@@ -108,8 +108,8 @@ fn steps_that_a_burst_of_heat_has_shortened_grow_again() {
 }
 
 #[test]
-fn temperatures_outside_that_change_are_followed_and_no_heat_is_lost() {
-    // a sump between two temperatures and an ambient that falls, with all nodes joined
+fn changing_outside_temperatures_are_followed_and_no_heat_is_lost() {
+    // a sump that swings between two temperatures and an ambient that falls, with all nodes connected
     let network =
         Network { around: Around { sump: Some(320.0), ..AROUND }, ..network([0.0, 20.0, 10.0, 5.0, 30.0], 12.0) };
     let mut thermal = Thermal::uniform(START);
@@ -125,7 +125,7 @@ fn temperatures_outside_that_change_are_followed_and_no_heat_is_lost() {
 }
 
 #[test]
-fn a_case_follows_an_ambient_that_swings_behind_it_and_by_less() {
+fn a_case_follows_an_oscillating_ambient_with_delay_and_smaller_amplitude() {
     // C θ̇ = G (θ_a − θ): amplitude 1/√(1 + (ω C/G)²), here with ω C/G = 1
     let network = network([0.0; NODES], 10.0);
     let (rate, amplitude, h) = (10.0 / 5000.0, 20.0, 5.0);
@@ -142,7 +142,7 @@ fn a_case_follows_an_ambient_that_swings_behind_it_and_by_less() {
 }
 
 #[test]
-fn temperatures_outside_stay_within_those_for_which_friction_has_laws() {
+fn outside_temperatures_stay_within_the_range_of_the_friction_laws() {
     let around = Around { ambient: 280.0, sump: Some(400.0) };
     assert_eq!(around.changed([-500.0, 500.0]), Around { ambient: 213.15, sump: Some(673.15) });
     assert_eq!(around.changed([0.0, 0.0]), around);

@@ -27,7 +27,7 @@ fn network(sump: Option<f64>) -> Network<0> {
 fn steady(network: &Network<0>, begin: f64, felt: &[usize], power: impl Fn(&[f64; NODES]) -> [f64; NODES]) -> Steady {
     network
         .steady::<Infallible>(begin, felt, |at| Ok(Cycle { power: power(at), speed: 4.0 }))
-        .unwrap_or(Steady::Nowhere)
+        .unwrap_or(Steady::NotFound)
 }
 
 fn assert_near(found: Steady, expected: [f64; NODES], tolerance: f64) {
@@ -38,7 +38,7 @@ fn assert_near(found: Steady, expected: [f64; NODES], tolerance: f64) {
 }
 
 #[test]
-fn heats_that_are_given_lead_to_the_sums_of_flows_over_conductances() {
+fn given_heats_lead_to_the_sums_of_flows_over_conductances() {
     let power = [10.0, 200.0, 150.0, 8.0, 40.0];
     let case = AMBIENT + power.iter().sum::<f64>() / TO_AMBIENT;
     let oil = case + (power.iter().sum::<f64>() - power[CASE]) / TO_OIL[CASE];
@@ -47,14 +47,14 @@ fn heats_that_are_given_lead_to_the_sums_of_flows_over_conductances() {
     for begin in [COLD, HOT] {
         assert_near(steady(&network(None), begin, &[], |_| power), expected, 1e-9);
     }
-    // a sump that is given takes what it gets
+    // a given sump absorbs all heat that reaches it
     let sump = 350.0;
     let case = (power[CASE] + TO_OIL[CASE] * sump + TO_AMBIENT * AMBIENT) / (TO_OIL[CASE] + TO_AMBIENT);
     let expected = [sump, above(GEARS, sump), above(CLUTCH, sump), above(WASHERS, sump), case];
     assert_near(steady(&network(Some(sump)), COLD, &[], |_| power), expected, 1e-9);
 }
 
-/// Temperature of the oil between two where the heat of all that enters it equals what leaves, by bisection [K].
+/// Oil temperature within a range at which entering and leaving heat are equal, by bisection [K].
 fn balance(power: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     let resistance = 1.0 / TO_OIL[CASE] + 1.0 / TO_AMBIENT;
     let rest = |oil: f64| power(oil) - (oil - AMBIENT) / resistance;
@@ -72,7 +72,7 @@ fn in_oil(power: f64) -> [f64; NODES] {
     all
 }
 
-/// From `begin` heat in the oil leads to its balance within `range` [K].
+/// Checks that heat in the oil leads from `begin` to its balance within `range` [K].
 fn assert_balances(begin: f64, range: [f64; 2], heat: impl Fn(f64) -> f64) {
     let oil = balance(&heat, range);
     let case = AMBIENT + heat(oil) / TO_AMBIENT;
@@ -100,6 +100,6 @@ fn heat_without_a_path_ends_beyond_all_bounds_in_its_node() {
     let mut power = [0.0; NODES];
     power[CLUTCH] = 50.0;
     assert!(matches!(steady(&network, COLD, &[], |_| power), Steady::Beyond(CLUTCH, _)));
-    // without heat it stays as it is, and the others find their balance
+    // without heat, the node keeps its temperature, and the others reach their balance
     assert_near(steady(&network, COLD, &[], |_| [0.0; NODES]), [AMBIENT; NODES], 1e-9);
 }

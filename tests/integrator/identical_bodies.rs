@@ -1,16 +1,18 @@
-//! Bodies that are alike may be simulated once and counted: the default method gives the same bits.
+//! Identical bodies may be simulated once and counted several times. The default method then gives the same bits.
 
 use bevel_differential::integrate::{
     AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
 };
 
-/// One body with four alike ones around it, `N` − 1 of them simulated, each counted as often as makes four.
-struct Alike<const N: usize>;
+/// A body surrounded by four identical bodies. `N` − 1 of these are simulated, each counted as often as needed to
+/// represent four.
+struct Identical<const N: usize>;
 
-impl<const N: usize> Alike<N> {
+impl<const N: usize> Identical<N> {
     const MEMBERS: f64 = 4.0 / (N - 1) as f64;
 
-    /// Force on body `j` with its derivatives by its distance and relative speed: hardening, with nonlinear damping.
+    /// Force on body `j` with its derivatives with respect to distance and relative speed: hardening, with nonlinear
+    /// damping.
     fn force(at: &Point<N>, j: usize) -> [f64; 3] {
         let (d, v) = (at.q[j] - at.q[0], at.v[j] - at.v[0]);
         [
@@ -21,7 +23,7 @@ impl<const N: usize> Alike<N> {
     }
 }
 
-impl<const N: usize> SecondOrder<N> for Alike<N> {
+impl<const N: usize> SecondOrder<N> for Identical<N> {
     /// Power at the first body.
     type Rates = f64;
 
@@ -61,9 +63,9 @@ impl<const N: usize> SecondOrder<N> for Alike<N> {
     }
 }
 
-/// Bits of the first body and of one of the others, of the ledger, and counts.
-fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
-    let s = Alike::<N>;
+/// Returns the bits of the first body, of another body and of the ledger, and the counts.
+fn run<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
+    let s = Identical::<N>;
     let mut point = Point { q: [0.2; N], v: [-1.3; N] };
     (point.q[0], point.v[0]) = (0.5, 3.0);
     let (mut time, mut control, mut statistics, mut budget) = (0.0, Control::new(1e-4), Statistics::default(), 100_000);
@@ -84,8 +86,8 @@ fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
 }
 
 #[test]
-fn alike_bodies_simulated_together_or_once_and_counted_give_the_same_bits() {
-    let (one, two, four) = (alike::<2>(), alike::<3>(), alike::<5>());
+fn identical_bodies_simulated_separately_or_once_and_counted_give_the_same_bits() {
+    let (one, two, four) = (run::<2>(), run::<3>(), run::<5>());
     assert!(one.0.len() > 50, "{:?}", one.1);
     assert_eq!(one, two);
     assert_eq!(one, four);

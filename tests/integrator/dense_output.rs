@@ -1,4 +1,4 @@
-//! Steps go on beyond the times that are asked for, and do not depend on them.
+//! Tests of dense output: steps continue beyond the requested times and do not depend on them.
 
 use bevel_differential::integrate::{
     AfterStep, Control, Course, Extension, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
@@ -8,16 +8,16 @@ use super::methods::{Known, with_every_method};
 use super::problems::{Logarithmic, distance, forced};
 
 with_every_method!(
-    steps_do_not_depend_on_the_times_asked_for
+    steps_do_not_depend_on_the_requested_times
     the_motion_between_steps_is_within_the_tolerance
-    the_motion_between_long_steps_is_within_the_tolerance_where_it_is_stiff
-    a_step_is_completed_up_to_where_the_equations_end
+    the_motion_between_long_steps_of_stiff_problems_is_within_the_tolerance
+    a_step_is_completed_up_to_the_end_of_the_equations
 );
 
 const STOP: f64 = 3.0;
 const TOLERANCE: f64 = 1e-8;
 
-/// What is seen of a run: bits of its steps, its counts, and the points shown.
+/// Record of a run: bits of its steps, its counts, and the requested points.
 struct Seen {
     steps: Vec<[u64; 4]>,
     counts: Statistics,
@@ -54,7 +54,7 @@ fn even(count: u32) -> Vec<f64> {
     (1..=count).map(|k| STOP * f64::from(k) / f64::from(count)).collect()
 }
 
-fn steps_do_not_depend_on_the_times_asked_for<M: Known>() {
+fn steps_do_not_depend_on_the_requested_times<M: Known>() {
     let whole = run::<M>(&[STOP]);
     assert!(whole.steps.len() > 20);
     let irregular: Vec<f64> = (1..=300).map(|k| STOP * (f64::from(k) / 300.0).powi(3)).collect();
@@ -74,9 +74,9 @@ fn the_motion_between_steps_is_within_the_tolerance<M: Known>() {
     assert!(largest < 10.0 * TOLERANCE, "{largest:e}");
 }
 
-/// Steps are as long as the smooth motion lets them, thousands of times what the stiff part would resolve: an extension of
-/// which nobody judges the error is off by tens of tolerances here.
-fn the_motion_between_long_steps_is_within_the_tolerance_where_it_is_stiff<M: Known>() {
+/// The smooth motion allows steps thousands of times longer than the stiff part would need. A dense output without
+/// error control would be wrong by tens of tolerances here.
+fn the_motion_between_long_steps_of_stiff_problems_is_within_the_tolerance<M: Known>() {
     for lambda in [1e4, 1e6] {
         let start = Point { q: [0.0, 0.0], v: [1.0, 1.0] };
         let seen = run_of::<M, _>(&forced(lambda), start, &even(5000));
@@ -89,7 +89,7 @@ fn the_motion_between_long_steps_is_within_the_tolerance_where_it_is_stiff<M: Kn
     }
 }
 
-fn a_step_is_completed_up_to_where_the_equations_end<M: Known>() {
+fn a_step_is_completed_up_to_the_end_of_the_equations<M: Known>() {
     let (mut control, mut counts) = (Control::new(1e-4), Statistics::default());
     let mut course = Course { end: f64::INFINITY, ..Course::new(Logarithmic::exact(0.0), 0.0, STOP) };
     let mut completed = 0.0;
