@@ -1,5 +1,6 @@
-//! Cost of the FMI interface: a step of the ideal level with the calls of a host around it, and the calls from instantiation
-//! to the first step, for the first time and after fmi2Reset. The functions are looked up in the shared library, as a C host does.
+//! Measures the cost of the FMI interface: a step of the ideal level with the calls of a host around it, and a start.
+//! The start consists of the calls from instantiation to the first step, the first time and after fmi2Reset. The
+//! functions are looked up in the shared library, as a C host does.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -16,7 +17,7 @@ use common::reference;
 
 type Component = *mut c_void;
 
-/// Steps of a run, and runs. The median is reported.
+/// Number of steps of a run, and number of runs. The median is reported.
 const STEPS: u32 = 20_000;
 const RUNS: usize = 41;
 
@@ -36,13 +37,13 @@ const OUTPUTS: [&str; 10] = [
 
 macro_rules! functions {
     ($($field:ident = $name:literal: ($($type:ty),*) $(-> $result:ty)?;)+) => {
-        /// The functions used, with their C types.
+        /// Used functions, with their C types.
         struct Fmu { $($field: unsafe extern "C" fn($($type),*) $(-> $result)?),+ }
 
         impl Fmu {
-            /// Those that `find` finds by name.
+            /// Looks up the functions with `find`, by name.
             fn found(find: impl Fn(&str) -> *mut c_void) -> Self {
-                // SAFETY: the functions have the types that FMI gives them
+                // SAFETY: the functions have the types defined by FMI
                 unsafe { Self { $($field: transmute_copy(&find($name))),+ } }
             }
         }
@@ -78,7 +79,7 @@ impl Fmu {
         })
     }
 
-    /// An initialised instance on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
+    /// Creates an initialised instance on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
     fn ready(&self, level: i32) -> Component {
         let guid = CString::new(guid()).unwrap();
         // SAFETY: texts that end with NUL, no callbacks, and arrays of these lengths
@@ -109,7 +110,7 @@ impl Fmu {
     }
 }
 
-/// The shared library built with this program.
+/// Path of the shared library built with this program.
 fn library() -> PathBuf {
     let here = std::env::current_exe().unwrap();
     let name = format!("{}bevel_differential{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);

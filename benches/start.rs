@@ -1,5 +1,5 @@
-//! Prints the times of starts with gears that no start had before. `cargo bench --bench start -- LAW 1` makes one start, for counting
-//! instructions: LAW is impact, line, line_weber or lumped.
+//! Prints the times of starts with gears that were never started before. `cargo bench --bench start -- LAW 1` executes
+//! only one start, for counting instructions: LAW is impact, line, line_weber or lumped.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -7,7 +7,7 @@ use std::time::Instant;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation};
 
-/// Starts of a law. The median is reported.
+/// Number of starts of a law. The median is reported.
 const RUNS: usize = 41;
 
 /// The default scene with the law `name`.
@@ -23,7 +23,7 @@ fn parameters(name: &str) -> Parameters {
     p
 }
 
-/// A function of its own, so that its instructions can be counted. A simulation that starts by itself keeps nothing.
+/// A separate function, so that its instructions can be counted. `Simulation::start` uses no cache.
 #[inline(never)]
 fn one_start(p: &Parameters, i: &Inputs) {
     black_box(Simulation::start(p, i, 0.0).expect("the scene starts"));

@@ -1,10 +1,10 @@
-//! Takes communication steps of a scene and prints the bits of what it reads: for comparing builds that leave effects
-//! out, and for counting instructions.
+//! Executes communication steps of a scene and prints the bits of the values that it reads. It serves to compare builds
+//! without effects, and to count instructions.
 //!
-//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
-//! "reversal" of the loads every 50 steps, "varying" loads, a little before every step, "fixed_step=SIZE", "solid=FACETS"
-//! for solid teeth, VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing but steps is counted;
-//! "counts" prints accepted and rejected steps, evaluations and the seconds that all steps took.
+//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."). Options: "rolling" for
+//! the start, "reversal" of the loads every 50 steps, "varying" for loads that change slightly before every step,
+//! "fixed_step=SIZE", "solid=FACETS" for solid teeth, VARIABLE=VALUE. "unread" does not read the forces at the end, so
+//! that only steps are counted. "counts" prints accepted and rejected steps, evaluations and the seconds of all steps.
 
 use std::time::Instant;
 
@@ -37,14 +37,14 @@ fn switch(p: &mut Parameters, i: &mut Inputs, name: &str) {
     }
 }
 
-/// A function of its own, so that its instructions can be counted.
+/// A separate function, so that its instructions can be counted.
 #[inline(never)]
 fn one_communication_step(simulation: &mut Simulation, until: f64) {
     simulation.advance(until).expect("the step succeeds");
 }
 
 fn main() {
-    // `cargo bench` calls every bench with this
+    // `cargo bench` calls every bench with this option
     if std::env::args().any(|a| a == "--bench") {
         return;
     }

@@ -1,8 +1,8 @@
-"""What solvers written by others need for the same equations, compared with this program.
+"""Compares solvers by other authors with this program, on the same equations.
 
     python compare.py LIBRARY FOLDER [--quick] [--cases "a;b"] [--ours]
 
-LIBRARY is foreign-solvers as cargo built it. Writes FOLDER/foreign.csv and prints the table.
+LIBRARY is foreign-solvers, built by cargo. Writes FOLDER/foreign.csv and prints the table.
 """
 
 import argparse
@@ -14,7 +14,7 @@ import statistics
 import sys
 from pathlib import Path
 
-# one core is compared with one core
+# all comparisons are on one core
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np  # noqa: E402
@@ -29,16 +29,17 @@ from tools import say  # noqa: E402
 
 STRAIGHT_SPEED, TURN_SPEED, SPIN = np.radians([2861.0, 954.0, 200.0])
 TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": TURN_SPEED, "spin.command": SPIN}
-# scenes/clunk.toml; before the blow the coast flanks lie against each other, integrated as closely as can be
+# scenes/clunk.toml; before the blow, the coast flanks touch, and this part is integrated with the tightest tolerance
 CLUNK = {"scene.carrier_drive": "torque", "geometry.backlash": 0.1885e-3, "effects.half_shaft": "true",
          "half_shaft.left_stiffness": 1e4, "half_shaft.right_stiffness": 1e4, "half_shaft.left_damping": 0.0,
          "half_shaft.right_damping": 0.0, "inertia.from_geometry": "false", "inertia.carrier": 0.05, "inertia.side_gear": 1e-5,
          "inertia.planet": 1e-6, "inertia.left_end": 0.5, "inertia.right_end": 0.5, "contact.damping": 0.0,
          "carrier.speed_command": 0.0, "carrier.torque_command": -0.002, "left.load_torque": -0.001, "right.load_torque": -0.001,
          "solver.relative_tolerance": 1e-11}
-# when the blow comes [s], and what it is
+# time of the blow [s], and its inputs
 BLOW_TIME, BLOW = 1e-5, {"carrier.torque_command": 100.0, "left.load_torque": 0.0, "right.load_torque": 0.0}
-# case, speed of gears in it [rad/s], end [s], distance of the samples [s]; a blow of 100 N·m through the lash brings gears to some 10 rad/s
+# case, speed of gears in it [rad/s], end [s], interval of the samples [s]; a blow of 100 N·m through the lash accelerates gears to about 10
+# rad/s
 CASES = {
     "turn_equilibrium": (TURN, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
     "turn_rolling": (TURN | {"scene.start": "rolling"}, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
@@ -47,14 +48,14 @@ CASES = {
     "clunk, every 10 us": (CLUNK, 10.0, 0.02, 1e-5),
     "turn, force along a line": (TURN | {"contact.law": "line"}, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
 }
-# natural magnitudes of positions: how far loaded teeth come closer, as an angle of a gear; the carrier's angle, which is the third;
-# the twist of half-shafts, which come after the gears [rad]
+# natural magnitudes of positions: approach of loaded teeth, as an angle of a gear; angle of the carrier, which is the third; twist of
+# half-shafts, which follow the gears [rad]
 APPROACH, TURNED, TWIST, CARRIER, ENDS = 2e-3, 1.0, 1e-2, 2, 4
 QUICK = ("turn_equilibrium", "clunk")
 TOLERANCES = [10.0**-k for k in range(3, 14)]
 QUICK_TOLERANCES = [1e-4, 1e-6, 1e-8]
 REPEATS, SLOW_REPEATS = 11, 2
-# a solver that took longer than this runs no more [s]
+# a solver that takes longer is not run again [s]
 PATIENCE = 2.0
 REFERENCE_RTOL, REFERENCE_ATOL = 1e-13, 1e-13
 NAMES = ("left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force", "left.shaft_torque",
@@ -80,7 +81,7 @@ def main():
         def progress(fraction, what, k=k, name=name):
             say((k + fraction) / len(names), f"{name}: {what}")
 
-        # what Python's calls cost is the same everywhere
+        # the cost of Python's calls does not depend on the case
         wanted = [solver for solver in solvers if name in QUICK or not solver.slow]
         rows += compare(library, name, wanted, arguments, progress, checks)
         write(arguments.folder / "foreign.csv", rows)
@@ -88,7 +89,7 @@ def main():
 
 
 def started(library, name, method="adaptive", tolerance=1e-6):
-    """A run of a case; method and tolerance are those of the program's own solver."""
+    """A run of a case, with method and tolerance of the program's own solver."""
     values, speed, *_ = CASES[name]
     solver = {"solver.method": method, "solver.relative_tolerance": tolerance}
     run = Run(library, values, BLOW | solver, BLOW_TIME) if values is CLUNK else Run(library, values | solver)
@@ -107,7 +108,7 @@ def samples(run, end, step):
 
 
 def reference(run, times, file):
-    """Outputs at `times` by scipy's DOP853 at the tightest tolerance; kept in `file` for as long as the equations stay."""
+    """Outputs at `times` from scipy's DOP853 at the tightest tolerance, cached in `file` while the equations are unchanged."""
     equations = fingerprint(run)
     with contextlib.suppress(OSError, ValueError):
         with file.open(encoding="utf-8") as known:
@@ -124,10 +125,10 @@ def reference(run, times, file):
 
 
 def fingerprint(run):
-    """Rates at a few places round the start: equations that agree there are the same."""
+    """Hash of the rates at several positions around the start, which identifies the equations."""
     rhs, hashed = run.python_rhs(), hashlib.sha256(run.u0.tobytes())
     for k in range(1, 9):
-        # digits of the golden ratio: anywhere, but always the same
+        # digits of the golden ratio: scattered, but reproducible
         place = run.u0 + 2.0 * (np.arange(1, run.size + 1) * k * 0.6180339887498949 % 1.0) - 1.0
         hashed.update(rhs(0.0, place).tobytes())
     return hashed.hexdigest()[:16]
@@ -159,12 +160,12 @@ def compare(library, name, solvers, arguments, progress, checks):
             outcomes.setdefault((solver.label, tolerance), []).append(outcome)
             if outcome.cost > PATIENCE:
                 tired.add(solver.label)
-            # the slow ones come in the first rounds
+            # slow solvers run only in the first rounds
             share = (min(k, SLOW_REPEATS) + i / len(jobs)) / min(rounds, SLOW_REPEATS + 1)
             progress(min(share, 1.0), f"{solver.label}, {tolerance:.0e}")
     rows = [row(name, solver, tolerance, outcomes[solver.label, tolerance], exact)
             for solver, tolerance, _ in jobs if (solver.label, tolerance) in outcomes]
-    # how far the closest solver of a different family stays from the reference, without this program
+    # smallest deviation of other solvers from the reference, without this program
     others = [r for r in rows if not r["solver"].startswith(all_of.OURS) and r["status"] == 0]
     checks[name] = min((max(r["speed_error"], r["force_error"]) for r in others), default=float("nan"))
     for on in [run, *runs.values()]:
@@ -184,7 +185,7 @@ def row(name, solver, tolerance, outcomes, exact):
 
 
 def errors(outputs, exact):
-    """Largest over the samples: of the side gears' speeds and of the normal forces, relative to the largest of the run."""
+    """Maximum errors over the samples, of the side gears' speeds and of the normal forces, relative to the largest value of the run."""
     def one(columns):
         return np.max(np.abs(outputs[:, columns] - exact[:, columns])) / np.max(np.abs(exact[:, columns]))
 

@@ -1,4 +1,4 @@
-"""The program's equations of motion, as the library foreign-solvers offers them."""
+"""The program's equations of motion in the library foreign-solvers."""
 
 import ctypes as c
 
@@ -9,7 +9,7 @@ POINTER, NUMBER, TEXT = c.c_void_p, c.c_double, c.c_char_p
 
 
 class Library:
-    """The functions of the library at `path`."""
+    """Functions of the library at `path`."""
 
     def __init__(self, path):
         self.c = lib = c.CDLL(str(path))
@@ -45,7 +45,7 @@ def lines(values):
 
 
 class Run:
-    """A run from the start with `values`, by name; or from the time `start` [s] on, when `later` ones come."""
+    """A run from the start with `values` by name, or from the time `start` [s] of the change to the `later` values."""
 
     def __init__(self, library, values, later=None, start=0.0):
         self.lib, problem = library.c, TEXT()
@@ -56,7 +56,7 @@ class Run:
         self.scale(np.ones(self.size))
 
     def scale(self, magnitudes):
-        """Solvers see positions and velocities divided by their natural magnitudes."""
+        """Sets the natural magnitudes by which positions and velocities are divided for solvers."""
         self.lib.foreign_scale(self.handle, magnitudes.ctypes.data)
         self.u0 = np.zeros(self.size)
         self.t0 = self.lib.foreign_start(self.handle, self.u0.ctypes.data)
@@ -65,7 +65,7 @@ class Run:
         self.lib.foreign_free(self.handle)
 
     def python_rhs(self):
-        """The right-hand side as a Python function f(t, u), with as little of Python in it as can be."""
+        """Right-hand side as a Python function f(t, u) with minimal Python code."""
         return self._python(self.lib.foreign_rhs, self.size)
 
     def python_jacobian(self):
@@ -94,14 +94,14 @@ class Run:
         return values
 
     def outputs(self, states):
-        """Outputs at states, a row each."""
+        """Outputs at states, one row each."""
         out = np.empty((len(states), OUTPUTS))
         for k, u in enumerate(np.ascontiguousarray(states)):
             self.lib.foreign_outputs(self.handle, u.ctypes.data, out[k:].ctypes.data)
         return out
 
     def own(self, times):
-        """CPU time [s] of the program's own method to `times`, outputs there, and its account."""
+        """CPU time [s] of the program's own method to `times`, outputs at these times, status, and its statistics."""
         out, cost = np.full((len(times), OUTPUTS), np.nan), NUMBER()
         status = self.lib.foreign_own(self.handle, times.ctypes.data, len(times), out.ctypes.data, c.byref(cost))
         return cost.value, out, status, self.lib.foreign_message(self.handle).decode()

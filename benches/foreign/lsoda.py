@@ -1,6 +1,6 @@
-"""LSODA without Python in its loops: the C++ translation in numbalsoda's sources, compiled with the compiler at hand.
+"""LSODA without Python in its loops: the C++ translation in numbalsoda's sources, compiled with the local compiler.
 
-numbalsoda as a whole also wants a Fortran compiler, for a method that is not compared here.
+The whole of numbalsoda also needs a Fortran compiler, for a method that is not compared here.
 """
 
 import ctypes as c
@@ -19,7 +19,7 @@ MOST_STEPS = 20_000_000
 
 
 class Lsoda:
-    """The compiled LSODA; raises OSError where it cannot be had."""
+    """The compiled LSODA; raises OSError if it cannot be built."""
 
     def __init__(self, folder):
         library = folder / f"liblsoda-{VERSION}.so"
@@ -29,7 +29,7 @@ class Lsoda:
                             POINTER, c.c_double, c.c_double, c.c_int, POINTER)
 
     def solve(self, run, times, rtol, atol):
-        """CPU time [s], states at `times`, 0 if it came to the last."""
+        """CPU time [s], states at `times`, and 0 if the last time was reached."""
         at = np.concatenate(([run.t0], times))
         out, success = np.full((len(at), run.size), np.nan), c.c_int()
         begin = time.thread_time()

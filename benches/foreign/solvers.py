@@ -1,4 +1,4 @@
-"""The solvers that are compared: each has a name, variants, and a way to run."""
+"""Compared solvers, each with a name, variants, and a function that runs it."""
 
 import time
 import warnings
@@ -11,10 +11,10 @@ import lsoda
 import sundials
 from library import OUTPUTS
 
-# shares of a solver's tolerance that go to what grows with the solution and to what does not: for every solver the error
-# allowed is rtol·|u| + atol, u in units of its natural magnitude. "absolute" is what this program's own control does.
+# relative and absolute tolerance as multiples of a solver's tolerance. For every solver, the allowed error is rtol·|u| + atol, with u in
+# units of its natural magnitude. "absolute" corresponds to this program's own error control.
 SHARES = {"absolute": (0.0, 1.0), "relative": (1.0, 1.0)}
-# the smallest relative tolerance that every solver takes without a remark
+# smallest relative tolerance that every solver accepts without a warning
 LEAST_RTOL = 1e-13
 OURS = "this program"
 MOST_STEPS = 10_000_000
@@ -22,7 +22,7 @@ MOST_STEPS = 10_000_000
 
 @dataclass
 class Outcome:
-    """What one run gave."""
+    """Result of a run."""
 
     cost: float
     outputs: np.ndarray
@@ -34,7 +34,7 @@ class Outcome:
 
 @dataclass
 class Solver:
-    """A solver in one variant; `run(run, times, tolerance)` integrates."""
+    """A solver in one variant; `integrate(run, times, tolerance)` runs it."""
 
     name: str
     variant: str
@@ -48,7 +48,7 @@ class Solver:
 
 
 def all_solvers(folder):
-    """The solvers that can be had, and what is missing."""
+    """Available solvers, and remarks about missing ones."""
     found = [Solver(OURS, "", own, own_method="adaptive"), Solver(f"{OURS}, method radau", "", own, own_method="radau")]
     missing = []
     try:
@@ -116,8 +116,10 @@ def compiled_lsoda(library, share):
 
 
 def in_python(solve, exact, share):
-    """A solver that calls Python: `solve(rhs, jacobian, u0, at, rtol, atol)` gives the states at all of `at`, the start first, and what
-    hindered it."""
+    """A solver that calls Python.
+
+    `solve(rhs, jacobian, u0, at, rtol, atol)` returns the states at all of `at`, starting with the initial one, and an error message or
+    an empty text."""
     def integrate(run, times, tolerance):
         rhs, jacobian = run.python_rhs(), run.python_jacobian() if exact else None
         at = np.concatenate(([run.t0], times))

@@ -1,4 +1,4 @@
-"""CVODE without Python in its loops: the libraries that the wheel of scikit-SUNDAE bundles, called as C calls them."""
+"""CVODE without Python in its loops: the libraries bundled with the wheel of scikit-SUNDAE, called through their C functions."""
 
 import ctypes as c
 import importlib.util
@@ -14,7 +14,7 @@ MOST_STEPS = 20_000_000
 
 
 class Sundials:
-    """The libraries, loaded; raises OSError where there are none."""
+    """The loaded libraries; raises OSError if there are none."""
 
     def __init__(self):
         spec = importlib.util.find_spec("sksundae")
@@ -49,7 +49,7 @@ class Sundials:
         context = POINTER()
         check(self.context_new(0, c.byref(context)))
         self.context = context
-        # errors come back as numbers; the text that goes to the terminal as well is not wanted
+        # errors are returned as numbers, so the additional text on the terminal is switched off
         clear = declare(core, "SUNContext_ClearErrHandlers", number, POINTER)
         check(clear(context))
 
@@ -60,7 +60,7 @@ def check(status):
 
 
 class Cvode:
-    """CVODE on a run: `method` BDF or ADAMS, with the exact Jacobian or its own difference quotients."""
+    """CVODE for a run: `method` BDF or ADAMS, with the exact Jacobian or its own difference quotients."""
 
     def __init__(self, sundials, run, method, exact):
         self.s, self.run = s, run = sundials, run
@@ -81,7 +81,7 @@ class Cvode:
         c.memmove(self.s.entries(self.vector), self.run.u0.ctypes.data, 8 * self.run.size)
 
     def solve(self, times, rtol, atol):
-        """CPU time [s], states at `times`, CVODE's return value, steps taken."""
+        """CPU time [s], states at `times`, CVODE's return value, and the number of steps."""
         s, run = self.s, self.run
         self.fill()
         check(s.again(self.memory, run.t0, self.vector))

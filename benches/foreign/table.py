@@ -1,10 +1,10 @@
-"""The table: CPU time at equal error, and how many times that of this program."""
+"""Table of CPU times at equal error, and their ratios to this program."""
 
 import numpy as np
 
 from solvers import OURS
 
-# cases as the table names them
+# names of the cases in the table
 CASES = {"turn_equilibrium": "turn", "turn_rolling": "turn, rolling", "straight_rolling": "straight, rolling",
          "clunk, every 10 us": "clunk, 10 µs", "turn, force along a line": "turn, `line`"}
 
@@ -12,7 +12,7 @@ LEVELS = (1e-3, 1e-6, 1e-8)
 
 
 def frontier(rows):
-    """Pairs of cost and error, errors falling: points that nothing cheaper beats."""
+    """Pairs of cost and error with falling errors: points that no cheaper point beats."""
     best = []
     for cost, error in sorted((row["cpu_s"], max(row["speed_error"], row["force_error"])) for row in rows if row["status"] == 0):
         if not best or error < best[-1][1]:
@@ -21,7 +21,7 @@ def frontier(rows):
 
 
 def cost_at(level, rows):
-    """Cost at an error of `level`, on straight lines between the points of the frontier in logarithms; None if not met."""
+    """Cost at an error of `level`, interpolated linearly between the points of the frontier in logarithms; None if not reached."""
     best = frontier(rows)
     if not best or best[-1][1] > level:
         return None
@@ -30,7 +30,7 @@ def cost_at(level, rows):
 
 
 def markdown(rows, names, checks, missing):
-    """Compiled solvers, and those called from Python, each with the ratios of its times to that of this program."""
+    """Tables of compiled solvers and of those called from Python, with the ratios of their times to this program's."""
     slow = [name for name in dict.fromkeys(row["name"] for row in rows) if name.startswith(("scipy", "scikit"))]
     others = [name for name in dict.fromkeys(row["name"] for row in rows) if name != OURS and name not in slow]
     parts = [_ratios(rows, names, others)]

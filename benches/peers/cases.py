@@ -1,4 +1,4 @@
-"""The study's two cases as every tool runs them, and what is measured on a run. SI units."""
+"""The study's two cases for all tools, and the measurements of a run. SI units."""
 
 import json
 import sys
@@ -10,11 +10,11 @@ import gears
 
 LOAD = 835.0
 LENGTH = 0.5
-# tools are called at these intervals, as often as the study writes its output
+# interval at which tools are called, equal to the study's output interval
 STEP = 1e-3
-# the peers' load rises over this time: at once it may throw a side gear over several teeth in one step
+# duration of the rise of the peers' load: an immediate load may move a side gear over several teeth in one step
 RISE = 0.1
-# forces are summed at every so many communication points, as asking for them costs some tools a step
+# number of communication steps between sums of forces, because evaluating forces costs some tools a step
 FORCES_EVERY = 10
 
 
@@ -23,33 +23,33 @@ class Case:
     name: str
     carrier: float
     spin: float | None
-    """Imposed spin of the planets; None: they are free."""
+    """Imposed spin of the planets; None if they are free."""
     settled: float
     """Time from which a run is measured."""
 
     @property
     def sides(self):
-        """Speeds of left and right by the gear law."""
+        """Speeds of left and right from the gear law."""
         difference = (self.spin or 0.0) * gears.PLANET_TEETH / gears.SIDE_TEETH
         return np.array([self.carrier + difference, self.carrier - difference])
 
 
 CASES = {
-    # late enough for most of what the start has set swinging to die away
+    # late enough for most oscillations of the start to decay
     "straight": Case("straight", np.radians(2861.0), None, 0.3),
-    # two whole cycles of a tooth, 2 · 0.18 s
+    # two complete tooth cycles, 2 · 0.18 s
     "turn": Case("turn", np.radians(954.0), np.radians(200.0), 0.14),
 }
 
 
 def load(time, at_once=False):
-    """The peers' load: a cubic rise, then constant; or constant at once."""
+    """Load of the peers: a cubic rise, then constant, or constant from the start."""
     s = 1.0 if at_once else np.clip(time / RISE, 0.0, 1.0)
     return LOAD * s * s * (3.0 - 2.0 * s)
 
 
 def counts(step):
-    """Communication steps of a run, and steps within one."""
+    """Number of communication steps of a run, and of steps within one."""
     within = round(STEP / step)
     if within < 1 or abs(within * step / STEP - 1.0) > 1e-9:
         raise SystemExit(f"a step of {step} s does not divide the communication step of {STEP} s; choose STEP / n")
@@ -57,11 +57,11 @@ def counts(step):
 
 
 def measures(case, time, speeds, angles, forces, cpu):
-    """What is compared.
+    """Compared values.
 
-    time: ends of the steps taken; speeds: of left and right at these times; angles: of left, right, carrier and first
-    planet at the end; forces: sums of the normal forces on left and right by communication step, NaN where not asked
-    for; cpu: spent on all steps.
+    time: ends of the completed steps; speeds: of left and right at these times; angles: of left, right, carrier and first
+    planet at the end; forces: sums of the normal forces on left and right by communication step, NaN if not evaluated;
+    cpu: CPU time of all steps.
     """
     deviation = 100.0 * (speeds[time > case.settled + 1e-9] / case.sides - 1.0)
     left, right, carrier, planet = angles
@@ -78,12 +78,12 @@ def measures(case, time, speeds, angles, forces, cpu):
 
 
 def settings():
-    """What run.py asks for: a JSON object as the only argument."""
+    """Settings from run.py: a JSON object as the only argument."""
     if len(sys.argv) != 2:
         raise SystemExit("this is started by run.py with its settings as JSON; use: cargo run -p lab --release -- compare-simulators")
     return json.loads(sys.argv[1])
 
 
 def report(result):
-    """Hands the result back to run.py."""
+    """Returns the result to run.py."""
     print(json.dumps(result))

@@ -1,7 +1,7 @@
-"""A case of the study in Drake: each tooth a compliant convex solid, without friction, in steps of a fixed length.
+"""A case of the study in Drake: each tooth is a compliant convex solid without friction, and steps have a fixed length.
 
-`hydroelastic` contact integrates a pressure over the patch where two teeth overlap; the pressure rises from the surface
-inwards as `modulus` says. `point` contact is a penalty on the deepest point of each pair.
+`hydroelastic` contact integrates a pressure over the patch where two teeth overlap; the pressure increases inwards from
+the surface according to `modulus`. `point` contact is a penalty on the deepest point of each pair.
 """
 
 import time as clock
@@ -28,28 +28,28 @@ from pydrake.systems.framework import DiagramBuilder
 import cases
 import gears
 
-# inertia that makes a motion imposed: in a communication step loads change its speed by 2e-4 rad/s; then it is reset
+# inertia of imposed motions: in a communication step, loads change their speed by 2e-4 rad/s, and then the speed is reset
 IMPOSED = 1e4
-# any value does: axes are fixed, so only inertias about them count
+# an arbitrary value: axes are fixed, so only inertias about them matter
 MASS = 0.3
-# pressure [Pa] at the middle of a tooth; with it the flanks deflect about as much as steel teeth
+# pressure [Pa] at the middle of a tooth, with which flanks deflect about as much as steel teeth
 MODULUS = 4e10
 DISSIPATION = 20.0
-# point contact: the study's force over its penetration, at the mean force of a mesh; the pair's two teeth in series
+# point contact: the study's force divided by its penetration, at the mean force of a mesh; the pair's two teeth are in series
 POINT_STIFFNESS = 2.0 * 1.75e8
 
 
 def properties(contact):
     made = ProximityProperties()
     if contact == "hydroelastic":
-        # the first number sizes meshes of round shapes; polyhedra do not use it
+        # the first number is for meshes of round shapes, and polyhedra do not use it
         AddCompliantHydroelasticProperties(1.0, MODULUS, made)
     AddContactMaterial(DISSIPATION, POINT_STIFFNESS, CoulombFriction(0.0, 0.0), made)
     return made
 
 
 class Differential:
-    """The plant with its joints by name."""
+    """Plant with its joints by name."""
 
     def __init__(self, case, wanted):
         builder = DiagramBuilder()
@@ -82,7 +82,7 @@ class Differential:
         unit = UnitInertia(inertia / MASS, inertia / MASS, inertia / MASS)
         body = self.plant.AddRigidBody(name, SpatialInertia(MASS, [0.0, 0.0, 0.0], unit))
         offset = RigidTransform(RotationMatrix(frame), [0.0] * 3)
-        # the frame that comes back, as the plant takes the one that goes in away
+        # the returned frame, because the plant takes ownership of the passed one
         mount = self.plant.AddFrame(FixedOffsetFrame(f"{name}_mount", parent.body_frame(), offset))
         self.joints[name] = self.plant.AddJoint(RevoluteJoint(name, mount, body.body_frame(), axis))
         self.actuators[name] = self.plant.AddJointActuator(f"{name}_drive", self.joints[name])
@@ -102,7 +102,7 @@ class Differential:
         self.joints[name].set_angular_rate(self.context, speed)
 
     def normal_forces(self):
-        """Sums on left and right."""
+        """Sums of the normal forces on left and right."""
         results = self.plant.get_contact_results_output_port().Eval(self.context)
         contacts = []
         for k in range(results.num_hydroelastic_contacts()):

@@ -1,8 +1,8 @@
-"""The study's gears for programs that want solids: straight teeth with spherical-involute flanks, in facets. SI units.
+"""The study's gears for programs that need solids: straight teeth with faceted spherical-involute flanks. SI units.
 
-All axes meet in the apex, which is the origin. A gear's axis is z, from the apex to the heel; a point is given by its
-cone distance R, its polar angle about the axis and its azimuth. The teeth are those of this program's default geometry:
-Gleason's long and short addenda, a backlash of 0.1 mm at the outer pitch circle.
+All axes meet in the apex, which is the origin. A gear's axis is z, from the apex to the heel. A point is given by its cone
+distance R, its polar angle about the axis and its azimuth. The teeth have this program's default geometry: Gleason's long
+and short addenda, and a backlash of 0.1 mm at the outer pitch circle.
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ OUTER_CONE = 0.5 * MODULE * np.hypot(PLANET_TEETH, SIDE_TEETH)
 INNER_CONE = OUTER_CONE - FACE_WIDTH
 MEAN_CONE = OUTER_CONE - 0.5 * FACE_WIDTH
 
-# Gleason: the larger gear's addendum from the ratio of virtual teeth, which is u² on crossed axes at 90°
+# Gleason: the larger gear's addendum from the ratio of virtual teeth, which is u² for axes at 90°
 RATIO = SIDE_TEETH / PLANET_TEETH
 SIDE_ADDENDUM = (0.540 + 0.460 / RATIO**2) * MODULE
 PLANET_ADDENDUM = 2.0 * MODULE - SIDE_ADDENDUM
 WHOLE_DEPTH = 2.188 * MODULE + 0.05e-3
-# half of what the long addendum differs by from the module: it moves tooth thickness from the side gear to the planet
+# half of the difference between the long addendum and the module, which moves tooth thickness from the side gear to the planet
 SHIFT = (PLANET_ADDENDUM - SIDE_ADDENDUM) / (2.0 * MODULE)
 
 
@@ -32,19 +32,19 @@ def arc(base, polar):
 
 
 def involute(base, polar):
-    """Azimuth by which the flank has bent away from its foot on the base circle."""
+    """Azimuth of the flank relative to its foot on the base circle."""
     psi = arc(base, np.maximum(polar, base))
     return psi / np.sin(base) - np.arctan2(np.tan(psi), np.sin(base))
 
 
 def direction(polar, azimuth):
-    """Unit vectors."""
+    """Unit vectors from polar angle and azimuth."""
     return np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1)
 
 
 @dataclass(frozen=True)
 class Gear:
-    """A gear on the unit sphere, a tooth in the middle of azimuth 0."""
+    """A gear on the unit sphere, with a tooth centred on azimuth 0."""
 
     teeth: int
     pitch: float
@@ -59,7 +59,7 @@ class Gear:
         return self.half_pitch + involute(self.base, self.pitch) - involute(self.base, polar)
 
     def flank(self, facets):
-        """Polar angle and azimuth of a flank, root to tip: `facets` chords of the involute, of nearly one error."""
+        """Polar angle and azimuth of a flank, root to tip: `facets` chords of the involute with nearly equal errors."""
         foot = max(self.base, self.root)
         steps = np.linspace(arc(self.base, foot), arc(self.base, self.tip), facets + 1)
         polar = np.arccos(np.cos(self.base) * np.cos(steps))
@@ -69,8 +69,7 @@ class Gear:
         return polar, azimuth
 
     def teeth_points(self, facets, gap_first):
-        """Corners of each tooth, the solid between its two ends being their convex hull; with `gap_first` a gap and not
-        a tooth lies at azimuth 0."""
+        """Corners of each tooth, whose solid is their convex hull. With `gap_first`, a gap instead of a tooth is at azimuth 0."""
         polar, azimuth = self.flank(facets)
         offset = np.pi / self.teeth if gap_first else 0.0
         centres = offset + 2.0 * np.pi * np.arange(self.teeth) / self.teeth
@@ -78,10 +77,11 @@ class Gear:
         return [np.concatenate([INNER_CONE * rays, OUTER_CONE * rays]) for rays in outline]
 
     def fillet(self, facets):
-        """Polar angle and azimuth of the fillet between root circle and flank, from the root: a small circle of angular
-        radius ρ about a point of polar angle c = δ_f + ρ, tangent to the flank, or to the meridian below it. Normals of
-        the flank lie on great circles tangent to the base circle, so that the centre's arc is ρ more than the touching
-        point's."""
+        """Polar angle and azimuth of the fillet between root circle and flank, starting at the root.
+
+        It is a small circle of angular radius ρ about a point of polar angle c = δ_f + ρ, tangent to the flank, or to the
+        meridian below it. Normals of the flank are great circles tangent to the base circle, so the arc of the centre is ρ
+        longer than that of the touching point."""
         radius = ROOT_FILLET / OUTER_CONE
         centre, foot = self.root + radius, self.half_angle(self.base)
         touching = arc(self.base, centre) - radius
@@ -96,10 +96,11 @@ class Gear:
         return polar, azimuth - np.arccos(np.clip(beside, -1.0, 1.0))
 
     def inertia(self):
-        """Moment of inertia about the axis of the gear without bore, the solid that this program takes: a frustum of the
-        root cone with flat ends, and teeth whose ends are ruled from the outline down to the root circle. At each
-        azimuth ∫∫ ρ³ dρ dz over the triangle apex, outline (a = sin φ), root (b = sin δ_f) is
-        sin(φ − δ_f) (a³ + a²b + ab² + b³) / 20; times the difference of the cone distances' fifth powers."""
+        """Moment of inertia about the axis of the gear without bore, with this program's solid.
+
+        The solid is a frustum of the root cone with flat ends, and teeth whose ends are ruled from the outline down to the
+        root circle. At each azimuth, ∫∫ ρ³ dρ dz over the triangle apex, outline (a = sin φ), root (b = sin δ_f) is
+        sin(φ − δ_f) (a³ + a²b + ab² + b³) / 20, times the difference of the cone distances' fifth powers."""
         polar, azimuth = self.fillet(4000)
         flank, half = self.flank(4000)
         above = flank > polar[-1]
@@ -131,14 +132,14 @@ SIDE = _gear(SIDE_TEETH, PLANET_TEETH, SIDE_ADDENDUM, -SHIFT)
 
 
 def frame(axis, first):
-    """Rotation matrix of a gear whose axis is `axis` and whose azimuth 0 lies along `first`."""
+    """Rotation matrix of a gear with the axis `axis` and the azimuth 0 along `first`."""
     axis, first = np.array(axis, float), np.array(first, float)
     return np.column_stack([first, np.cross(axis, first), axis])
 
 
-# the carrier turns about x; a planet's tooth points along x into a gap of either side gear
+# the carrier turns about x; a planet's tooth points along x into a gap of each side gear
 SIDE_FRAMES = {"left": frame([1, 0, 0], [0, 1, 0]), "right": frame([-1, 0, 0], [0, 1, 0])}
 PLANET_FRAMES = [frame([0, 1, 0], [1, 0, 0]), frame([0, -1, 0], [1, 0, 0])]
-# sense about a gear's own axis in which angles are counted: both sides about +x, planets so that they speed the left up
+# sense of counted angles about a gear's own axis: both sides about +x, planets so that positive spin accelerates the left
 SIDE_SENSE = {"left": 1.0, "right": -1.0}
 PLANET_SENSE = -1.0

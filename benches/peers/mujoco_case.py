@@ -1,10 +1,10 @@
 """A case of the study in MuJoCo: rigid teeth as convex meshes that meet in points, with soft constraints.
 
-MuJoCo's contact is a linear spring and damper, which it solves for implicitly. In its terms (time constant t, damping
-ratio 1, impedance d, A = inverse inertia at the contact) the spring is K = 1 / (t² A d (1 − d)) and the damper
-2 d t K. K is the study's force over its penetration, at the mean force of a mesh. With t = 0.4 ms the damper is three
-times the study's. t stays the same when the step shrinks, or the law would change with it; but MuJoCo wants t to be two
-steps at least, so that above 0.2 ms it grows.
+MuJoCo's contact is a linear spring and damper, which it solves implicitly. In its terms (time constant t, damping ratio 1,
+impedance d, A = inverse inertia at the contact), the spring is K = 1 / (t² A d (1 − d)) and the damper 2 d t K. K is the
+study's force divided by its penetration, at the mean force of a mesh. With t = 0.4 ms, the damper is three times the
+study's. t stays constant for smaller steps, because the law would otherwise change with it. MuJoCo requires t to be at
+least two steps, so t grows with steps above 0.2 ms.
 """
 
 import time as clock
@@ -15,12 +15,12 @@ import numpy as np
 import cases
 import gears
 
-# inertia that makes a motion imposed: in a communication step loads change its speed by 2e-4 rad/s; then it is reset
+# inertia of imposed motions: in a communication step, loads change their speed by 2e-4 rad/s, and then the speed is reset
 IMPOSED = 1e4
 # the study's contact law, for the stiffness of a pair
 STIFFNESS, EXPONENT = 1.824634e10, 1.5
 TIME_CONSTANT = 4e-4
-# any value does: axes are fixed, so only inertias about them count
+# an arbitrary value: axes are fixed, so only inertias about them matter
 MASS = 0.3
 
 
@@ -32,7 +32,7 @@ def impedance(case, time_constant):
         inverse_inertia += planet**2 / gears.PLANET.inertia()
     force = cases.LOAD / (gears.PLANETS * side)
     stiffness = force / (force / STIFFNESS) ** (1.0 / EXPONENT)
-    # d (1 − d) has no more than 1/4 to offer; softer than that the time constant cannot be
+    # d (1 − d) is at most 1/4, and the time constant cannot give a softer contact
     return 0.5 * (1.0 + np.sqrt(max(1.0 - 4.0 / (stiffness * time_constant**2 * inverse_inertia), 0.0)))
 
 
@@ -44,7 +44,7 @@ def build(case, wanted):
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     option.tolerance, option.ccd_tolerance = 1e-12, 1e-8
-    # the inverse inertia of each contact as it is; the usual estimate would make the stiffness another
+    # exact inverse inertia of each contact; the default estimate would change the stiffness
     option.enableflags |= mujoco.mjtEnableBit.mjENBL_DIAGEXACT
     if not wanted["many_points"]:
         option.disableflags |= mujoco.mjtDisableBit.mjDSBL_MULTICCD
@@ -81,7 +81,7 @@ def add_body(parent, name, frame, axis, inertia, imposed):
 
 
 def add_teeth(body, gear, mesh, kinds, contact):
-    """The teeth of a gear, which meet those of the other kind alone, without friction."""
+    """Adds the teeth of a gear, which collide only with those of the other kind, without friction."""
     for k in range(gear.teeth):
         half = np.pi * k / gear.teeth
         geom = body.add_geom()
@@ -93,7 +93,7 @@ def add_teeth(body, gear, mesh, kinds, contact):
 
 
 def normal_forces(model, data, sides):
-    """Sums on left and right."""
+    """Sums of the normal forces on left and right."""
     sums, force = np.zeros(2), np.zeros(6)
     for k in range(data.ncon):
         mujoco.mj_contactForce(model, data, k, force)

@@ -1,4 +1,4 @@
-"""The picture of the comparison: what a run of the turn costs, and whether its ripple converges."""
+"""Picture of the comparison: cost of a run of the turn, and convergence of its ripple."""
 
 from bevel_differential import style
 
@@ -6,7 +6,7 @@ MARKERS = {"this program": "o", "MuJoCo": "s", "Drake": "^"}
 
 
 def draw(path, results):
-    """Cost and ripple of the turn; a line goes from coarse to fine. `results` hold runs that keep their teeth."""
+    """Draws cost and ripple of the turn; a line runs from coarse to fine. `results` are runs without skipped teeth."""
     style.apply()
     figure, axes = style.panels(1, 1, 7.4)
     for group in dict.fromkeys(result["row"].group for result in results):

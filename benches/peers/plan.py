@@ -1,21 +1,21 @@
-"""Which settings run: enough of them to see whether the ripple settles as steps or tolerances shrink."""
+"""Settings to run: enough to show convergence of the ripple with smaller steps or tolerances."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Row:
-    """A line of the table: one tool with one setting, run on both cases."""
+    """A row of the table: one tool with one setting, run on both cases."""
 
     group: str
-    """Rows of a group differ in one number; the last one is the finest and the measure of the others."""
+    """Rows of a group differ in one number; the last one is the finest, with which the others are compared."""
     label: str
     script: str
     needs: str | None
-    """Python package without which the row is left out."""
+    """Python package that the row needs, or None."""
     settings: dict
     quick: bool = False
-    """Whether it is in the short form."""
+    """True if the row is in the short form."""
     repeats: int = 3
 
 
@@ -50,11 +50,11 @@ ROWS = [
     simpler("ideal"),
     *(mujoco(step, quick=step == 2e-4) for step in (1e-3, 5e-4, 2e-4, 1e-4)),
     mujoco(2e-4, facets=64),
-    # shows what means hide: it skips teeth
+    # shows an effect that means hide: it skips teeth
     mujoco(2e-4, at_once=True),
     *(mujoco(step, many_points=True) for step in (5e-4, 2e-4, 1e-4)),
     drake("hydroelastic", 1e-3, 8, quick=True),
-    # these two show whether the row above has converged; their cost is of less interest, and they take long
+    # these two show if the row above has converged; their cost matters less, and they take long
     drake("hydroelastic", 5e-4, 8, repeats=1),
     drake("hydroelastic", 1e-3, 24, repeats=1),
     *(drake("point", step, 16) for step in (2e-4, 1e-4)),

@@ -2,10 +2,10 @@
 
 usage: run.py FMU FOLDER [--quick]
 
-FOLDER receives table.md, results.csv, results.json and peers.png. Each run is a separate process; repetitions go
-round all rows, so that a slow period of the machine affects every tool. Costs are medians. A tool that is not installed is
-left out. Lines "progress FRACTION WHAT" on standard error report progress; the table goes to standard output.
-`cargo run -p lab --release -- compare-simulators` makes the environment and does all of it.
+FOLDER receives table.md, results.csv, results.json and peers.png. Each run is a separate process. Repetitions alternate
+between all rows, so that a slow period of the machine affects every tool. Costs are medians. A tool that is not installed
+is left out. Lines "progress FRACTION WHAT" on standard error report progress; the table is written to standard output.
+`cargo run -p lab --release -- compare-simulators` creates the environment and runs all of it.
 """
 
 import contextlib
@@ -28,9 +28,9 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parents[1] / "crates" / "lab" / "python"))
 from tools import machine as computer  # noqa: E402
 
-# names of the tools by the package that has to be there
+# names of the tools by the required package
 TOOLS = {"mujoco": "MuJoCo", "pydrake": "Drake"}
-# a run that takes longer hangs
+# a run that takes longer counts as hanging [s]
 LIMIT = 300.0
 
 
@@ -58,7 +58,7 @@ def main():
 
 
 def measured(rows, fmu, rounds):
-    """Every row with its cases: values of the first run, and the costs of all."""
+    """All rows with their cases: values of the first run, and the costs of all runs."""
     runs = [(row, case) for count in range(rounds) for row in rows if count < row.repeats for case in cases.CASES]
     results = {(row.group, row.label): {"row": row, "cases": {}} for row in rows}
     for done, (row, case) in enumerate(runs):
@@ -72,7 +72,7 @@ def measured(rows, fmu, rounds):
 
 def one_run(row, case, fmu):
     settings = row.settings | {"case": case, "fmu": str(fmu)}
-    # one thread each: costs are CPU time, and the tools' own work is serial
+    # one thread each: costs are CPU time, and the tools themselves work serially
     threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
     try:
         ended = subprocess.run([sys.executable, str(HERE / row.script), json.dumps(settings)], capture_output=True,
@@ -81,7 +81,7 @@ def one_run(row, case, fmu):
         raise SystemExit(f"{row.group}, {row.label}, {case}: no end after {LIMIT:.0f} s") from None
     if ended.returncode != 0:
         raise SystemExit(f"{row.group}, {row.label}, {case} fails:\n{ended.stderr.strip()}")
-    # a tool may have said something before
+    # a tool may have printed something before
     return json.loads(ended.stdout.strip().splitlines()[-1])
 
 

@@ -8,12 +8,12 @@ from bevel_differential.text import markdown as aligned
 import cases
 import gears
 
-# Project Chrono (C++, millimetres) with the exact IMPACT law, C = 50 N·s/mm, step 2e-6 s: CPU seconds per simulated
-# second, straight ahead. From an earlier measurement on a machine with two cores; not run here.
+# Project Chrono (C++, millimetres) with the exact IMPACT law, C = 50 N·s/mm, step 2e-6 s: CPU seconds per simulated second, straight ahead.
+# The value is from an earlier measurement on a machine with two cores; Chrono is not run here.
 CHRONO = 122.0
-# more than this [deg] is a skipped tooth; half the play and the deflection of teeth are a third of a degree together
+# a larger slip [deg] means a skipped tooth; half the play plus the deflection of teeth are a third of a degree
 SKIPPED = 10.0
-# whose cost the others are compared with
+# row whose cost is compared with the others
 OURS = ("this program, `tooth`, `impact`", "tolerance 1e-6")
 CASES = tuple(cases.CASES)
 CSV_COLUMNS = {"cost": "CPU s per s", "ripple": "ripple peak to peak, %", "ripple_rms": "ripple rms, %",
@@ -36,7 +36,7 @@ def markdown(results, machine, missing):
 
 
 def calls(ours):
-    """What Python's calls are of this program's cost."""
+    """Share of Python's calls in this program's cost, as a sentence."""
     if ours is None:
         return ""
     cost, idle = ([1e3 * ours["cases"][case][key] for case in CASES] for key in ("cost", "calls"))
@@ -59,7 +59,7 @@ def cells(result, reference, ours):
 
 
 def over_net(costs, ours, case):
-    """A cost over that of this program without Python's calls."""
+    """A cost divided by that of this program without Python's calls."""
     if ours is None or case not in costs:
         return "–"
     net = ours["cases"][case]["cost"] - ours["cases"][case]["calls"]
@@ -67,7 +67,7 @@ def over_net(costs, ours, case):
 
 
 def finest(result, results):
-    """The last of the same group."""
+    """Last result of the same group."""
     return [other for other in results if other["row"].group == result["row"].group][-1]
 
 
@@ -113,6 +113,6 @@ def as_list(value):
 
 
 def statics():
-    """Sum of normal forces on a side gear [kN] with all of it at the heel, the middle and the toe."""
+    """Sum of normal forces on a side gear [kN] if all of it acts at the heel, the middle or the toe."""
     return [cases.LOAD / (cone * np.sin(gears.SIDE.base)) / 1e3
             for cone in (gears.OUTER_CONE, gears.MEAN_CONE, gears.INNER_CONE)]

@@ -1,9 +1,9 @@
-"""A case of the study in this program: the packaged FMU, its C functions called from Python.
+"""A case of the study in this program: the packaged FMU, whose C functions are called from Python.
 
-Two passes. The first is what the cost is taken from: a communication step and reading both speeds, 1 ms after 1 ms, the
-C functions called through ctypes and nothing around them. The second reads speeds every 0.1 ms, so that no peak of the
-ripple is missed between samples, and the forces. Loads act in full from the start, as in the study; all else starts as
-in the peers: speeds by the gear law, teeth in the middle of their gaps.
+There are two passes. The first one measures the cost of communication steps of 1 ms and of reading both speeds, with the C
+functions called through ctypes and nothing else. The second one reads speeds every 0.1 ms, so that no peak of the ripple is
+missed between samples, and the forces. Loads act in full from the start, as in the study. The start is otherwise that of
+the peers: speeds from the gear law, and teeth in the middle of their gaps.
 """
 
 import ctypes
@@ -17,21 +17,21 @@ from bevel_differential.batches import Batches
 import cases
 
 FINE = 1e-4
-# a run takes milliseconds: so many of them, of which the median counts
+# number of timed runs, because one takes only milliseconds; the median is used
 TIMED_RUNS = 21
 SPEEDS, FORCES = ["left.speed", "right.speed"], ["left.normal_force", "right.normal_force"]
 ANGLES = ["left.angle", "right.angle", "carrier.angle", "planet[1].spin_angle"]
 
 
 class Program:
-    """The FMU in the case that is wanted."""
+    """The FMU with the settings of the case."""
 
     def __init__(self, wanted):
         self.wanted, self.case = wanted, cases.CASES[wanted["case"]]
         self.fmu = Fmu.of(wanted["fmu"])
 
     def start(self):
-        """An instance at time 0 of the case."""
+        """Creates an instance at time 0 of the case."""
         values = {"scene.gear_contact": self.wanted["contact"], "scene.start": "rolling",
                   "carrier.speed_command": self.case.carrier, "solver.relative_tolerance": self.wanted["tolerance"],
                   "left.load_torque": cases.LOAD, "right.load_torque": cases.LOAD}
@@ -42,7 +42,7 @@ class Program:
         return self.fmu.open().initialise(values)
 
     def timed(self, working):
-        """CPU time of a run [s]; not `working`: of the same calls that have nothing to do."""
+        """CPU time of a run [s], or of equal calls without work if not `working`."""
         opened = self.start()
         count, read = round(cases.LENGTH / cases.STEP), Batches([self.fmu.variable(name) for name in SPEEDS])
         record = read.record(count)
@@ -67,7 +67,7 @@ class Program:
         return spent
 
     def recorded(self):
-        """Times, speeds, last angles and forces of a run in fine steps, and the integrator's steps in coarse ones."""
+        """Times, speeds, last angles and forces of a run in fine steps."""
         opened, count = self.start(), round(cases.LENGTH / FINE)
         within = round(cases.STEP / FINE)
         speeds, forces = np.zeros((count, 2)), np.full((count // within, 2), np.nan)

@@ -1,5 +1,5 @@
-/* Stands in for Windows' bcryptprimitives.dll where wine is older than 9.0 and lacks it. Rust's standard library takes from
-   it the seeds of its hash tables. Part of the test under wine alone; Windows has its own and the FMU holds none. */
+/* Replaces Windows' bcryptprimitives.dll under wine older than 9.0, which lacks it. Rust's standard library uses it for the
+   seeds of its hash tables. It is only for tests under wine: Windows has its own, and the FMU contains none. */
 #include <windows.h>
 
 BOOLEAN NTAPI SystemFunction036(PVOID data, ULONG length); /* RtlGenRandom */

@@ -1,4 +1,4 @@
-"""What a library for Linux (ELF), Windows (PE) or macOS (Mach-O) exports and what it needs of a system."""
+"""Exports and system requirements of a library for Linux (ELF), Windows (PE) or macOS (Mach-O)."""
 
 import hashlib
 import struct
@@ -9,15 +9,15 @@ import lief
 import pefile
 from elftools.elf.elffile import ELFFile
 
-# Apple's names of the processors
+# Apple's names of processors
 PROCESSORS = {lief.MachO.Header.CPU_TYPE.X86_64: "x86_64", lief.MachO.Header.CPU_TYPE.ARM64: "arm64"}
-# of Apple's cs_blobs.h: a signature of several parts, the part with the hashes of pages, how they are hashed, and a flag
+# from Apple's cs_blobs.h: a signature of several parts, the part with the hashes of pages, the kind of hash, and a flag
 SUPER_BLOB, CODE_DIRECTORY, SHA_256, AD_HOC = 0xFADE0CC0, 0, 2, 0x2
 
 
 class MachO(NamedTuple):
-    """The library for one kind of processor: exported functions, libraries that it needs, its own name, folders that are searched,
-    the oldest system, as "11.0", and the signature: None, "ad hoc", "by somebody" or "broken"."""
+    """Library for one kind of processor: exported functions, required libraries, its own name, searched folders, the oldest system
+    ("11.0"), and the signature: None, "ad hoc", "by somebody" or "broken"."""
 
     exported: list[str]
     needed: list[str]
@@ -28,7 +28,7 @@ class MachO(NamedTuple):
 
 
 def of_linux(file):
-    """Exported symbols, libraries, and the newest version of glibc that is required, as (2, 17)."""
+    """Exported symbols, required libraries, and the newest required version of glibc, as (2, 17)."""
     with open(file, "rb") as stream:
         elf = ELFFile(stream)
         exported = [symbol.name for symbol in elf.get_section_by_name(".dynsym").iter_symbols()
@@ -48,7 +48,7 @@ def processor_of_linux(file):
 
 
 def of_windows(file):
-    """Exported symbols and libraries."""
+    """Exported symbols and required libraries."""
     image = pefile.PE(str(file))
     exported = [symbol.name.decode() for symbol in image.DIRECTORY_ENTRY_EXPORT.symbols]
     needed = [entry.dll.decode() for entry in image.DIRECTORY_ENTRY_IMPORT]
@@ -56,9 +56,9 @@ def of_windows(file):
 
 
 def of_macos(file):
-    """For each kind of processor ("x86_64", "arm64"): a `MachO`."""
+    """`MachO` of each kind of processor ("x86_64", "arm64")."""
     parsed = lief.MachO.parse(str(file))
-    assert parsed is not None, f"{file} is no library for macOS"
+    assert parsed is not None, f"{file} is not a library for macOS"
     content = Path(file).read_bytes()
     return {PROCESSORS[binary.header.cpu_type]: _mach_o(binary, content) for binary in parsed}
 
@@ -73,7 +73,7 @@ def _mach_o(binary, content):
 
 
 def _signature(binary, content):
-    """"ad hoc" or "by somebody" if the signature holds for every page of the code; None without a signature, "broken" otherwise."""
+    """"ad hoc" or "by somebody" if the signature is valid for every page of the code; None without a signature, otherwise "broken"."""
     if not binary.has_code_signature:
         return None
     begin = binary.fat_offset

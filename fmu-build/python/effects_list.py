@@ -1,4 +1,4 @@
-"""The effects as the program declares them: `effects.json`, which packaging writes next to the FMU."""
+"""Effects from `effects.json`, which packaging writes next to the FMU."""
 
 import json
 from dataclasses import dataclass
@@ -8,11 +8,11 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Effect:
-    """One effect of the list.
+    """An effect of the list.
 
-    `name`: as its parameters begin, such as half_shaft. `switch`: such as effects.half_shaft; None: an input commands it. `inputs`
-    that it adds, with values that make it act; `example`: parameters that make it visible. `heat`: output with the heat that it
-    makes. `contact`: levels of gear contact that it works with."""
+    `name`: prefix of its parameters, such as half_shaft. `switch`: such as effects.half_shaft; None if an input commands the effect.
+    `inputs` that it adds, with values that make it act; `example`: parameters that make it visible. `heat`: output with the heat that
+    it generates. `contact`: levels of gear contact that it supports."""
 
     name: str
     switch: str | None
@@ -23,7 +23,7 @@ class Effect:
 
     @property
     def on(self):
-        """Values that make it act."""
+        """Values that make the effect act."""
         return self.example | self.inputs | ({self.switch: True} if self.switch else {})
 
 
@@ -37,7 +37,7 @@ def effects(fmu):
 
 
 def effect(row):
-    # numbers are written as floats, also those of Integers
+    # all numbers in the file are floats, including those of Integers
     values = {name: int(value) if value == int(value) else value for name, value in row["example"].items()}
     inputs = {name: value for name, value in values.items() if name in row["inputs"]}
     example = {name: value for name, value in values.items() if name not in inputs}

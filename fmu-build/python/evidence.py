@@ -1,11 +1,11 @@
-"""Writes the evidence of the FMU: start values, inputs, results and tolerances of the shipped scenes, and of others for laws, levels and
-effects that no shipped scene uses.
+"""Writes the evidence of the FMU: start values, inputs, results and tolerances of the shipped scenes, and of other scenes for laws,
+levels and effects that no shipped scene uses.
 
 usage: evidence.py FMU SCENES FOLDER
 
-SCENES is the folder of the other scenes and of the template of the document, FOLDER the content of extra/org.fmi-standard.fmi-ls-ref.
+SCENES is the folder of the other scenes and of the document's template. FOLDER becomes the content of extra/org.fmi-standard.fmi-ls-ref.
 Results come from runs at a tight solver tolerance. The tolerance of each output comes from the difference to a run at the unit's own
-one."""
+solver tolerance."""
 
 import csv
 import io
@@ -25,22 +25,22 @@ from lxml import etree
 
 SOLVER = "solver.relative_tolerance"
 TIGHT = 1e-9
-# a tolerance by the difference between both runs: other platforms, and hosts with other communication points, have other differences of
-# the same size
+# factor from the difference between both runs to a tolerance: other platforms, and hosts with other communication points, have other
+# differences of the same size
 MARGIN = 5.0
-# tolerances of the solver by which motion and forces may be off at any point, on top
+# factor of the solver tolerance by which motion and forces may additionally deviate at any point
 POINTWISE = 10.0
-# fractions of the largest magnitude: rounding to the digits of the files, and a difference that shows another motion
+# fractions of the largest magnitude: rounding to the digits of the files, and a difference that indicates another motion
 ROUNDING, LOST = 1e-9, 1e-3
-# what should be 0 is small or large by a heat, which is an energy as well
+# outputs that should be 0 are compared with a heat, which is also an energy
 MEASURES = {"solver.energy_residual": "heat.contact"}
-# seconds of a long scene that are compared
+# compared seconds of a long scene
 LONGEST = 60.0
-# intervals between rows of a result, at most; one more row has the first communication step
+# maximum number of intervals between rows of a result; one more row contains the first communication step
 ROWS = 200
-# the document as FMI-LS-REF names it in the folder of documentation, and its template
+# name of the document, which FMI-LS-REF recommends for the folder of documentation, and its template
 DOCUMENT, TEMPLATE = "fmi-ls-ref.txt", "fmi-ls-ref.md"
-# the version of the standard, and words that it fixes
+# version of the standard, and terms that it defines
 VERSION = "1.0.0-beta.1"
 NAME = "org.fmi-standard.fmi-ls-ref"
 DESCRIPTION = "Layered Standard providing information on related files included in an FMU."
@@ -61,7 +61,7 @@ def main(fmu, others, folder):
     shipped = [run for run in runs if run.name in shipped_scenes()]
     tolerances, said = [COLUMNS], [("scene", "rows", "compared until, s", "largest tolerance by magnitude")]
     for run in runs:
-        # heavy loads in the other scenes shall not widen the tolerances of shipped ones
+        # heavy loads in the other scenes must not widen the tolerances of shipped ones
         scales = largest(shipped if run in shipped else runs)
         rows, allowed = run.result(scales)
         write_table(folder / run.file("results"), rows)
@@ -77,7 +77,7 @@ def main(fmu, others, folder):
 
 
 class Run:
-    """A scene: its start values and inputs as files, and its records at both solver tolerances."""
+    """A scene with files of its start values and inputs, and records at both solver tolerances."""
 
     def __init__(self, file, fmu, folder):
         scene, self.name = read_scene(file), file.stem
@@ -104,9 +104,9 @@ class Run:
         return f"{folder}/{self.name}.{ending}"
 
     def result(self, scales):
-        """Rows of the result, the names first, and the tolerance of each output. `scales`: magnitudes by output.
+        """Rows of the result, starting with the names, and the tolerance of each output. `scales`: magnitudes by output.
 
-        Adds to the description if the result ends early."""
+        Adds a remark to the description if the result ends early."""
         differences = {name: np.abs(self.usual[name] - self.tight[name]) for name in self.outputs}
         lost = np.flatnonzero(np.any([differences[name] > LOST * scales[name] for name in self.outputs], axis=0))
         end = min([len(self.tight), *lost[:1].tolist()])
@@ -120,7 +120,7 @@ class Run:
 
 
 def signals(scene, fmu, values):
-    """The inputs of a scene over time as rows of a table, the names first; two rows of one time are a jump."""
+    """Inputs of a scene over time as rows of a table, starting with the names; two rows of one time are a jump."""
     points = {}
     for name, times, given, period in scene["tables"]:
         points[name] = repeated([float(time) for time in times], [fmu.variable(name).number(value) for value in given], period, scene["stop"])
@@ -140,14 +140,14 @@ def signals(scene, fmu, values):
 
 
 def repeated(times, values, period, stop):
-    """Points of a table, those of one that repeats up to the stop time."""
+    """Points of a table; a periodic table is repeated up to the stop time."""
     if period is None:
         return times, values
     rounds = math.ceil(stop / period)
     all_times, all_values = [], []
     for count in range(rounds):
         for time, value in zip(times, values):
-            # the end of a round is the beginning of the next one
+            # the end of a period is the start of the next one
             if not (all_times and math.isclose(count * period + time, all_times[-1]) and value == all_values[-1]):
                 all_times.append(count * period + time)
                 all_values.append(value)
@@ -164,7 +164,7 @@ def at(times, values, time, side):
 
 
 def largest(runs):
-    """The largest magnitude of each variable in any run: what is small in all of them is no reason for a wide tolerance."""
+    """Largest magnitude of each variable in any run: a value that is small in all runs must not get a wide tolerance."""
     found = {}
     for run in runs:
         for name in run.outputs:
@@ -173,13 +173,13 @@ def largest(runs):
 
 
 def rounded_up(value):
-    """The value with two digits, not below it."""
+    """The value rounded up to two digits."""
     size = 10.0 ** (math.floor(math.log10(value)) - 1)
     return math.ceil(value / size) * size
 
 
 def manifest(runs):
-    """The manifest of FMI-LS-REF as XML."""
+    """Manifest of FMI-LS-REF as XML."""
     root = etree.Element("fmiReferences", nsmap={"fmi-ls": NAMESPACE})
     for key, value in (("name", NAME), ("version", VERSION), ("description", DESCRIPTION)):
         root.set(f"{{{NAMESPACE}}}fmi-ls-{key}", value)

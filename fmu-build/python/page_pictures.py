@@ -1,8 +1,8 @@
-"""Pictures of the page: docs/figures/page.png, the whole of it, and docs/figures/differential.png, the gears alone.
+"""Pictures of the page: docs/figures/page.png of the whole page, and docs/figures/differential.png of only the gears.
 
 usage: page_pictures.py PAGE.html FOLDER [CHROMIUM]
 
-It takes playwright (pip install playwright) and a browser: Chromium's program, or playwright's own where none is named.
+It needs playwright (pip install playwright) and a browser: the given program of Chromium, or by default playwright's own browser.
 """
 
 import sys
@@ -10,10 +10,10 @@ from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
 
-# software rendering, so that all machines draw alike
+# software rendering, so that all machines draw the same picture
 ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
 PATIENCE = 120e3  # ms
-# the stage fills the window, and nothing lies over it
+# the stage fills the window, and nothing covers it
 ALONE = """
 header, #transport, #outputs, #controls, #stage > :not(canvas) { display: none !important; }
 main { display: block; padding: 0; }
@@ -30,12 +30,12 @@ def opened(page: Page, file: Path, fragment: str, time: float) -> None:
 
 
 def settled(page: Page) -> None:
-    """Waits until the picture of now is drawn."""
+    """Waits until the current picture is drawn."""
     page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def main(file: Path, folder: Path, program: str | None) -> None:
-    """Makes both pictures."""
+    """Creates both pictures."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
         page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme="light")

@@ -1,4 +1,4 @@
-"""The scenes that every platform's library simulates: the study, laws, methods, effects, and those in scenes/*.toml."""
+"""Scenes that the library of every platform simulates: the study, laws, methods, effects, and those in scenes/*.toml."""
 
 import tomllib
 
@@ -6,13 +6,13 @@ from bevel_differential.scene_file import flat
 
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
-# seconds of a scene that are compared
+# compared seconds of a scene
 LONGEST = 0.5
 # constants of oil, bearings and clutches
 DRAG = {"bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4,
         "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
 CLUTCHES = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1}
-# a small car that launches, brakes to a stop, waits, backs away and stops again: inputs over time, and how long it takes [s]
+# a small car that launches, brakes to a stop, waits, reverses and stops again: inputs over time, and the duration [s]
 CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True, **DRAG,
        "inertia.left_end": 12.0, "inertia.right_end": 12.0, "inertia.carrier": 0.1, "left.load_torque": 0.0, "right.load_torque": 0.0,
        "carrier.torque_command": 0.0}
@@ -23,7 +23,7 @@ DRIVE = 6.0
 
 
 def all_scenes(folder, effects):
-    """(name, start values, events, tables, duration [s]) of each scene."""
+    """Name, start values, events, tables and duration [s] of each scene."""
     together = TURN | ENDS | DRAG | CLUTCHES
     for effect in effects:
         if effect.switch and "tooth" in effect.contact:
@@ -43,12 +43,12 @@ def all_scenes(folder, effects):
     for name, gears in [("ideal", {"scene.gear_contact": "ideal"}), ("tooth", {"contact.law": "line", "effects.thrust_friction": True})]:
         tables = [{"input": each, "time": time, "value": value} for each, (time, value) in COURSE.items()]
         yield f"drive, {name}", CAR | gears, [], tables, DRIVE
-    # gear bodies need a law that follows from the teeth
+    # elastic gear bodies need a law that follows from the teeth
     yield "all effects, impact", together | {"effects.body_compliance": False}, [], [], 0.1
     yield "all effects, line", together | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05
     for file in sorted(folder.glob("*.toml")):
         scene = tomllib.loads(file.read_text(encoding="utf-8"))
-        # inputs from files begin with a car that stands
+        # input files contain a standing car at first
         if "inputs" in scene:
             continue
         duration = min(float(scene["stop_time"]), LONGEST)

@@ -1,4 +1,4 @@
-//! The command line: the commands of all modules, by their readers.
+//! Command line with the commands of all modules, grouped by users.
 
 use std::ffi::OsString;
 
@@ -11,7 +11,7 @@ use crate::tools::program::{Program, Stop};
 
 /// Command line of this program.
 pub const PROGRAM: &str = "cargo run --release --";
-/// Command line of the laboratory, a program of its own.
+/// Command line of the laboratory, a separate program.
 pub const LABORATORY: &str = "cargo run -p lab --release --";
 
 #[derive(Parser)]
@@ -45,13 +45,13 @@ impl AnyCommand {
         match self {
             Self::Study(command) => command.run(),
             Self::Build(command) => command.run(),
-            // answered while the command line is read
+            // already handled while parsing
             Self::Help { .. } => Ok(()),
         }
     }
 }
 
-/// The command that `arguments`, the program's name first, ask for: the study if they name none.
+/// Parses `arguments`, which start with the program's name. Without a command, the study runs.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand, Stop> {
     let program = program();
     let matches = program.parse(arguments)?;
@@ -89,7 +89,7 @@ mod tests {
         parse(["fmu-build"].iter().chain(words).map(OsString::from))
     }
 
-    /// What is wrong with the words.
+    /// Message about wrong arguments.
     fn usage_error(words: &[&str]) -> String {
         match parsed(words).err() {
             Some(Stop::Wrong(line)) => line,
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_repeated_option_counts_last() {
+    fn the_last_of_repeated_options_applies() {
         assert!(parsed(&["wheel", "--platforms", "linux64", "--platforms", "this-machine"]).is_ok());
     }
 }

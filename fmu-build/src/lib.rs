@@ -1,9 +1,9 @@
 //! Builds the FMU and its Python package, and runs the study with them. A module uses only modules above it in this
 //! list; [`command_line`] joins the commands of all modules. The crate `lab` measures and checks.
 //!
-//! - [`tools`]: shared tools without gears in them
+//! - [`tools`]: shared tools, independent of gears
 //! - [`fmu`]: builds the FMU
-//! - [`study`]: the first command
+//! - [`study`]: the default command
 
 #![warn(missing_docs)]
 

@@ -1,5 +1,6 @@
-//! The command `study`: packages the FMU and lets the Python package compare it with the study and with theory. It
-//! writes reports of both cases, and into the Python environment the program `bevel-differential` of this checkout.
+//! Command `study`: packages the FMU, and the Python package compares it with the study and with theory. The command
+//! writes reports of both cases, and installs the program `bevel-differential` of this checkout in the Python
+//! environment.
 
 use std::fs;
 
@@ -12,9 +13,9 @@ use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script, sections};
 
-/// The document with the whole comparison.
+/// Document with the complete comparison.
 const DOCUMENT: &str = "docs/study.md";
-/// The lines between which it has its table.
+/// Lines around the table in the document.
 const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
 
 /// Packages the FMU, simulates the study and compares the results with it (the default command)
@@ -29,7 +30,7 @@ impl StudyCommand {
     /// Runs the study and prints the comparison.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::of_steps(expected());
-        // Python first: what the user has to install should come out at once
+        // Python first, so that a missing installation is reported immediately
         progress.step("looking for Python");
         let environment = Environment::ready(|what| progress.stage(what))?;
         progress.step("packaging the FMU");
@@ -59,7 +60,8 @@ impl StudyCommand {
     }
 }
 
-/// Time that the steps take on a machine of two cores [s]: the Python environment, the FMU, the study with its reports.
+/// Expected time of the steps on a machine with two cores [s]: the Python environment, the FMU, the study with its
+/// reports.
 fn expected() -> Vec<f64> {
     let environment = if Environment::is_ready() { 0.3 } else { 17.0 };
     vec![environment, 0.7, 11.5]

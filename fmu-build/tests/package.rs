@@ -1,4 +1,4 @@
-//! The model description in the repository and the archive.
+//! Tests of the archive, and of the model description in the repository.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -10,7 +10,7 @@ use fmu_build::tools::paths;
 use zip::ZipArchive;
 
 #[test]
-fn the_model_description_and_the_lists_of_effects_in_the_repository_are_the_table_s() -> Result<()> {
+fn the_model_description_and_the_lists_of_effects_in_the_repository_match_the_table() -> Result<()> {
     let stale = describe::stale_document(&paths::model_description())?;
     assert!(stale.is_none(), "{stale:?} is out of date; renew it: cargo run --release -- describe");
     Ok(())

@@ -1,4 +1,4 @@
-//! What the page is made from: all variables of the table and all scenes, as the page reads them.
+//! Data of the page: all variables of the table and all scenes.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ fn page() -> Result<Value> {
 }
 
 #[test]
-fn every_variable_is_there_by_its_value_reference() -> Result<()> {
+fn every_variable_is_at_its_value_reference() -> Result<()> {
     let page = page()?;
     let variables = page["variables"].as_array().expect("a list");
     assert_eq!(variables.len(), table().rows.len());

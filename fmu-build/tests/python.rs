@@ -1,4 +1,4 @@
-//! The packaged FMU in a host that the project did not write.
+//! Python tests of the packaged FMU in a host by other authors.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Runs at the same time in one checkout: all of them work, or one waits and says so.
+//! Simultaneous runs in one checkout: all of them work, or one waits and reports it.
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
@@ -27,7 +27,7 @@ fn unpacked(file: &Path) -> Result<()> {
 }
 
 #[test]
-fn runs_that_pack_at_the_same_time_leave_a_whole_archive_at_every_moment() -> Result<()> {
+fn simultaneous_packing_leaves_a_complete_archive_at_every_moment() -> Result<()> {
     let fmu = package::package()?;
     let mut runs = (0..3).map(|_| program(&["package"]).spawn()).collect::<std::io::Result<Vec<_>>>()?;
     let mut read = 0;
@@ -49,7 +49,7 @@ fn runs_that_pack_at_the_same_time_leave_a_whole_archive_at_every_moment() -> Re
 }
 
 #[test]
-fn a_run_waits_for_one_that_works_in_the_same_folder_and_says_so() -> Result<()> {
+fn a_run_waits_for_another_one_in_the_same_folder_and_reports_it() -> Result<()> {
     let folder = paths::target().join("test-together");
     let shown = folder.to_string_lossy();
     let lock = Lock::of(&paths::wheel())?;

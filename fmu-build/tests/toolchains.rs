@@ -1,4 +1,4 @@
-//! The scripts that unpack tool chains refuse an old Rust before they download, and say what to do about errors.
+//! Scripts that unpack tool chains: they refuse an old Rust before they download, and their errors state the remedy.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -9,7 +9,7 @@ use std::process::Command;
 use anyhow::Result;
 use fmu_build::tools::paths;
 
-/// Writes programs like Debian's to `folder`. Their lists of packages have the version `rust`; every download fails.
+/// Writes programs like Debian's to `folder`. Their lists of packages contain the version `rust`; every download fails.
 fn fake_debian(folder: &Path, rust: &str) -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder)?;
@@ -28,7 +28,8 @@ fn fake_debian(folder: &Path, rust: &str) -> Result<()> {
     Ok(())
 }
 
-/// Errors of the script with these programs where Rust 1.89 is needed, after "downloading; " if it tried to download.
+/// Errors of the script with these programs if Rust 1.89 is required. They start with "downloading; " if it tried to
+/// download.
 fn said(script: &str, rust: &str) -> Result<String> {
     let folder = paths::target().join("test-toolchains").join(format!("{script}-{rust}"));
     let programs = folder.join("programs");
@@ -54,7 +55,7 @@ fn an_old_rust_is_refused_before_anything_is_downloaded() -> Result<()> {
 }
 
 #[test]
-fn a_package_that_is_gone_is_reported_with_what_to_do() -> Result<()> {
+fn a_missing_package_is_reported_with_the_remedy() -> Result<()> {
     for script in ["rust.sh", "windows.sh", "aarch64.sh"] {
         for new in ["1.89.0", "1.96.1", "2.0.0"] {
             let said = said(script, new)?;

@@ -1,4 +1,4 @@
-//! Tests of the wheel: it contains all that the package needs, and two builds have the same bytes.
+//! Tests of the wheel: it contains everything that the package needs, and two builds have the same bytes.
 
 use std::fs::{self, File};
 use std::io::{Cursor, Read};
@@ -67,7 +67,7 @@ fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
         assert_eq!(text(&format!("{about}/licenses/{licence}"))?, own);
     }
     assert!(scene::files(&paths::scenes())?.len() >= 10);
-    // scenes and the inputs beside them
+    // scenes and their input files
     for file in fs::read_dir(paths::scenes())? {
         let file = file?;
         let name = file.file_name().to_string_lossy().into_owned();

@@ -9,7 +9,7 @@ def test_a_worker_that_traps_is_started_anew_with_the_set_up_kept(fresh):
     # the text of the engine for the instruction "unreachable"
     assert answer["trap"] == "unreachable"
     live.wait("!document.getElementById('message').hidden")
-    assert "started anew" in live.message() and "your set-up is kept" in live.message() and "unreachable" in live.message()
+    assert "restarted" in live.message() and "your set-up is kept" in live.message() and "unreachable" in live.message()
     assert live.ask("ear.workers") == 2
     assert live.control("geometry.module").input_value() == "4.75" and live.link()["geometry.module"] == "0.00475"
     answer = live.put("geometry.planet_count", "4")

@@ -1,4 +1,4 @@
-//! The C functions: making a run, its equations, and the program's own methods on it.
+//! C functions: creation of a run, its equations, and the program's own methods.
 
 use std::ffi::{CStr, CString, c_char, c_int};
 
@@ -7,10 +7,10 @@ use cpu_time::ThreadTime;
 
 use crate::run::{Outputs, Run, outputs};
 
-/// Makes a run, see [`Run::new`]; null, with the reason in `problem`, if there is none such.
+/// Creates a run, see [`Run::new`]. If that fails, returns null and writes the reason to `problem`.
 ///
 /// # Safety
-/// `values` and `later` end with a zero.
+/// `values` and `later` end with a zero byte.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_new(
     values: *const c_char,
@@ -18,7 +18,7 @@ pub unsafe extern "C" fn foreign_new(
     from: f64,
     problem: &mut *const c_char,
 ) -> Option<Box<Run>> {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     let [values, later] = [values, later].map(|text| unsafe { CStr::from_ptr(text) }.to_string_lossy());
     match Run::new(&values, &later, from) {
         Ok(run) => Some(Box::new(run)),
@@ -40,17 +40,17 @@ pub extern "C" fn foreign_size(run: &Run) -> c_int {
     run.size() as c_int
 }
 
-/// Sets the natural magnitudes of positions and velocities, which are 1 otherwise.
+/// Sets the natural magnitudes of positions and velocities. They are 1 by default.
 ///
 /// # Safety
 /// `magnitudes` has the run's size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_scale(run: &mut Run, magnitudes: *const f64) {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     run.magnitudes = unsafe { std::slice::from_raw_parts(magnitudes, run.size()) }.to_vec();
 }
 
-/// Time of the start and u there.
+/// Returns the time of the start, and writes its u.
 ///
 /// # Safety
 /// `u` has room for the run's size.
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn foreign_start(run: &Run, u: *mut f64) -> f64 {
     state.time()
 }
 
-/// Calls of right-hand side and Jacobian since the last call of this function.
+/// Numbers of evaluations of right-hand side and Jacobian since the last call of this function.
 #[unsafe(no_mangle)]
 pub extern "C" fn foreign_counts(run: &mut Run, counts: &mut [u64; 2]) {
     *counts = std::mem::take(&mut run.counts);
@@ -77,7 +77,7 @@ pub extern "C" fn foreign_message(run: &Run) -> *const c_char {
     run.message.as_ptr()
 }
 
-/// Sets the inputs that act from now on: torque on the carrier [N·m], speeds of both wheels [rad/s].
+/// Sets the present inputs: torque on the carrier [N·m], speeds of both wheels [rad/s].
 #[unsafe(no_mangle)]
 pub extern "C" fn foreign_drive(run: &mut Run, carrier_torque: f64, left_speed: f64, right_speed: f64) {
     run.inputs = Inputs { carrier_torque, side_speed: [left_speed, right_speed], ..run.inputs };
@@ -91,23 +91,23 @@ pub extern "C" fn foreign_inertias(run: &Run, out: &mut [f64; 3]) {
     *out = [inertias.carrier, inertias.side[0], inertias.planets * inertias.planet];
 }
 
-/// The right-hand side: rates of u.
+/// Right-hand side: rates of u.
 ///
 /// # Safety
 /// The arrays have the run's size and do not overlap.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_rhs(_time: f64, u: *const f64, rate: *mut f64, run: &mut Run) {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     unsafe { run.rates(u, rate) };
 }
 
-/// The right-hand side's Jacobian, row by row.
+/// Jacobian of the right-hand side, row by row.
 ///
 /// # Safety
-/// As of [`foreign_rhs`], with size² numbers in `rows`.
+/// Like [`foreign_rhs`], with size² numbers in `rows`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_jacobian(_time: f64, u: *const f64, rows: *mut f64, run: &mut Run) {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     unsafe { run.jacobian(u, false, rows) };
 }
 
@@ -117,16 +117,16 @@ pub unsafe extern "C" fn foreign_jacobian(_time: f64, u: *const f64, rows: *mut 
 /// `u` has the run's size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_outputs(run: &Run, u: *const f64, out: &mut Outputs) {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     let (y, n) = (unsafe { run.place(u) }, run.size() / 2);
     *out = outputs(&mut run.start.moved(&y[..n], &y[n..]));
 }
 
-/// The program's own method to each of `count` times, with the CPU time that it took [s] and outputs at the times that it reached;
-/// 0 if it came to the last. Its account is the message.
+/// Runs the program's own method to each of `count` times. Writes the CPU time [s] and the outputs at the times that
+/// were reached; its statistics become the message. Returns 0 if it reached the last time.
 ///
 /// # Safety
-/// There are `count` times, and room for as many outputs.
+/// There are `count` times, and room for `count` outputs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_own(
     run: &mut Run,
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn foreign_own(
     out: *mut Outputs,
     cost: &mut f64,
 ) -> c_int {
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     let times = unsafe { std::slice::from_raw_parts(times, count) };
     let mut reached = Vec::with_capacity(count);
     let begin = ThreadTime::now();
@@ -150,7 +150,7 @@ pub unsafe extern "C" fn foreign_own(
     }
     *cost = begin.elapsed().as_secs_f64();
     for (k, simulation) in reached.iter_mut().enumerate() {
-        // SAFETY: as promised by the caller
+        // SAFETY: guaranteed by the caller
         unsafe { *out.add(k) = outputs(simulation) };
     }
     let statistics = simulation.state().statistics;

@@ -23,7 +23,7 @@ pub extern "C" fn foreign_sundials(run: &mut Run, entries: Entries, data: Entrie
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, run: &mut Run) -> c_int {
     let Some([entries, _]) = run.entries else { return -1 };
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     unsafe { run.rates(entries(u), entries(rate)) };
     0
 }
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mu
 /// CVODE's `CVLsJacFn` for dense matrices.
 ///
 /// # Safety
-/// As of [`foreign_cvode_rhs`].
+/// Like [`foreign_cvode_rhs`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode_jacobian(
     _time: f64,
@@ -44,15 +44,16 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
     _third: *mut c_void,
 ) -> c_int {
     let Some([entries, data]) = run.entries else { return -1 };
-    // SAFETY: as promised by the caller
+    // SAFETY: guaranteed by the caller
     unsafe { run.jacobian(entries(u), true, data(matrix)) };
     0
 }
 
-/// Steps CVODE to each of `count` times and copies u there to `out`; its first error, or 0.
+/// Steps CVODE to each of `count` times and copies its u to `out`. Returns the first error, or 0.
 ///
 /// # Safety
-/// `step` is `CVode`, `memory` what it works on, `vector` has the run's size; the arrays have room for `count` times and states.
+/// `step` is `CVode`, `memory` its memory, and `vector` has the run's size. The arrays have room for `count` times and
+/// states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode(
     run: *const Run,
@@ -63,7 +64,7 @@ pub unsafe extern "C" fn foreign_cvode(
     count: usize,
     out: *mut f64,
 ) -> c_int {
-    // SAFETY: as promised by the caller; CVODE uses the run by its own pointer, so none is held here meanwhile
+    // SAFETY: guaranteed by the caller; CVODE uses the run through its own pointer, so no reference to it is held here
     unsafe {
         let (size, Some([entries, _])) = ((*run).size(), (*run).entries) else { return -1 };
         let mut reached = 0.0;

@@ -1,4 +1,4 @@
-//! A run with its equations in scaled unknowns, and the outputs of its states.
+//! A run with its equations in scaled unknowns, and the outputs of states.
 
 use std::ffi::{CString, c_void};
 
@@ -7,34 +7,34 @@ use bevel_differential::model::{Inputs, Parameters, Simulation};
 use bevel_differential::problem::{self, Problem};
 use bevel_differential::variables::{assign, named, number_of};
 
-/// Largest number of positions and velocities of the cases.
+/// Maximum number of positions and velocities of the cases.
 const MOST: usize = 16;
-/// First step tried by this program's methods, as after any start [s].
+/// First trial step of this program's methods, as after any start [s].
 const FIRST_STEP: f64 = 1e-6;
 
-/// Speeds of the side gears, normal forces of the meshes of one planet, torques of the half-shafts.
+/// Outputs: speeds of the side gears, normal forces of the meshes of one planet, torques of the half-shafts.
 pub type Outputs = [f64; 6];
 /// `double *N_VGetArrayPointer(N_Vector)` and `double *SUNDenseMatrix_Data(SUNMatrix)` of SUNDIALS.
 pub type Entries = unsafe extern "C" fn(*mut c_void) -> *mut f64;
 
-/// A run with what solvers need of it.
+/// A run with the data that solvers need.
 pub struct Run {
-    /// The run at its start, and the inputs that act.
+    /// The simulation at the start of the run, and the present inputs.
     pub start: Simulation,
     pub inputs: Inputs,
     /// Natural magnitudes of positions and velocities.
     pub magnitudes: Vec<f64>,
     /// Access to the entries of SUNDIALS' vectors and matrices.
     pub entries: Option<[Entries; 2]>,
-    /// Evaluations of the right-hand side and of the Jacobian since they were last read.
+    /// Numbers of evaluations of the right-hand side and of the Jacobian since the last reading.
     pub counts: [u64; 2],
-    /// Last message to the caller.
+    /// Last message for the caller.
     pub message: CString,
 }
 
 impl Run {
-    /// From the start with `values`, or from the time `from` on, when `later` values come; both are lines of a variable's name and a
-    /// number, or the name of a choice.
+    /// Creates a run from the start with `values`, or from the time `from` of the change to the `later` values. Both
+    /// texts have lines with the name of a variable and a number, or the name of a choice.
     pub fn new(values: &str, later: &str, from: f64) -> Result<Self, String> {
         let listed = |problems: Vec<Problem>| problem::list(&problems);
         let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
@@ -63,7 +63,7 @@ impl Run {
     pub unsafe fn place(&self, u: *const f64) -> [f64; MOST] {
         let mut y = [0.0; MOST];
         for (i, magnitude) in self.magnitudes.iter().enumerate() {
-            // SAFETY: as promised by the caller
+            // SAFETY: guaranteed by the caller
             y[i] = unsafe { *u.add(i) } * magnitude;
         }
         y
@@ -76,7 +76,7 @@ impl Run {
     pub unsafe fn rates(&mut self, u: *const f64, rate: *mut f64) {
         let (size, n) = (self.size(), self.size() / 2);
         self.counts[0] += 1;
-        // SAFETY: as promised by the caller
+        // SAFETY: guaranteed by the caller
         let (y, rate) = unsafe { (self.place(u), std::slice::from_raw_parts_mut(rate, size)) };
         let (dq, dv) = rate.split_at_mut(n);
         self.start.rates(&y[..n], &y[n..size], [dq, dv]);
@@ -85,14 +85,14 @@ impl Run {
         }
     }
 
-    /// ∂(rates of u)/∂u, row by row, or column by column.
+    /// ∂(rates of u)/∂u, row by row, or column by column if `by_column`.
     ///
     /// # Safety
     /// `u` has the run's size, `out` its square.
     pub unsafe fn jacobian(&mut self, u: *const f64, by_column: bool, out: *mut f64) {
         let (size, n) = (self.size(), self.size() / 2);
         self.counts[1] += 1;
-        // SAFETY: as promised by the caller
+        // SAFETY: guaranteed by the caller
         let (y, out) = unsafe { (self.place(u), std::slice::from_raw_parts_mut(out, size * size)) };
         let mut rows = [0.0; MOST * MOST];
         self.start.slopes(&y[..n], &y[n..size], &mut rows[..size * size]);

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 
 /**
- * Told the part of the work that is done, from 0 to 1, and what is being done; `context` is what the caller of `bd_ask` gave.
- * Another value than 0 stops the work.
+ * Callback that receives the completed fraction of the work, from 0 to 1, and the name of the present task. `context`
+ * is the pointer passed to `bd_ask`. Any result other than 0 stops the work.
  */
 typedef int (*bd_progress)(void *context, double done, const char *what);
 
@@ -22,14 +22,15 @@ extern "C" {
 /**
  * Answers a question.
  *
- * `question` is an object of JSON in UTF-8 that ends with a zero byte; `numbers` are the numbers that belong to it, `count` of
- * them. `progress` may be null. The reply is JSON that ends with a zero byte, to be freed by `bd_free`: `{"answer": ...}`, or
- * `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both have `"warnings": [...]`, texts about the scene or
- * its gears, each once. It is null only where there is no memory.
+ * `question` is a JSON object in UTF-8 that ends with a zero byte; `numbers` are `count` numbers that belong to it.
+ * `progress` may be null. The reply is JSON that ends with a zero byte, and `bd_free` must free it. The reply is
+ * `{"answer": ...}`, or `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both contain
+ * `"warnings": [...]`, texts about the scene or its gears without repetitions. The reply is null only if there is not
+ * enough memory.
  *
  * # Safety
- * `question` is null or points to a text with a zero byte at its end, `numbers` to `count` numbers or is null with a count of 0;
- * both stay as they are until this returns. Any thread may call, several at a time.
+ * `question` is null or points to a text with a zero byte at its end. `numbers` points to `count` numbers, or is null
+ * with a count of 0. Both stay unchanged until the function returns. Several threads may call at the same time.
  */
 char *bd_ask(const char *question,
              const double *numbers,
@@ -38,28 +39,31 @@ char *bd_ask(const char *question,
              void *context);
 
 /**
- * Frees a reply; null is nothing to free.
+ * Frees a reply; null is ignored.
  *
  * # Safety
- * `reply` is what `bd_ask` gave, and is not used again.
+ * `reply` was returned by `bd_ask` and is not used again.
  */
 void bd_free(char *reply);
 
 /**
- * Writes the schedule of a run: a row of numbers for its start and for each of its steps, up to `room` numbers in all.
+ * Writes the schedule of a run: one row for its start and one for each of its steps, up to `room` numbers in total.
  *
- * A row has the beginning and size of the step as they are passed to `fmi2DoStep`, its end (s), the number of changes that are made
- * before it, counted from the first one, the value of each table just after its beginning, and the slope of each table per second.
- * The row of the start has zeros and the values at the start.
+ * A row contains the start and size of the step for `fmi2DoStep`, its end (s), the total number of changes made before
+ * it, the value of each table just after the start, and the slope of each table per second. The row of the start
+ * contains zeros and the values at the start.
  *
- * The `count` numbers of `question` are: end of the run, step or 0 for none (s), number of changes, their times, rising; then of each table:
- * number of points, period or 0 for none, 1 if values are held and 0 if they are straight between points, times, values.
+ * The `count` numbers of `question` are the end of the run, the step or 0 for none (s), the number of changes, and
+ * their ascending times. For each table follow the number of points, the period or 0 for none, 1 for held or 0 for
+ * interpolated values, the times and the values.
  *
- * Returns the number of rows, of which those without room are not written; 0 if the question cannot be read; -1 if the run has
- * more than 1e8 steps; -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without a step.
+ * Returns the number of rows; rows without room are not written. Returns 0 if the question cannot be read, -1 if the
+ * run has more than 1e8 steps, and -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without
+ * a step.
  *
  * # Safety
- * `question` points to `count` numbers and `rows` to room for `room` numbers. Neither is null, whatever these are.
+ * `question` points to `count` numbers and `rows` to room for `room` numbers. Neither may be null, even if its size is
+ * 0.
  */
 ptrdiff_t bd_schedule(const double *question,
                       size_t count,

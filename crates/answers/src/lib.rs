@@ -1,16 +1,17 @@
-//! What users of the gears ask beside simulating them. It stands on the library of the FMU and builds, measures and prints
-//! nothing: a question is a value, so is its answer, and so is what is wrong with it.
+//! Answers to users' questions about the gears, in addition to simulation. The crate uses the library of the FMU. It
+//! neither builds, measures nor prints anything: questions, answers and errors are values.
 //!
-//! - [`scene`]: scene files, what they plan, their runs and tooth loads
+//! - [`scene`]: scene files, their plans, runs and tooth loads
 //! - [`accuracy`]: the cheapest model that is accurate enough
 //! - [`geometry`]: dimensions, curves and solids of the gears, interference
-//! - [`pattern`]: where flanks carry, and how much
-//! - [`ask`]: all of these by one function, from C and Python too
-//! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`progress`]: reports to a caller, who may stop the work
+//! - [`pattern`]: contact patterns and pressures on the flanks
+//! - [`ask`]: one function for all of these, also for C and Python
+//! - [`text`]: tables, numbers and files of text; [`problem`]: errors; [`progress`]: reports to a caller, who may stop
+//! the work
 
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
-#![allow(clippy::result_large_err)] // problems are rare and say much
+#![allow(clippy::result_large_err)] // problems are rare and contain much information
 
 pub mod accuracy;
 pub mod ask;

@@ -1,28 +1,28 @@
-//! Errors in a question, as values: programs need not parse messages.
+//! Errors in a question as values, so that programs need not parse messages.
 
 use std::fmt;
 
 use bevel_differential::variables::Variable;
 use serde::Serialize;
 
-/// One error. The message is complete; the other fields repeat parts of it, where known.
+/// One error. The message is complete; the other fields repeat parts of it if they are known.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Problem {
-    /// What is wrong, in a sentence.
+    /// Description of the error, as a sentence.
     pub message: String,
-    /// The variable or option.
+    /// Variable or option.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub variable: Option<String>,
-    /// The value as it was written.
+    /// Value as written by the user.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
-    /// Unit of the variable, and of the range.
+    /// Unit of the variable and of the range.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
-    /// Least and largest value that the variable takes.
+    /// Minimum and maximum value of the variable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// What was probably meant.
+    /// Probable intention.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
 }
@@ -32,13 +32,13 @@ pub struct Problem {
 pub struct Problems(pub Vec<Problem>);
 
 impl Problem {
-    /// An error of the variable or option `name` with the value `written`.
+    /// Creates an error of the variable or option `name` with the value `written`.
     pub fn of(name: &str, written: impl Into<String>, message: impl Into<String>) -> Self {
         let (variable, value) = (Some(name.to_owned()), Some(written.into()));
         Self { variable, value, ..Self::from(message.into()) }
     }
 
-    /// The same error with unit and range of `row`.
+    /// Adds unit and range of `row`.
     pub fn about(mut self, row: &Variable) -> Self {
         self.variable.get_or_insert_with(|| row.name.to_owned());
         self.unit = row.unit.map(|unit| unit.name);
@@ -46,7 +46,7 @@ impl Problem {
         self
     }
 
-    /// The same error with `prefix` in front of its message.
+    /// Puts `prefix` in front of the message.
     pub fn prefixed(mut self, prefix: &str) -> Self {
         self.message = format!("{prefix}{}", self.message);
         self
@@ -54,7 +54,7 @@ impl Problem {
 }
 
 impl From<String> for Problem {
-    /// The hint is what follows "did you mean" in the message.
+    /// Extracts the hint after "did you mean" from the message.
     fn from(message: String) -> Self {
         let hint = message.split_once("did you mean ").map(|(_, meant)| meant.trim_end_matches([')', '?']).to_owned());
         Self { message, hint, ..Self::default() }
@@ -93,23 +93,23 @@ impl From<Problem> for Problems {
 }
 
 impl Problems {
-    /// Adds one.
+    /// Adds a problem.
     pub fn push(&mut self, problem: impl Into<Problem>) {
         self.0.push(problem.into());
     }
 
-    /// Adds all.
+    /// Adds several problems.
     pub fn extend<T: Into<Problem>>(&mut self, problems: impl IntoIterator<Item = T>) {
         self.0.extend(problems.into_iter().map(Into::into));
     }
 
-    /// `value` if nothing is wrong.
+    /// Returns `value` if there are no problems.
     pub fn or<T>(self, value: T) -> Result<T, Self> {
         if self.0.is_empty() { Ok(value) } else { Err(self) }
     }
 }
 
-/// The error of a question that makes no sense; `what` is the sentence.
+/// Creates the error of a question that makes no sense; `what` is the sentence.
 pub fn question_error(what: impl Into<String>) -> anyhow::Error {
     Problems::from(Problem::from(what.into())).into()
 }

@@ -1,13 +1,14 @@
-//! Progress of the work on an answer, for the caller that waits for it, and warnings about what the question asks. The caller may
-//! stop the work.
+//! Progress of the work on an answer, and warnings about the question. The waiting caller receives both and may stop
+//! the work.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
-/// Least interval between two calls of the caller, except by [`Progress::begin_task`].
+/// Minimum interval between two reports, except those of [`Progress::begin_task`].
 const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Takes the part of the work that is done, from 0 to 1, and the name of the present task. Returns whether to go on.
+/// Receives the completed fraction of the work, from 0 to 1, and the name of the present task. Returns true to
+/// continue.
 type Report<'a> = Box<dyn FnMut(f64, &str) -> bool + 'a>;
 
 /// Reports progress to the caller and remembers whether the caller stopped the work.
@@ -33,8 +34,8 @@ impl fmt::Display for Stopped {
 impl std::error::Error for Stopped {}
 
 impl<'a> Progress<'a> {
-    /// `report` takes the part of the work that is done, from 0 to 1, and the name of the present task. It returns whether to go
-    /// on.
+    /// Creates a progress that calls `report` with the completed fraction of the work, from 0 to 1, and the name of the
+    /// present task. `report` returns true to continue.
     pub fn new(report: impl FnMut(f64, &str) -> bool + 'a) -> Self {
         Self {
             report: Box::new(report),
@@ -46,25 +47,25 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// No caller: nothing is reported, and the work is never stopped.
+    /// Creates a progress that reports nothing and never stops the work.
     pub fn silent() -> Self {
         Self::new(|_, _| true)
     }
 
-    /// Reports a new `task` at once, unless the work is stopped.
+    /// Reports a new `task` immediately, unless the work is stopped.
     pub fn begin_task(&mut self, done: f64, task: &str) {
         self.done = done;
         task.clone_into(&mut self.task);
         self.ask();
     }
 
-    /// Reports the part that is done, at most once every `REPORT_INTERVAL`. Fails if the work is stopped.
+    /// Reports the completed fraction, at most once every `REPORT_INTERVAL`. Fails if the work is stopped.
     pub fn advance(&mut self, done: f64) -> Result<(), Stopped> {
         self.done = done;
         self.check_stopped()
     }
 
-    /// Fails if the work is stopped. Asks the caller at most once every `REPORT_INTERVAL`.
+    /// Fails if the work is stopped. Calls `report` at most once every `REPORT_INTERVAL`.
     pub fn check_stopped(&mut self) -> Result<(), Stopped> {
         if self.asked.is_none_or(|asked| asked.elapsed() > REPORT_INTERVAL) {
             self.ask();
@@ -72,7 +73,7 @@ impl<'a> Progress<'a> {
         if self.stopped { Err(Stopped) } else { Ok(()) }
     }
 
-    /// Adds warnings to the answer, each text once.
+    /// Adds warnings to the answer, without repeating a text.
     pub fn warn(&mut self, warnings: impl IntoIterator<Item = impl fmt::Display>) {
         for text in warnings.into_iter().map(|warning| warning.to_string()) {
             if !self.warnings.contains(&text) {
@@ -97,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_warning_is_kept_once() {
+    fn a_repeated_warning_is_kept_once() {
         let mut progress = Progress::silent();
         progress.warn(["b", "a"]);
         progress.warn(["a", "c"]);
@@ -105,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn work_that_was_stopped_stays_so() {
+    fn stopped_work_stays_stopped() {
         let mut calls = 0;
         let mut progress = Progress::new(|_, _| {
             calls += 1;

@@ -1,14 +1,15 @@
-/* Carries out the calls of FMI that a file lists, and writes the bits of what it reads; compiled together with the sources of the unit.
+/* Executes the calls of FMI listed in a file, and writes the bits of the values that it reads. Compiled together with the sources of the
+   unit.
 
    commands FILE > BITS
-   n GUID                  a new instance; the one before is freed
-   r|i|b REFERENCE VALUE   sets a Real, an Integer, a Boolean; a Real as C writes it in hexadecimal
-   o REFERENCE             one more output that is read
+   n GUID                  a new instance; the previous one is freed
+   r|i|b REFERENCE VALUE   sets a Real, an Integer, a Boolean; a Real in C's hexadecimal notation
+   o REFERENCE             another output to read
    x                       initialises
    d TIME SIZE             a step
    g                       reads all outputs, 8 bytes each
-   A call that fails ends the program. With MEMORY, in the sources, says at the end what memory instances took, in bytes, and how often
-   calls after the initialisation called the allocator; those that log a message do not count. */
+   A failed call ends the program. With MEMORY, in the sources, the program prints two numbers at its end: the memory of the instances in
+   bytes, and the allocator calls after the initialisation. Calls that log a message are not counted. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
-"""What accuracy costs: methods, decisions, the ladder of fidelities, pictures, and the summary.
+"""Cost of accuracy: methods, decisions, the ladder of fidelities, pictures, and the summary.
 
 usage: cost.py FMU FOLDER [--quick | --decisions]
 
-Writes decisions.md, with the laws unless it is quick, and summary.md, unless decisions alone are wanted; prints both."""
+Writes decisions.md, with the laws unless --quick is given, and summary.md unless --decisions is given; prints both."""
 
 import sys
 from pathlib import Path
@@ -19,7 +19,7 @@ from cost_summary import summary
 from tools import machine, say
 
 PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder]
-# where the parts of the bar begin
+# start of each part on the progress bar
 METHODS, LADDER, DECISIONS, DRAWING = 0.1, 0.6, 0.75, 0.95
 
 
@@ -44,7 +44,7 @@ def tell(text, file):
 
 
 def draw(folder):
-    """All pictures."""
+    """Draws all pictures."""
     style.apply()
     for done, picture in enumerate(PICTURES):
         say(DRAWING + (1.0 - DRAWING) * done / len(PICTURES), f"drawing {picture.__name__.replace('_', ' ')}")

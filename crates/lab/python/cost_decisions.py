@@ -1,4 +1,4 @@
-"""Decisions: for a quantity of a scene and an accuracy, the cheapest setting, as `accuracy` finds it. Writes decisions.csv."""
+"""Decisions: the cheapest setting for a quantity of a scene and an accuracy, found by `accuracy`. Writes decisions.csv."""
 
 import math
 
@@ -7,7 +7,7 @@ from bevel_differential.scene_file import find, read_scene
 from bevel_differential.text import markdown
 from tools import percent, say, significant, write_measured
 
-# questions that stand for most: in words, scene, wanted quantity, accuracy
+# representative questions: description, scene, wanted quantity, accuracy
 ALL = [
     ("mean speed in a turn", "study_turning", "left.speed:mean", 0.01),
     ("mean force of a mesh", "study_turning", "planet[1].left_normal_force:mean", 0.01),
@@ -28,11 +28,11 @@ TITLE = "The cheapest setting by quantity, each found and checked by `bevel-diff
 
 
 def decisions(folder, count, begin, end):
-    """Answers the first questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
+    """Answers the first `count` questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
     rows, table, asked = [COLUMNS], [HEAD], {}
     for place, (quantity, name, want, within) in enumerate(ALL[:count]):
         stop = read_scene(find(name))["stop"]
-        # the start settles
+        # the start is a transient
         start = 0.1 * stop if name == "study_turning" else None
         found = accuracy(name, want, within, from_=start, progress=lambda done, what, place=place, quantity=quantity: say(
             begin + (end - begin) * (place + min(done, 1.0)) / count, f"{quantity}: {what}"))
@@ -46,7 +46,7 @@ def decisions(folder, count, begin, end):
                      stop / run.seconds if run.seconds else math.nan, run.price, found.reference.price])
         error = percent(run.error) + (f"; two runs of the richest model differ by {percent(stray)}" if found.uncertain else "")
         asked.setdefault(f"`{name}{f' --from {start:g}s' if start else ''}`", []).append(f"`{want}`")
-        # without teeth and effects motion has a closed form
+        # without teeth and effects, the motion has a closed form
         tolerance = solver.removeprefix("tolerance ") if effects or gears != "ideal" else "–"
         table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", tolerance, error,
                       significant(stop / run.seconds, 2) if run.seconds else ""])

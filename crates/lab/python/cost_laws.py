@@ -1,4 +1,4 @@
-"""Laws of a tooth pair over gears and loads: how far each is from the richest model in force, transmission error and ripple."""
+"""Laws of a tooth pair over gears and loads: difference to the richest model in force, transmission error and ripple."""
 
 import math
 
@@ -9,26 +9,26 @@ from bevel_differential.text import markdown
 from bevel_differential.want import Want
 from tools import percent, say
 
-# gear pairs: teeth of planet and side gear, module [m], face width as a part of the cone distance, bores [m]
+# gear pairs: teeth of planet and side gear, module [m], face width as a fraction of the cone distance, bores [m]
 PAIRS = [(10, 16, 4.5e-3, 0.471, 0.0, 0.0), (10, 16, 4.5e-3, 0.3, 16e-3, 30e-3), (12, 20, 3e-3, 0.28, 11e-3, 24e-3),
          (14, 18, 6e-3, 0.3, 22e-3, 40e-3)]
-# loads of a wheel, as parts of the study's torque [N·m] for gears of its size, an outer cone distance [m]
+# loads of a wheel, as fractions of the study's torque [N·m] for gears of its size, which is the outer cone distance [m]
 LOADS, STUDY_LOAD, STUDY_CONE = (0.1, 0.5, 1.0), 835.0, 42.45e-3
-# what is judged: columns of the table
+# compared quantities: columns of the table
 WANTS = {"mean force": "planet[1].left_normal_force:mean", "largest force": "planet[1].left_normal_force:max",
          "mean transmission error": "planet[1].left_transmission_error:mean",
          "its swing": "planet[1].left_transmission_error:peak_to_peak", "ripple of speed": "left.speed:peak_to_peak"}
-# laws, and whether gear bodies give way; the last one is the richest
+# laws, with elastic gear bodies if True; the last one is the richest
 LAWS = {"`impact`": ("impact", False), "`line`": ("line", False), "`line_weber`": ("line_weber", False),
         "`line` + gear bodies": ("line", True), "`line_weber` + gear bodies": ("line_weber", True)}
-# the part of the turn in which the teeth meet, which does not count
+# fraction of the turn in which the teeth meet, which is ignored
 START = 0.1
 TITLE = ("Errors of each law against `line_weber` + gear bodies, least and largest over four gear pairs (10/16, 12/20 and 14/18 teeth, "
          "modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's, scaled by size")
 
 
 def figures(fmu, scene, values, law, bodies):
-    """What is wanted of a run, each with what 100 % of it is."""
+    """Wanted quantities of a run, each with the size of 100 %."""
     wants = [Want.parse(fmu, text) for text in WANTS.values()]
     names = list(dict.fromkeys(want.name for want in wants))
     with Differential({**values, "contact.law": law, "effects.body_compliance": bodies}, fmu=fmu.file) as turn:
@@ -41,7 +41,7 @@ def figures(fmu, scene, values, law, bodies):
 
 
 def laws(fmu, begin, end):
-    """The table; the bar moves from `begin` to `end`."""
+    """Returns the table; the bar moves from `begin` to `end`."""
     cases = [(pair, load) for pair in PAIRS for load in LOADS]
     *plainer, richest = LAWS.values()
     errors = np.empty((len(cases), len(plainer), len(WANTS)))

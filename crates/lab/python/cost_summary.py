@@ -1,23 +1,23 @@
-"""The summary of work_precision.csv: error and time of the default method by tolerance."""
+"""Summary of work_precision.csv: error and time of the default method by tolerance."""
 
 from bevel_differential.records import read
 from bevel_differential.text import markdown
 from tools import significant
 
-# an error of speed below AT_REST is rounding
+# a smaller error of speed is a rounding error
 OWN, DEFAULT, AT_REST = "adaptive", 1e-6, 1e-12
-# tolerances of the file that the table leaves out
+# tolerances that the table leaves out
 LEFT_OUT = (1e-5, 1e-7, 1e-9)
 
 
 def summary(folder):
-    """The table, as Markdown."""
+    """The table as Markdown."""
     _, rows = read(folder / "work_precision.csv")
     cases = {}
     for row in rows:
         if row["method"] == OWN:
             cases.setdefault(row["case"], {})[row["setting"]] = row
-    # without cases at rest or in closed form: the solver makes no error there, whatever the tolerance
+    # without cases at rest or in closed form, in which the solver makes no error at any tolerance
     solved = {case: own for case, own in cases.items()
               if any(not (good(row) and row["speed_error"] <= AT_REST) for row in own.values())}
     tolerances = [each for each in dict.fromkeys(row["setting"] for row in rows if row["method"] == OWN) if each not in LEFT_OUT]

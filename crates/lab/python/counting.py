@@ -1,7 +1,7 @@
-"""Instructions of the program that takes communication steps and nothing else, benches/steps.rs, counted by callgrind.
+"""Instruction counts of benches/steps.rs, a program that only executes communication steps, by callgrind.
 
-Two builds of the same arithmetic differ in the order of their blocks and in what they keep in registers. A count of all
-instructions moves by a per cent with that. Work does not: arithmetic, comparisons, branches and calls."""
+Two builds of the same arithmetic differ in the order of their blocks and in the use of registers. Counts of all instructions therefore
+differ by about 1 %. Counts of work do not differ: arithmetic, comparisons, branches and calls."""
 
 import json
 import os
@@ -12,19 +12,19 @@ from pathlib import Path
 
 from tools import WORKSPACE
 
-# communication steps of the two runs whose difference is counted: starting up cancels
+# communication steps of the two runs whose difference is counted, so that the start cancels
 COUNTED = (100, 300)
-# kinds of instructions: conditional jumps, calls and returns; arithmetic and comparisons of floating-point numbers; moves and copies
-# of memory, jumps that are always taken, padding, and integer arithmetic, most of it for addresses
+# kinds of instructions: conditional jumps, calls and returns; arithmetic and comparisons of floating-point numbers; moves and copies of
+# memory, unconditional jumps, padding, and integer arithmetic, most of it for addresses
 BRANCH, FLOAT, ARRANGED = "branches and calls", "floating-point operations", "arranged"
 MOVES = ("mov", "xor", "broadcast", "unpck", "perm", "insert", "extract", "shuf", "blend")
-# keeps a program from wider vectors, of which old valgrinds do not know all instructions
+# prevents wider vectors, because old versions of valgrind do not know all of their instructions
 NARROW = {"BEVEL_DIFFERENTIAL_VECTORS": "narrow"}
 
 
 def stepping(folder, effects, name):
-    """Builds the stepping program, with or without effects, and returns a copy of it named `name`."""
-    # as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
+    """Builds the stepping program, with or without effects, and returns the path of a copy named `name`."""
+    # settings of the FMU's library, independent of other builds, with function names for callgrind
     settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
     printed = completed([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench",
@@ -34,12 +34,13 @@ def stepping(folder, effects, name):
              if message.get("executable") and message["target"]["name"] == "steps"]
     if not built:
         raise SystemExit("cargo named no executable")
-    # the next build takes the place of this one; names are of one length, as they move the stack and with it what filling memory costs
+    # the next build replaces this one; copies need names of equal length, because names move the stack and thereby change the cost of
+    # filling memory
     return Path(shutil.copy(built[0], Path(folder, name)))
 
 
 def completed(command, missing, settings=None, **options):
-    """Runs a program and returns it as completed. Exits with its errors if it fails, with `missing` if it is not installed."""
+    """Runs a program and returns the completed process. Exits with its errors if it fails, or with `missing` if it is not installed."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(settings or {})}, **options)
     except FileNotFoundError:
@@ -50,14 +51,14 @@ def completed(command, missing, settings=None, **options):
 
 
 def callgrind(program, arguments, options=(), out="/dev/null"):
-    """Runs a program under callgrind, and returns what callgrind reported."""
+    """Runs a program under callgrind and returns callgrind's report."""
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
     return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", NARROW).stderr
 
 
 def counts(folder, first=2):
-    """Instructions of each step from number `first` on: callgrind writes a file after every one, `count.1`, `count.2`, …, and `count`
-    at the end of the program. Unless counts begin at a step, the first file holds the start of the program as well."""
+    """Instruction counts of the steps from number `first` on. Callgrind writes a file after each step, `count.1`, `count.2`, …, and `count`
+    at the end of the program. Unless counting begins at a step, the first file also contains the start of the program."""
     found = []
     for file in folder.iterdir():
         if file.suffix[1:].isdigit() and int(file.suffix[1:]) >= first:
@@ -71,14 +72,14 @@ def counts(folder, first=2):
 
 
 def per_step(count, arguments):
-    """What `count(arguments)` returns, of a communication step of a scene with options."""
+    """Applies `count(arguments)` to a scene with options, and returns its result per communication step."""
     scene, *options = arguments
     few, many = (count([scene, str(steps), "unread", *options]) for steps in COUNTED)
     return {kind: (many[kind] - few.get(kind, 0)) / (COUNTED[1] - COUNTED[0]) for kind in many}
 
 
 def instructions(program, *arguments):
-    """Instructions per communication step in a scene with options."""
+    """Number of instructions per communication step in a scene with options."""
     def count(words):
         report = callgrind(program, words)
         found = [line.partition("Collected :")[2] for line in report.splitlines() if "Collected :" in line]
@@ -90,7 +91,7 @@ def instructions(program, *arguments):
 
 
 def executed(program, *arguments):
-    """The same by kind of instruction, {kind: number}."""
+    """Numbers of instructions by kind, {kind: number}, per communication step in a scene with options."""
     named = mnemonics(program)
 
     def count(words):
@@ -106,26 +107,26 @@ def executed(program, *arguments):
 
 
 def of_profile(profile, program, named):
-    """Reads what callgrind wrote, see its manual, "Callgrind Format Specification"."""
+    """Parses a profile of callgrind, see its manual, "Callgrind Format Specification"."""
     counts, inside, is_of_call = Counter(), False, False
     for line in profile.splitlines():
         if line.startswith("ob="):
             inside = line[3:] == program
         elif line.startswith("calls="):
-            # the line after it has what the called function executed, which is counted there
+            # the next line contains the count of the called function, which is counted there
             is_of_call = True
         elif line.startswith("0x"):
             if not is_of_call:
                 address, _, count = line.split()[:3]
-                # other libraries copy memory: what that costs hangs on where it lies
+                # other libraries copy memory, whose cost depends on its address
                 counts[kind_of(named.get(int(address, 16), "")) if inside else ARRANGED] += int(count)
             is_of_call = False
     return counts
 
 
 def kind_of(mnemonic):
-    """The kind of an instruction of the program itself."""
-    # v marks the encoding of wide registers
+    """Kind of an instruction of the program itself."""
+    # v is the prefix of instructions on wide registers
     plain = mnemonic.removeprefix("v")
     if plain.startswith(("call", "ret")) or (plain.startswith("j") and plain != "jmp"):
         return BRANCH
@@ -140,7 +141,7 @@ def mnemonics(program):
 
 
 def disassembled(line):
-    """Address and name in a line such as `4a10: vaddsd %xmm0,%xmm1,%xmm2`; None of another line."""
+    """Address and name in a line such as `4a10: vaddsd %xmm0,%xmm1,%xmm2`; None for other lines."""
     address, _, rest = line.partition(":")
     try:
         return int(address, 16), rest.split()[0]

@@ -1,4 +1,4 @@
-"""What a design costs by what is simulated: final values of a 0.5 s turn in one long step, on one core.
+"""Cost of a design by simulated model: final values of a 0.5 s turn in one long step, on one core.
 
     python crates/lab/python/design_cost.py [--designs N] [--write]
 
@@ -35,7 +35,7 @@ DRAWN = {"loads": {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_to
 
 
 def cost(fmu, values, vary, designs):
-    """Median time of a design, s."""
+    """Median time of a design [s]."""
     with Scene("turn", stop=0.5, set={**TURN, **values}, fmu=fmu.file) as scene:
         task = Task(scene, ["left.speed", "efficiency"])
         rows = [task.evaluate(*design) for design in Plan.parse(Space.parse(fmu, vary), "random", designs + 1, 1).designs()]

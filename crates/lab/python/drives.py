@@ -1,10 +1,10 @@
-"""Ordinary drives on the packaged FMU, held to the requirements of tests/python/drive_requirements.py.
+"""Ordinary drives on the packaged FMU, checked against the requirements of tests/python/drive_requirements.py.
 
-usage: drives.py FMU FOLDER SEED COUNT COMMAND            COUNT drives, by turns from three seeds; COMMAND: how users call the program
+usage: drives.py FMU FOLDER SEED COUNT COMMAND            COUNT drives, alternating between three seeds; COMMAND: how users call the program
        drives.py FMU FOLDER SEED COUNT COMMAND INDEX      one drive, in detail
 
-Prints tables of the drives that cost most and of violated requirements, and fails if there is one. The data of each drive that violates a
-requirement are in FOLDER as JSON, for players in other languages."""
+Prints tables of the most expensive drives and of violated requirements. Fails if a requirement is violated. FOLDER contains the data of
+each drive that violates a requirement as JSON, for players in other languages."""
 
 import json
 import os
@@ -27,35 +27,35 @@ import ordinary_drives  # noqa: E402
 from drive_player import play  # noqa: E402
 
 SEEDS, WORKERS = 3, 2
-# drives in the table of cost, and letters of a message in the table of violations
+# number of drives in the table of cost, and of characters of a message in the table of violations
 SHOWN, LETTERS = 12, 150
-# A drive that takes so long hangs [s]: the requirement on processor time is far below.
+# Time after which a drive counts as hanging [s]; the requirement on processor time is far below.
 PATIENCE = 120.0
 HEAD = ["seed", "index", "drive", "processor, s", "simulated, s", "steps", "granted", "impacts", "swings", "energy residual"]
 
 
 def drawn(fmu, seed, number):
-    """Drive `number` of a run, from its seed by turns."""
+    """Drive `number` of a run, from alternating seeds."""
     levels = {effect.name: effect.contact for effect in effects(fmu)}
     return ordinary_drives.drive(seed + number % SEEDS, number // SEEDS, levels)
 
 
 def judged(fmu, drive):
-    """The verdict on a drive, as data."""
+    """Verdict on a drive, as a dictionary."""
     begin = time.process_time()
     played = play(fmu, drive)
     return vars(drive_requirements.judge(fmu, drive, time.process_time() - begin, played))
 
 
 def work(file, seed, first, count):
-    """Work of a process: verdicts on every `WORKERS`-th drive from `first` on."""
+    """Work of a process: prints verdicts on every `WORKERS`-th drive, starting with `first`."""
     fmu = Fmu.of(file)
     for number in range(first, count, WORKERS):
         print(json.dumps({"number": number, **judged(fmu, drawn(file, seed, number))}), flush=True)
 
 
 class Worker:
-    """A process that works off a share of the drives, and that is replaced if it crashes or hangs.
+    """A process that executes a share of the drives. It is replaced if it crashes or hangs.
 
     `next`: number of the next drive; `count`: number of all drives."""
 
@@ -63,7 +63,7 @@ class Worker:
         self.file, self.seed, self.next, self.count = file, seed, share, count
 
     def verdicts(self, found):
-        """Puts all verdicts of the share into the queue `found`, then None."""
+        """Puts all verdicts of the share into the queue `found`, followed by None."""
         while self.next < self.count:
             numbers = map(str, (self.seed, self.next, self.count))
             command = [sys.executable, os.path.abspath(__file__), "work", self.file, *numbers]
@@ -75,7 +75,7 @@ class Worker:
         found.put(None)
 
     def _follow(self, process, found):
-        """Passes verdicts on until the process ends, and returns why it ended."""
+        """Passes verdicts on until the process ends. Returns the reason for its end."""
         lines = queue.Queue()
         threading.Thread(target=lambda: [*map(lines.put, process.stdout), lines.put(None)], daemon=True).start()
         try:
@@ -107,7 +107,7 @@ def run(file, seed, count):
 
 
 def described(drive):
-    """A drive in some words."""
+    """Short description of a drive."""
     start = drive["start"]
     words = [drive["manoeuvre"], start["scene.gear_contact"], start.get("contact.law"), start.get("solver.method"),
              f"{1e3 * drive['step']:g} ms", "FMI 3.0" if drive["fmi"] == "3.0" else None,
@@ -116,7 +116,7 @@ def described(drive):
 
 
 def report(file, folder, seed, records):
-    """Tables of cost and of violations; writes the drives that violate a requirement."""
+    """Returns tables of cost and of violations; writes the drives that violate a requirement."""
     drives = {record["number"]: drawn(file, seed, record["number"]) for record in records}
     rows = [HEAD]
     for record in sorted(records, key=lambda record: -(record["seconds"] or 0.0))[:SHOWN]:
@@ -161,7 +161,7 @@ def main():
 
 
 def one(file, seed, index):
-    """One drive with its data and measures."""
+    """Prints one drive with its data and measurements."""
     drive = drawn(file, seed, SEEDS * index)
     verdict = judged(Fmu.of(file), drive)
     text = f"{json.dumps(drive, indent=1)}\n{json.dumps(verdict, indent=1)}"

@@ -1,4 +1,4 @@
-"""An instance in the library of another processor: far.c in an emulator, told call by call what to do."""
+"""Instance in a library for another processor: far.c runs in an emulator and receives each call."""
 
 import contextlib
 import ctypes
@@ -11,40 +11,40 @@ import numpy as np
 
 from bevel_differential.instance import Instance
 
-# letters of the calls that set and get values of a kind
+# letters of the calls that set or get values of a kind
 LETTERS = {"Real": "r", "Integer": "n", "Boolean": "b"}
 ITEM = {"Real": 8, "Integer": 4, "Boolean": 4}
 
 
 def compiled(compiler, folder):
-    """far.c, built by a compiler with its options."""
+    """Builds far.c with a compiler and its options, and returns the program."""
     program = Path(folder) / "far"
     subprocess.run([*compiler, "-O2", "-o", program, Path(__file__).with_name("far.c"), "-ldl"], check=True)
     return program
 
 
 class Emulated(Instance):
-    """As `Instance`, but for what far.c does not do: logs, saved states, derivatives.
+    """An `Instance` without the functions that far.c lacks: logs, saved states, derivatives.
 
-    `command` runs far.c for the processor; the library is told to it."""
+    `command` runs far.c for the processor and gets the library as an argument."""
 
     def __init__(self, fmu, command, library):
         self.fmu, self.time, self._is_fresh, self._failure = fmu, 0.0, True, None
         self.messages, self.events = [], []
         self._far = subprocess.Popen([*map(str, command), str(library), fmu.description.guid], stdin=subprocess.PIPE,
                                      stdout=subprocess.PIPE)
-        # anything that is not nothing
+        # any pointer except NULL
         self._component = ctypes.c_void_p(1)
         self._get = {kind: partial(self._values, kind, gets=True) for kind in LETTERS}
         self._set = {kind: partial(self._values, kind, gets=False) for kind in LETTERS}
-        self._setup = lambda *_: 0  # with entering
+        self._setup = lambda *_: 0  # done by entering
         self._enter, self._exit, self._reset = (lambda _, letter=letter: self._ask(letter) for letter in "ELX")
         self._do_step = lambda _, time, size, __: self._ask("S", 2, np.array([time, size]).tobytes())
         self.raw = SimpleNamespace(setReal=self._set_real)
 
     def _ask(self, letter, count=0, sent=b"", answer=0, to=None):
-        """A call with its bytes; its status. Bytes of an answer go to an address."""
-        # a host that has ended takes nothing, and answers nothing
+        """Sends a call with its bytes and returns its status. Bytes of the answer are copied to the address `to`."""
+        # a host that has ended accepts and answers nothing
         with contextlib.suppress(BrokenPipeError):
             self._far.stdin.write(letter.encode() + count.to_bytes(4, "little") + sent)
             self._far.stdin.flush()
@@ -66,7 +66,7 @@ class Emulated(Instance):
         self.check(status, "setting Real variables")
 
     def close(self):
-        """Ends the emulator, and the instance with it."""
+        """Ends the emulator and its instance."""
         if self._component:
             self._component = None
             with contextlib.suppress(BrokenPipeError):

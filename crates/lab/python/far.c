@@ -1,9 +1,9 @@
-/* A host for libraries of other processors: it runs in an emulator and takes calls from standard input.
+/* Host for libraries of other processors: it runs in an emulator and reads calls from standard input.
    far LIBRARY GUID
-   A call is a letter and a count, then value references and values; the answer is the status, then the values that were asked
-   for. All numbers are as in memory: both machines are little-endian.
-   R N B: set Reals, Integers, Booleans; r n b: get them; E: set up and enter initialisation; L: leave it; S: a step of two
-   numbers, time and size; X: reset. It ends with its input. */
+   A call consists of a letter and a count, then value references and values; the answer is the status, then the requested values.
+   All numbers are in memory format: both machines are little-endian.
+   R N B: set Reals, Integers, Booleans; r n b: get them; E: set up and enter initialisation; L: leave it; S: a step with two
+   numbers, time and size; X: reset. The program ends with its input. */
 
 #include "host.h"
 

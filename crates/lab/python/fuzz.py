@@ -1,6 +1,6 @@
-"""Calls at random in several processes of the laboratory's program, so that a crash or a hang is reported with its seed.
+"""Random calls in several processes of the laboratory's program, so that a crash or a hang is reported with its seed.
 
-usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND [FMI]    CALLS: of a round; COMMAND: how users call the program"""
+usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND [FMI]    CALLS: per round; COMMAND: how users call the program"""
 
 import json
 import os
@@ -15,14 +15,15 @@ from collections import Counter
 from bevel_differential.text import markdown
 from tools import Finding, say
 
-# a round takes some seconds, half a minute at most, and a busy machine some times that; one that takes so long hangs
+# a round takes several seconds, at most half a minute, and several times longer on a busy machine; a longer one hangs
 PATIENCE = 600.0
 HEAD = ["function", "calls", "OK", "warning", "discard", "error", "mean, µs", "longest, ms"]
 
 
 class Worker:
-    """A process that works off rounds from a seed on. `round`: the seed of the present one; `rounds`: how many were begun; `tally`: what
-    it counted; `why`: what went wrong."""
+    """A process that executes rounds, starting with a seed.
+
+    `round`: seed of the present round; `rounds`: number of begun rounds; `tally`: its counts; `why`: reason for its failure."""
 
     def __init__(self, program, seed, rounds, calls, command, version):
         self.again = " ".join([command, "fuzz", *version, "--calls", str(calls), "--seed "])
@@ -31,7 +32,7 @@ class Worker:
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def follow(self, ended):
-        """Listens to its end, which is told to the queue `ended`."""
+        """Reads its output until it ends, and puts it into the queue `ended`."""
         for line in self.process.stdout:
             self.since = time.monotonic()
             if line.startswith("round "):
@@ -46,14 +47,14 @@ class Worker:
         ended.put(self)
 
     def stop(self, why):
-        """Ends it, unless it has ended; `why` may be empty."""
+        """Ends the process unless it has ended; `why` may be empty."""
         if self.process.poll() is None:
             self.why = why
             self.process.kill()
 
 
 def worked(workers, rounds, calls):
-    """Waits for all; those left are stopped where one fails."""
+    """Waits for all workers. If one fails, the others are stopped."""
     ended, left = queue.Queue(), set(workers)
     for worker in workers:
         threading.Thread(target=worker.follow, args=[ended], daemon=True).start()
@@ -77,7 +78,7 @@ def worked(workers, rounds, calls):
 
 
 def page(tallies):
-    """The table of calls, and what else was counted."""
+    """Table of calls, and other counts."""
     statuses, seconds, longest = {}, Counter(), Counter()
     for row in (row for tally in tallies for row in tally["rows"]):
         name = row["function"]

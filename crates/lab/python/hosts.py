@@ -1,10 +1,10 @@
-"""The packaged FMUs in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table. Hosts step
-the scene in co-simulation, or evaluate derivatives and their Jacobian at points of it in model exchange.
+"""Compares the packaged FMUs in other hosts with fmpy: each host runs each scene in a separate process. Prints the table. Hosts step the
+scene in co-simulation, or evaluate derivatives and their Jacobian at points of the scene in model exchange.
 
 usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-fmi-sim]
 
-PLAIN_FMU is the FMU described with Integers, for hosts that set no Enumerations. The FMU of FMI 3.0 lies beside FMU: hosts that
-read it are compared with fmpy and FMI 2.0. Fails if hosts differ, or with --require if one cannot be loaded."""
+PLAIN_FMU is the FMU with Integers, for hosts that cannot set Enumerations. The FMU of FMI 3.0 is next to FMU: hosts that read it are
+compared with fmpy and FMI 2.0. Fails if results differ, or with --require if a host cannot be loaded."""
 
 import csv
 import json
@@ -19,20 +19,22 @@ from fmpy import read_model_description
 from tools import WORKSPACE, Finding, say
 
 HOSTS = WORKSPACE / "tests" / "hosts"
-# largest deviation between two hosts
+# maximum deviation between two hosts
 MOST = 1e-9
-# status of a script whose host cannot be loaded; common.py has the same
+# exit status of a script whose host cannot be loaded, as in common.py
 CANNOT_LOAD = 3
-# the crate fmi-sim, which is a separate program
+# crate fmi-sim, which is a separate program
 FMI_SIM, FMI_SIM_VERSION = "fmi-sim", "0.7.0"
 PACKAGES = "pip install -r tests/hosts/requirements.txt"
 
 
 @dataclass(frozen=True)
 class Host:
-    """A host. `call`: a script of tests/hosts with its arguments; `loader`: what imports the FMU; `sets`: what it sets before
-    initialisation; `hint`: what to do if it cannot be loaded; `steps`: False if it evaluates derivatives; `three`: True if
-    the host reads the FMU of FMI 3.0, and `unset`: types and causalities that it does not set there."""
+    """A host.
+
+    `call`: script of tests/hosts with its arguments; `loader`: software that imports the FMU; `sets`: variables that it sets before
+    initialisation; `hint`: advice if it cannot be loaded; `steps`: False if it evaluates derivatives; `three`: True if the host reads
+    the FMU of FMI 3.0; `unset`: types and causalities that it does not set there."""
 
     name: str
     call: tuple[str, ...]
@@ -46,9 +48,9 @@ class Host:
     unset: tuple[str, ...] = ()
 
 
-# what hosts that evaluate derivatives are compared with
+# hosts that evaluate derivatives are compared with this one
 DERIVATIVES = Host("fmpy, derivatives", ("derivatives.py",), "its own, ctypes", "all types", steps=False)
-# the others are compared with the first one
+# all others are compared with the first one
 ALL = [
     Host("fmpy", ("with_fmpy.py",), "its own, ctypes", "all types", three=True),
     Host("libcosim", ("with_libcosim.py",), "FMI Library", "no Enumerations",
@@ -68,7 +70,7 @@ ALL = [
 
 @dataclass(frozen=True)
 class Scene:
-    """A scene of tests/hosts/scenes, and what its file says."""
+    """A scene of tests/hosts/scenes with the content of its file."""
 
     name: str
     path: Path
@@ -81,8 +83,10 @@ class Absent(Exception):
 
 @dataclass(frozen=True)
 class Deviation:
-    """The largest deviation over all outputs and communication points, relative to the value, or to the output's natural scale where
-    that is larger; output and point where it is; how many values have other bits, of how many."""
+    """Largest deviation over all outputs and communication points.
+
+    `largest`: relative to the value, or to the output's natural scale if that is larger; `place`: its output and point; `different`:
+    number of values with different bits, out of `compared` values."""
 
     largest: float
     place: str
@@ -91,13 +95,13 @@ class Deviation:
 
 
 def read(file):
-    """Outputs by communication point, as a host's script wrote them."""
+    """Outputs by communication point, from the file of a host's script."""
     with open(file, encoding="utf-8") as lines:
         return {int(row.pop("point")): {name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)}
 
 
 def deviation(own, other, without_start, scales):
-    """How far `other` is from `own`. It must have the same outputs at the same points, but for the start if `without_start`."""
+    """Deviation of `other` from `own`. Both must have the same outputs at the same points, except for the start if `without_start`."""
     points = [point for point in own if point > 0 or not without_start]
     if points != [point for point in other if point > 0 or not without_start]:
         raise SystemExit(f"{len(other)} communication points were recorded in place of {len(points)}")
@@ -111,25 +115,25 @@ def deviation(own, other, without_start, scales):
             apart = abs(other[point][name] - value) / max(abs(value), scales[name])
             if apart != apart:
                 raise SystemExit(f"{name} at point {point} is {other[point][name]} in place of {value}")
-            # hexadecimal, as 0 and −0 are equal and have other bits
+            # hexadecimal, because 0 and −0 are equal but have different bits
             different += other[point][name].hex() != value.hex()
             found = max(found, (apart, f"{name} at point {point}"), key=lambda pair: pair[0])
     return Deviation(*found, different, sum(len(own[point]) for point in points))
 
 
 def largest(record):
-    """Natural scales of derivatives, which no scene states: the largest value of each; 1 if all are 0."""
+    """Natural scales of derivatives, which no scene states: the largest value of each, or 1 if all are 0."""
     return {name: max(abs(values[name]) for values in record.values()) or 1.0 for name in record[0]}
 
 
 class Bench:
-    """What hosts need before they run."""
+    """Requirements of hosts: FMUs, a folder, and fmi-sim."""
 
     def __init__(self, fmu, plain, folder, with_fmi_sim):
         self.fmu, self.plain, self.folder, self.with_fmi_sim = fmu, plain, folder, with_fmi_sim
         self.three = fmu.with_name(f"{fmu.stem}3.fmu")
         self.needs = {each.name: {each.type, each.causality} for each in read_model_description(str(self.three)).modelVariables}
-        self.fmi_sim = "left out without --with-fmi-sim, as its build takes minutes"
+        self.fmi_sim = "left out without --with-fmi-sim, because its build takes minutes"
         if with_fmi_sim:
             say(0.0, "building fmi-sim (many minutes)")
             root = folder / FMI_SIM
@@ -138,16 +142,16 @@ class Bench:
             self.fmi_sim = f"it does not build: {last_line(done.stderr)}" if done.returncode else root / "bin" / FMI_SIM
 
     def leaves_out(self, host):
-        """True if the host was left out on demand."""
+        """True if the host was left out because it was not requested."""
         return not self.with_fmi_sim and host.name == FMI_SIM
 
     def can_by_three(self, host, scene):
-        """Whether a host runs a scene with the FMU of FMI 3.0: it reads it, and sets all that the scene sets."""
+        """True if a host can run a scene with the FMU of FMI 3.0: it reads the FMU and sets all variables of the scene."""
         needed = {need for part in ("parameters", "inputs") for name in scene.known[part] for need in self.needs[name]}
         return host.three and needed.isdisjoint(host.unset)
 
     def run(self, host, scene, three=False):
-        """Runs a host on a scene, by FMI 3.0 if `three`: its record and its version. Raises `Absent`."""
+        """Runs a host on a scene, with FMI 3.0 if `three`. Returns its record and its version. Raises `Absent`."""
         out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}{'_3' if three else ''}.csv"
         program, *arguments = host.call
         environment = dict(os.environ)
@@ -156,7 +160,7 @@ class Bench:
                 raise Absent(self.fmi_sim)
             environment["FMI_SIM"] = str(self.fmi_sim)
         fmu = self.three if three else self.fmu if host.enumerations else self.plain
-        # some write logs into the current folder
+        # some hosts write logs into the current folder
         ended = subprocess.run([sys.executable, HOSTS / program, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
                                text=True)
         if ended.returncode == CANNOT_LOAD:
@@ -172,7 +176,7 @@ def last_line(text):
 
 
 def compared(bench, scenes):
-    """By host its version and, by FMI 2.0 and by FMI 3.0, the deviations by scene; and why others are absent."""
+    """Returns by host its version and its deviations by scene, for FMI 2.0 and FMI 3.0, and the reasons why other hosts are absent."""
     results, absent, own, derivatives = {}, {}, [], {}
     for done, host in enumerate(ALL):
         say(done / len(ALL), host.name)
@@ -203,7 +207,7 @@ def compared(bench, scenes):
 
 
 def page(results, absent, scenes):
-    """What is written into docs/inside/hosts.md."""
+    """Text for docs/inside/hosts.md."""
     rows = [["host", "import", "sets before the start", "FMI 2.0", "FMI 3.0"]]
     for host, (version, ran) in results.items():
         rows.append([f"{host.name} {version}", host.loader, host.sets, *(cell(found, scenes) for found in ran)])
@@ -216,7 +220,7 @@ def page(results, absent, scenes):
 
 
 def cell(found, scenes):
-    """A host's deviations by one version of FMI."""
+    """Deviations of a host with one version of FMI, as text."""
     if not found:
         return "–"
     differ = [f"{scene}: {one.largest:.1e}".replace("e-0", "e-") for scene, one in found.items() if one.different]

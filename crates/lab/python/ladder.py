@@ -1,4 +1,4 @@
-"""The ladder of fidelities: the error of each rung against the richest, and what it costs. Writes fidelity_ladder.csv."""
+"""Ladder of fidelities: error of each level compared with the richest one, and its cost. Writes fidelity_ladder.csv."""
 
 import math
 
@@ -10,7 +10,7 @@ from tools import say, write_measured
 
 HEAD = ["scene", "rung", "words", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
         "cpu_s_high", "cost"]
-# all rungs, the plainest first: a description, and the values changed from the rung before
+# all levels, the plainest first: a description, and the values changed from the level before
 RUNGS = {
     "ideal": ("ideal gears", {"scene.gear_contact": "ideal"}),
     "lumped": ("a spring with play for each mesh", {"scene.gear_contact": "lumped"}),
@@ -21,16 +21,16 @@ RUNGS = {
     "+ pins and case": ("and elastic pins and case", {"effects.pin_compliance": True}),
     "+ gear bodies": ("and elastic gear bodies", {"effects.body_compliance": True}),
 }
-# communication step while times are measured [s]; runs of each rung in a round; rounds, in which all rungs alternate
+# communication step for timing [s]; number of runs of each level per round; number of rounds, in which all levels alternate
 STEP, RUNS, ROUNDS = 1e-3, 5, 3
 OUTPUTS = ["left.speed", "carrier.speed", "planet[1].left_normal_force", "left.shaft_torque", "planet[1].left_transmission_error"]
-# the study's turn with inertias as the references in tests/data have them
+# the study's turn with the inertias of the references in tests/data
 TURN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5, "scene.planet_spin": "imposed",
         "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 
 
 class Turn:
-    """The study's turn: one mesh cycle, after one to settle. Names and units of the quantities, times [s], start values."""
+    """The study's turn: one mesh cycle after a settling cycle. Names and units of the quantities, times [s], start values."""
 
     name, settled, end, interval = "turn", 0.18, 0.36, 5e-4
     values, changes = TURN, {}
@@ -46,8 +46,8 @@ class Turn:
 
 
 class Clunk:
-    """The scene clunk with the study's gears, damped by restitution, and with its inputs from the start on: with gears as light and
-    undamped as the scene has them, teeth rattle on and solutions that differ by rounding diverge."""
+    """The scene clunk with the study's gears, damped by restitution, and with its inputs from the start. With the light, undamped gears of
+    the scene, teeth keep rattling, and solutions that differ by rounding diverge."""
 
     name, settled, end, interval = "clunk", 0.0, 0.02, 1e-5
     quantities = {"speed of the carrier at the end": "rad/s", "peak shaft torque": "N.m", "time of the peak": "s",
@@ -68,7 +68,7 @@ class Clunk:
 
 
 def record(fmu, scene, values):
-    """A record from the settled state on, a dict of arrays."""
+    """Record after the settled state, as a dict of arrays."""
     heats = [name for name in fmu.variables if name.startswith("heat.")]
     rows = []
     with fmu.open() as instance:
@@ -83,7 +83,7 @@ def record(fmu, scene, values):
 
 
 def measure(fmu, folder, short, begin, end):
-    """Measures, and writes the file; the bar moves from `begin` to `end`."""
+    """Measures errors and times, and writes the file; the bar moves from `begin` to `end`."""
     scenes, calls, runs = [Turn(), Clunk(fmu)], Calls(folder), []
     for scene in scenes:
         values = dict(scene.values)

@@ -1,9 +1,9 @@
-/* The unit as sources in C in a loop of 1 ms, as a real-time system runs it: sets the inputs of a recorded drive, takes a step, reads
+/* The unit as sources in C in a loop of 1 ms, as in a real-time system: sets the inputs of a recorded drive, executes a step, and reads
    outputs. Compiled together with the sources of the unit.
 
    loop GUID SET DRIVE OUTPUT...
    SET: start values, lines "Real|Integer|Boolean REFERENCE VALUE". DRIVE: a line with the references of inputs; then a line for each
-   step: 1 if its instructions are to be counted, and the values of the inputs. OUTPUT: value references of Reals. Prints memory and stack
+   step: 1 if its instructions are counted, and the values of the inputs. OUTPUT: value references of Reals. Prints memory and stack
    in bytes, and a sum over the bits of all outputs; fails if a step allocates. */
 
 #include <pthread.h>
@@ -17,7 +17,7 @@
 
 #define STEP 1e-3
 enum { MOST = 64, STEPS = 10000, STACK = 1 << 20 };
-/* what unused stack is filled with */
+/* fill value of unused stack */
 enum { FILLED = 0xa5 };
 
 static fmi2ValueReference inputs[MOST], outputs[MOST];
@@ -87,7 +87,7 @@ static void take_step(size_t k) {
     check(fmi2GetReal(unit, outputs, n_outputs, values), "outputs");
 }
 
-/* A function of its own, so that its instructions can be counted. */
+/* A separate function, so that its instructions can be counted. */
 #if defined(__GNUC__)
 __attribute__((noinline))
 #endif
@@ -116,7 +116,7 @@ static void *run(void *nothing) {
     return nothing;
 }
 
-/* Bytes from the first that are not `filled`. */
+/* Number of bytes up to the first that is not `filled`. */
 static size_t untouched(const unsigned char *bytes, size_t most, unsigned char filled) {
     size_t k = 0;
     while (k < most && bytes[k] == filled) ++k;
@@ -140,7 +140,7 @@ int main(int count, char **given) {
     machine = &((bd_unit *)unit)->machine;
     printf("instance %zu\nused %zu\nstack %zu\nstack within %zu\n", sizeof(bd_unit), (size_t)machine->pages * BD_PAGE,
            sizeof stack - untouched(stack, sizeof stack, FILLED),
-           /* it lies at the begin of memory and grows towards it */
+           /* the stack is at the start of memory and grows towards it */
            BD_STACK - untouched(machine->memory.bytes, BD_STACK, 0));
     fmi2FreeInstance(unit);
     return 0;

@@ -1,4 +1,4 @@
-"""What runs the library for each platform: this process, fmpy's server under wine, qemu; and what only looks at it."""
+"""Hosts for the libraries of all platforms: this process, fmpy's server under wine, and qemu; libraries for macOS are only inspected."""
 
 import os
 import subprocess
@@ -15,23 +15,23 @@ import binaries
 from bevel_differential import DifferentialError, Fmu
 from emulated import Emulated
 
-# keeps a library from wider vector instructions; a platform whose name ends so is kept from them
+# prevents wider vector instructions, for platforms whose names have this ending
 VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
-# communication steps of a scene
+# number of communication steps of a scene
 STEPS = 100
-# how often a step is timed
+# number of timings of a step
 REPEATS = 3
 # port of fmpy's server, time limit of its start [s], and pause between checks [s]
 PORT, START_TIMEOUT, PAUSE = 8080, 60.0, 0.1
 
 
 class Platform:
-    """An FMU with one library, which runs in this process."""
+    """An FMU with one library that runs in this process."""
 
     run_by = "this machine"
-    # what compiles and links
+    # compiler and linker
     built_by = property(lambda self: "Rust, zig" if "glibc" in self.name else "Rust, gcc")
-    # whether its times are those of a processor
+    # True if its times are representative of a processor
     is_timed = True
 
     def __init__(self, name, fmu):
@@ -42,10 +42,10 @@ class Platform:
         self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]
 
     def close(self):
-        """Ends what has been started."""
+        """Ends everything that was started."""
 
     def opened(self):
-        """A new instance."""
+        """Creates an instance."""
         # a library reads this variable at its first step
         os.environ[VECTORS] = NARROW if self.name.endswith(NARROW) else ""
         return self.fmu.open()
@@ -55,12 +55,12 @@ class Platform:
         instance.close()
 
     def described(self):
-        """Exported functions, libraries that are needed, the oldest system."""
+        """Exported functions, required libraries, and the oldest system."""
         exported, needed, glibc = binaries.of_linux(self.binary)
         return exported, needed, f"glibc {'.'.join(map(str, glibc))}"
 
     def start(self, values):
-        """An initialised instance."""
+        """Creates and initialises an instance."""
         return self.opened().initialise(values)
 
     def record(self, values, events, tables, duration):
@@ -84,7 +84,7 @@ class Platform:
         return np.array(rows, dtype=float)
 
     def seconds(self, values, duration):
-        """The least time that one step of `duration` takes."""
+        """Minimum time of one step of `duration`."""
         least = np.inf
         for _ in range(REPEATS):
             instance = self.start(values)
@@ -95,7 +95,7 @@ class Platform:
         return least
 
     def refuses(self):
-        """Statuses that wrong calls return, while the library stays usable."""
+        """Statuses returned by wrong calls, after which the library must stay usable."""
         instance, statuses = self.opened(), []
         module = self.fmu.variable("geometry.module").reference
         for call in [lambda: instance.raw.setReal([10**6], [1.0]),
@@ -112,7 +112,7 @@ class Platform:
 
 
 class Windows(Platform):
-    """One that runs in fmpy's server under wine."""
+    """A platform that runs in fmpy's server under wine."""
 
     run_by, built_by = "wine", "Debian's Rust, MinGW"
 
@@ -128,13 +128,13 @@ class Windows(Platform):
             self.server = None
 
     def opened(self):
-        # a new server, as it ends with its instance
+        # a new server, because a server ends with its instance
         self.close()
         self.serve()
         return super().opened()
 
     def end(self, instance):
-        # with its server, as fmpy's client waits forever for one it did not start
+        # together with its server, because fmpy's client waits forever for a server that it did not start
         instance.forget()
         self.close()
 
@@ -142,7 +142,7 @@ class Windows(Platform):
         return *binaries.of_windows(self.binary), "–"
 
     def serve(self):
-        """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
+        """Starts fmpy's server before anything connects, because its client would time out while wine loads the library."""
         deadline = time.monotonic() + START_TIMEOUT
         while is_listening():
             self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
@@ -163,7 +163,7 @@ class Windows(Platform):
 
 
 class Arm(Platform):
-    """One for ARM, which runs in a host in C under qemu."""
+    """A platform for ARM, which runs in a host in C under qemu."""
 
     run_by, built_by, is_timed = "qemu", "Debian's Rust, zig", False
 
@@ -176,13 +176,13 @@ class Arm(Platform):
 
 
 class MacOS(Platform):
-    """One for macOS, which nothing here runs."""
+    """A platform for macOS, which nothing here can run."""
 
     run_by, built_by = None, "Debian's Rust, lld"
 
     def described(self):
         found = binaries.of_macos(self.binary)
-        assert set(found) == set(binaries.PROCESSORS.values()), f"{self.name} has code for {', '.join(found)} alone"
+        assert set(found) == set(binaries.PROCESSORS.values()), f"{self.name} has code only for {', '.join(found)}"
         for processor, library in found.items():
             assert library.signature == "ad hoc", f"{self.name}, {processor}: signature {library.signature}"
             assert not library.searched and all(name.startswith("@rpath/") for name in library.own_name), f"{self.name}: a path"
@@ -192,7 +192,7 @@ class MacOS(Platform):
 
 
 def is_listening():
-    """Whether a server waits on the port; checked without connecting, as the server accepts one client."""
+    """True if a server waits on the port. The check does not connect, because the server accepts only one client."""
     with open("/proc/net/tcp", encoding="ascii") as sockets:
         rows = [line.split() for line in sockets][1:]
     return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)

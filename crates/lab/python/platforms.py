@@ -1,10 +1,10 @@
-"""Simulates the same scenes with the library for each platform and compares the bits of all outputs; looks at those for macOS.
+"""Simulates the same scenes with the library for each platform and compares the bits of all outputs; inspects the library for macOS.
 
 usage: platforms.py SCENES FOLDER TOOL=FILE... NAME=FMU...
 
-Each FMU holds the library for one platform; the first one is what the others are compared with. Tools: wine runs one for win64,
-in fmpy's server; qemu one for aarch64-linux, in far.c, which zig builds in FOLDER. Prints the tables of docs/inside/hosts.md; fails if any
-bits differ, or if a library for macOS is not as it must be. A line "progress FRACTION WHAT" on standard error reports progress.
+Each FMU contains the library for one platform; the others are compared with the first one. Tools: wine runs the library for win64 in
+fmpy's server; qemu runs the library for aarch64-linux in far.c, which zig builds in FOLDER. Prints the tables of docs/inside/hosts.md. Fails if
+any bits differ, or if a library for macOS is wrong. Lines "progress FRACTION WHAT" on standard error report progress.
 """
 
 import sys
@@ -19,19 +19,19 @@ from bevel_differential.text import markdown
 from effects_list import effects
 from tools import WORKSPACE, Finding, say
 
-# where the list of effects is
+# the list of effects is next to this file
 FMU = WORKSPACE / "target" / "fmu" / "BevelDifferential.fmu"
-# what is timed, each as one step of this length [s]
+# timed scenes, each as one step of this length [s]
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects, impact": 0.05}
-# beginnings of the libraries that every program of its system has
+# prefixes of libraries that every program of the system uses
 C_LIBRARIES = ("libc.so", "libm.so", "libdl.so", "libpthread.so", "ld-linux", "/usr/lib/libSystem.B.dylib")
 TOOLS = ("wine", "qemu", "zig")
-# for which far.c is built
+# target for which far.c is built
 ARM = "aarch64-linux-gnu.2.17"
 
 
 def platform(name, fmu, tools, folder):
-    """What runs the FMU of this name."""
+    """Host of the FMU with this name."""
     if name.startswith("win64"):
         return platform_hosts.Windows(name, fmu, tools["wine"])
     if name.startswith("aarch64-linux"):
@@ -43,7 +43,7 @@ def platform(name, fmu, tools, folder):
 
 
 def compared(one, other):
-    """Whether all bits agree, and the difference in words."""
+    """True if all bits agree, and a description of the difference."""
     if one.shape != other.shape:
         return False, f"{len(other)} communication points instead of {len(one)}"
     different = one.view(np.uint64) != other.view(np.uint64)
@@ -74,7 +74,7 @@ def main():
 
 
 def tables(platforms, scenes):
-    """The tables, and whether all agrees."""
+    """The tables, and True if everything agrees."""
     run = [each for each in platforms if each.run_by]
     text, same, values = comparison(run, scenes)
     described = [each.described() for each in platforms]
@@ -84,7 +84,7 @@ def tables(platforms, scenes):
         bits = "–" if each is run[0] or not each.run_by else "none" if same else "see below"
         size = f"{each.binary.stat().st_size / 1e6:.2f}"
         rows.append([each.name, each.built_by, each.run_by or "inspected alone", bits, size, oldest])
-        # several of one platform may be alike
+        # several FMUs of one platform may have equal needs
         needs.setdefault(", ".join(name for name in needed if not name.startswith(C_LIBRARIES)), each.name)
     counts = " or ".join(sorted({str(len(exported)) for exported, *_ in described}))
     foreign = ", ".join(sorted({name for exported, *_ in described for name in exported if not name.startswith(("fmi2", "fmi3"))}))
@@ -101,7 +101,7 @@ def tables(platforms, scenes):
 
 
 def comparison(run, scenes):
-    """What differs, in words, whether nothing does, and how many values there are."""
+    """Description of the differences, True if there are none, and the number of values."""
     first, *others = run
     values, rows = 0, [["scene", *(each.name for each in others)]]
     for index, (name, settings, *rest) in enumerate(scenes):
@@ -117,7 +117,7 @@ def comparison(run, scenes):
 
 
 def timed(run, scenes):
-    """The table of times of one step; those of an emulator say nothing about a processor."""
+    """Table of the times of one step, without emulators because their times say nothing about a processor."""
     first, *others = [each for each in run if each.is_timed]
     lines = [["one step", "simulated", first.name, *(each.name for each in others)]]
     for index, (name, duration) in enumerate(TIMED.items()):

@@ -1,8 +1,8 @@
-"""Work and precision: three motions at four fidelities by every method, over tolerances and steps, each against its reference.
+"""Work and precision: three motions at four fidelities with every method, over tolerances and steps, each compared with its reference.
 Writes work_precision.csv.
 
-Results are compared seldom, as fixed steps end at every communication point: points that lie closer than steps want to be long
-would dictate them, and the figure would show the host's step instead of the solver's. Other methods answer between the ends of
+Results are compared at few points, because fixed steps end at every communication point. Points closer than the solver's steps would
+limit the steps, and the figure would show the host's step instead of the solver's. Other methods interpolate between the ends of
 their steps."""
 
 import math
@@ -21,23 +21,24 @@ from tools import WORKSPACE, say, write_measured
 HEAD = ["case", "motion", "fidelity", "method", "setting", "unit", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high",
         "cost", "speed_error", "force_error", "steps", "rejected", "rhs_calls", "jacobians", "reference", "reference_speed_error",
         "reference_force_error"]
-# what is compared: two speeds, two forces
+# compared outputs: two speeds, two forces
 COMPARED = ["left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force"]
-# motions, with ends and steps of the stretches of their times [s]. The turn is one tooth long, teeth preloaded: smooth, but for the
-# hand-over of the load from pair to pair; the blow is the same started in the middle of the gaps; in the clunk the whole lash is crossed
+# motions, with ends and steps of their time intervals [s]. The turn lasts one tooth pitch with preloaded teeth: it is smooth, except
+# for the hand-over of the load from pair to pair. The blow is a turn that starts in the middle of the gaps. In the clunk, the whole
+# lash is crossed
 MOTIONS = {"turn": [(0.18, 10e-3)], "blow": [(2e-3, 250e-6), (20e-3, 2e-3)], "clunk": [(20e-3, 1e-3)]}
 FIDELITIES = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_contact": "lumped"},
               "impact": {"scene.gear_contact": "tooth"}, "line": {"scene.gear_contact": "tooth", "contact.law": "line"}}
-# a blow needs teeth to strike
+# without teeth, there is no blow
 CASES = [(motion, fidelity) for motion in MOTIONS for fidelity in FIDELITIES if (motion, fidelity) != ("blow", "ideal")]
-# the default first
+# the default method first
 METHODS = ["adaptive", "radau", "fixed_step"]
 DEFAULT = ("adaptive", 1e-6)
-# tolerance of the methods that replace a reference; times that differ by less are the same [s]
+# tolerance of the methods that replace a reference; times that differ by less are equal [s]
 FINEST, SAME = 1e-11, 1e-9
-# references from equations and a solver that are not the program's: a plain model in Python as scipy integrates it at 1e-12
+# references from independent equations and an independent solver: a plain model in Python, integrated by scipy at 1e-12
 FILES = {("turn", "impact"): "reference_turn_equilibrium.csv", ("blow", "impact"): "reference_turn_rolling.csv"}
-# runs of each in a round: all settings take turns; those that take longer than LONG are timed in one round alone [s]
+# number of runs of each setting in a round: all settings alternate; those that take longer than LONG [s] are timed in only one round
 RUNS, LONG = 5, 0.2
 ACCOUNT = re.compile(r"(\d+) steps accepted, (\d+) rejected for their error, \d+ for their ledger, (\d+) for values that are not finite, "
                      r"(\d+) cut at a switch; (\d+) evaluations of the tooth forces, (\d+) Jacobians")
@@ -45,7 +46,7 @@ ACCOUNT = re.compile(r"(\d+) steps accepted, (\d+) rejected for their error, \d+
 
 @dataclass(frozen=True)
 class Plan:
-    """Tolerances, fixed steps [s], rounds of runs, and seconds of the processor after which a run is given up."""
+    """Tolerances, fixed steps [s], number of rounds, and the limit of processor time of a run [s]."""
 
     tolerances: tuple[float, ...]
     steps: tuple[float, ...]
@@ -58,7 +59,7 @@ QUICK = Plan((1e-3, 1e-6, 1e-9), (1e-4, 1e-5), 1, 0.5)
 
 
 class Case:
-    """A motion at a fidelity."""
+    """A motion at a level of fidelity."""
 
     def __init__(self, fmu, motion, fidelity):
         self.fmu, self.motion, self.fidelity, self.stretches = fmu, motion, fidelity, MOTIONS[motion]
@@ -76,13 +77,13 @@ class Case:
         return f"{self.motion}/{self.fidelity}"
 
     def with_solver(self, method, value):
-        """Its start values with a method at a tolerance, or with fixed steps."""
+        """Start values with a method at a tolerance, or with fixed steps."""
         name = "solver.fixed_step" if method == "fixed_step" else "solver.relative_tolerance"
         return {**self.values, "solver.method": method, name: value}
 
     def samples(self, method, value, patience=math.inf):
-        """What is compared, shape (times, 4), and steps, rejected ones, evaluations and Jacobians; raises where it does not come to
-        its end."""
+        """Compared values, of shape (times, 4), and the numbers of steps, rejected steps, evaluations and Jacobians. Raises an error if the
+        run fails."""
         found, before = [], 0.0
         with self.fmu.open() as instance:
             instance.log(["logStatusWarning", "logStatusDiscard", "logStatusError", "logEvents"])
@@ -94,25 +95,25 @@ class Case:
                 before = now
                 if time.process_time() - begun > patience:
                     raise DifferentialError(f"given up at {now:g} s, after {patience:g} s on the processor")
-            # the last of its messages is its account
+            # the last of its messages contains its statistics
             instance.raw.terminate()
             accepted, wrong, not_finite, cut, evaluations, jacobians = map(int, ACCOUNT.search(instance.events[-1]).groups())
         return np.array(found), [accepted, wrong + not_finite + cut, evaluations, jacobians]
 
     def reference(self):
-        """What errors are measured against: samples, where they come from, and their own errors in the same measure."""
+        """Reference of the errors: samples, their source, and their own errors in the same measure."""
         if (self.motion, self.fidelity) == ("turn", "ideal"):
             return self._closed_form(), "closed form", [0.0, 0.0]
         file = FILES.get((self.motion, self.fidelity))
         if file:
             samples, strays = from_file(WORKSPACE / "tests" / "data" / file, self.times)
             return samples, f"scipy DOP853 1e-12 on a plain model ({file})", strays
-        # two methods that share the equations and the error control, but no formula of a step
+        # two methods that share the equations and the error control, but not the formula of a step
         radau, adaptive = (self.samples(method, FINEST)[0] for method in ("radau", "adaptive"))
         return radau, "own Radau 1e-11, checked by own Rodas5P 1e-11", errors(radau, adaptive)
 
     def _closed_form(self):
-        """Nothing is solved in a turn of ideal gears with imposed speeds: Willis' equation and static forces."""
+        """Turn of ideal gears with imposed speeds, which needs no solution: Willis' equation and static forces."""
         with self.fmu.open() as instance:
             instance.initialise(self.values)
             carrier, spin, *forces = instance.read(["carrier.speed_command", "spin.command", *COMPARED[2:]])
@@ -121,7 +122,7 @@ class Case:
 
 
 def from_file(path, times):
-    """Samples at `times` from a file of references, and how far the file says that scipy's Radau is from them."""
+    """Samples at `times` from a file of references, and the deviations of scipy's Radau that the file states."""
     _, rows = read(path)
     for name in COMPARED:
         if name not in rows[0]:
@@ -138,13 +139,13 @@ def from_file(path, times):
 
 
 def errors(reference, samples):
-    """Errors in speed and force: the largest difference, over the largest speed and the mean force of `reference`."""
+    """Errors in speed and force: the largest differences, divided by the largest speed and the mean force of `reference`."""
     apart, size = np.abs(samples - reference), np.abs(reference)
     return [float(apart[:, :2].max() / size[:, :2].max()), float(apart[:, 2:].max() / size[:, 2:].mean())]
 
 
 def measure(fmu, folder, plan, begin, end):
-    """Measures, and writes the file; the bar moves from `begin` to `end`."""
+    """Measures errors and times, and writes the file; the bar moves from `begin` to `end`."""
     settings = [(method, value) for method in METHODS for value in (plan.steps if method == "fixed_step" else plan.tolerances)]
     runs, calls = [], Calls(folder)
     for done, (motion, fidelity) in enumerate(CASES):
@@ -156,7 +157,7 @@ def measure(fmu, folder, plan, begin, end):
             try:
                 samples, counts = case.samples(method, value, plan.patience)
                 found = errors(exact, samples)
-                status, message = ("ok", "") if all(map(math.isfinite, found)) else ("failed", "results are no numbers")
+                status, message = ("ok", "") if all(map(math.isfinite, found)) else ("failed", "results are not finite")
             except DifferentialError as why:
                 status, message, found, counts = "failed", str(why), [math.nan] * 2, ["nan"] * 4
             first = time.process_time() - begun

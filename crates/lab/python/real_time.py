@@ -1,4 +1,4 @@
-"""The costliest communication step of the fixed-step method compared with the median one, in instructions.
+"""Compares the most expensive communication step of the fixed-step method with the median one, in instructions.
 
 usage: real_time.py FOLDER BUILD [--quick]    FOLDER is emptied; the program is built in BUILD; quick leaves out the shortest steps"""
 
@@ -12,11 +12,11 @@ import real_time_sources
 from counting import callgrind, counts, stepping
 from tools import Finding, say
 
-# scenes, by the names that the stepping program knows
+# scenes with options, as named by the stepping program
 SCENES = (("straight",), ("turn", "rolling", "reversal"))
-# steps of the method [s], and the number of communication steps of 1 ms
+# step sizes of the method [s], and the number of communication steps of 1 ms
 SIZES, STEPS = ("1e-3", "1e-4", "1e-5"), "300"
-# most that the costliest step may cost over the median one
+# maximum ratio of the most expensive step to the median one
 MOST = 2.0
 
 

@@ -1,4 +1,4 @@
-"""The unit as sources in C in a loop of 1 ms: instructions of each step, memory and stack."""
+"""Unit as sources in C in a loop of 1 ms: instructions of each step, memory and stack."""
 
 import shutil
 import statistics
@@ -15,21 +15,21 @@ from calls import write_start
 from counting import callgrind, completed, counts
 from tools import WORKSPACE, say
 
-# where the packer puts the unit
+# path of the packed unit
 UNIT = WORKSPACE / "target" / "fmu" / "BevelDifferential_sources.fmu"
-# how to get it, where it is not there
+# remark if the unit is missing
 REMARK = "The C build is left out; to get it: cargo run --release -- package --sources\n"
 STEP = 1e-3
-# parts of the drive of the scene hil whose steps are counted [s]: what changes begins and ends there
+# counted intervals of the drive of the scene hil [s], in which its changes begin and end
 WINDOWS = ((0.0, 0.05), (1.99, 2.06), (2.48, 2.53), (2.98, 3.05), (3.98, 4.03), (4.98, 5.25))
-# teeth: the study's turn, with loads that alternate every 50 steps, as many steps as without C
+# teeth: the study's turn, with loads that alternate every 50 steps, and the number of steps of the test without C
 TEETH = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 LOADS, TURN, STEPS = ("left.load_torque", "right.load_torque"), 50, 300
 OUTPUTS = ("carrier.speed", "left.shaft_torque", "right.shaft_torque", "planet[1].spin_speed")
 
 
 def hil(fmu):
-    """Start values, inputs with their values at each step, and whether a step is counted."""
+    """Start values, inputs with their values at each step, and True for each step that is counted."""
     scene = tomllib.loads((WORKSPACE / "scenes" / "hil.toml").read_text(encoding="utf-8"))
     times = np.arange(round(6.0 / STEP)) * STEP
     inputs = {}
@@ -41,17 +41,17 @@ def hil(fmu):
 
 
 def teeth(_):
-    """The same of the turn."""
+    """Start values, inputs and counted steps of the turn."""
     loads = [835.0 if k // TURN % 2 == 0 else -835.0 for k in range(STEPS)]
     return TEETH | {"scene.start": "rolling"}, {name: np.array(loads) for name in LOADS}, [True] * STEPS
 
 
-# scenes, each with sizes of the method [s]
+# scenes, each with step sizes of the method [s]
 SCENES = (("hil", hil, ("1e-3",)), ("turn, rolling, reversal", teeth, ("1e-3", "1e-4")))
 
 
 def compiled(folder):
-    """The loop with the sources, by gcc; and the unit."""
+    """Compiles the loop with the sources by gcc. Returns the program and the unit."""
     shutil.rmtree(folder, ignore_errors=True)
     with zipfile.ZipFile(UNIT) as unit:
         unit.extractall(folder)
@@ -67,7 +67,7 @@ def compiled(folder):
 
 
 def rows(folder):
-    """Rows of the table: scene, step of the method, median and costliest step; and what memory and stack an instance takes."""
+    """Rows of the table: scene, step size, median and most expensive step; and a remark on memory and stack of an instance."""
     program, fmu = compiled(folder)
     found, told = [], {}
     for name, scene, sizes in SCENES:

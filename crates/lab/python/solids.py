@@ -1,10 +1,10 @@
-"""What facets cost in accuracy and in time: solid teeth in the study's turn, compared with exact teeth.
+"""Cost of facets in accuracy and time: solid teeth in the study's turn, compared with exact teeth.
 
 usage: solids.py FMU FOLDER [--quick]
 
-Simulates exact teeth, and solids of 4 to 128 facets per flank with two smoothings: nearly the deepest point alone, and the patch.
-Writes CSV files, study.md and pictures, and prints the section of docs/inside/cost.md. Fails if the mean force of solids is too far from
-that of exact teeth."""
+Simulates exact teeth, and solids of 4 to 128 facets per flank with two smoothings: almost only the deepest point, and the patch. Writes
+CSV files, study.md and pictures, and prints the section of docs/inside/cost.md. Fails if the mean force of solids differs too much from that
+of exact teeth."""
 
 import math
 import sys
@@ -22,17 +22,17 @@ sys.path.append(str(WORKSPACE / "benches" / "peers"))
 import gears  # noqa: E402
 
 STEP = 1e-3
-# records per communication step in the mesh cycle with close records
+# records per communication step in the mesh cycle with dense records
 CLOSE = 10
-# smoothing of nearly the deepest point alone, as a general multibody program has it, and of the patch, the default
+# smoothing with almost only the deepest point, as in a general multibody program, and with the patch, the default
 SMOOTHINGS = (0.02, 1.0)
-# tolerance with an error of integration far below that of facets, and the default tolerance
+# tolerance whose integration error is far below the error of facets, and the default tolerance
 TIGHT, USUAL = 1e-9, 1e-6
 RUNS = 5
 SPEED, SPIN, LOAD = 954.0, 200.0, 835.0
 TURN = {"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"), "carrier.speed_command": (SPEED, "deg/s")}
 WILLIS = [SPEED + sign * SPIN * gears.PLANET_TEETH / gears.SIDE_TEETH for sign in (1.0, -1.0)]
-# by facets: largest relative deviation of the mean force from that of exact teeth
+# by facets: maximum relative deviation of the mean force from that of exact teeth
 BOUNDS = {32: 1e-2, 128: 1e-3}
 COLUMNS = {"speed": "{}.speed", "force": "{}.normal_force", "tangential": "{}.tangential_force",
            "error": "planet[1].{}_transmission_error", "pairs": "planet[1].{}_pairs"}
@@ -40,7 +40,7 @@ COLUMNS = {"speed": "{}.speed", "force": "{}.normal_force", "tangential": "{}.ta
 
 @dataclass(frozen=True)
 class Plan:
-    """Numbers of facets; times at which runs have settled, close records begin, and runs end [s]."""
+    """Numbers of facets; times at which runs have settled, dense records begin, and runs end [s]."""
 
     facets: tuple[int, ...]
     settled: float
@@ -48,16 +48,17 @@ class Plan:
     end: float
 
 
-# from 0.14 s two mesh cycles of 0.18 s each are left
+# two mesh cycles of 0.18 s each remain after 0.14 s
 FULL = Plan((4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128), 0.14, 0.32, 0.5)
 QUICK = Plan((4, 8, 16, 32), 0.02, 0.05, 0.1)
 
 
 @dataclass
 class Row:
-    """Results of one kind of teeth; exact teeth have 0 facets. `errors`: at the tight and at the usual tolerance; for exact
-    teeth those of the integration. `seconds`: median and quartiles of the processor time at the usual tolerance; `counts`: steps
-    and evaluations of that run."""
+    """Results of one kind of teeth; exact teeth have 0 facets.
+
+    `errors`: at the tight and at the default tolerance; for exact teeth those of the integration. `seconds`: median and quartiles of the
+    processor time at the default tolerance; `counts`: steps and evaluations of that run."""
 
     facets: int
     smoothing: float
@@ -77,14 +78,14 @@ class Row:
 
 
 class Found:
-    """All results. `rows`: exact teeth first; `overlap`: d of K d^e = F for one pair under the whole force F of a mesh [m]."""
+    """All results. `rows`: exact teeth first; `overlap`: d of K d^e = F if one pair transmits the whole force F of a mesh [m]."""
 
     def __init__(self, plan, rows, overlap):
         self.plan, self.rows, self.tooth, self.overlap = plan, rows, rows[0], overlap
         self.of = {(row.facets, row.smoothing): row for row in rows}
 
     def solid(self, facets, which):
-        """The row of so many facets at SMOOTHINGS[which]; None if there is none."""
+        """Row with `facets` at SMOOTHINGS[which], or None."""
         return self.of.get((facets, SMOOTHINGS[which]))
 
     def series(self, quantity, which):
@@ -93,7 +94,7 @@ class Found:
 
 
 def arc_height(facets):
-    """Largest height of an arc over its facet at the mean cone distance, that of the planet plus that of the side gear [m]."""
+    """Largest height of an arc over its facet at the mean cone distance, as the sum of planet and side gear [m]."""
     height, radius = 0.0, gears.ROOT_FILLET / gears.OUTER_CONE
     for gear in (gears.PLANET, gears.SIDE):
         start = max(gears.arc(gear.base, max(gear.root + radius, gear.base)) - radius, 0.0)
@@ -112,7 +113,7 @@ def settings(facets, smoothing, tolerance):
 
 
 def record(fmu, plan, values, closely):
-    """A record from the settled state on, and steps and evaluations of the whole run."""
+    """Record after the settled state, and the numbers of steps and evaluations of the whole run."""
     names = {key: [name.format(side) for side in ("left", "right")] for key, name in COLUMNS.items()}
     counts = ["solver.steps", "solver.rhs_calls"]
     every = CLOSE if closely else 1
@@ -152,14 +153,14 @@ def measured(fmu, plan, folder):
 
 
 def overlap(fmu):
-    """Overlap of one pair under the whole force of a mesh, by the study's K and e [m]."""
+    """Overlap of one pair under the whole force of a mesh, with the study's K and e [m]."""
     force = LOAD / (gears.PLANETS * gears.MEAN_CONE * math.sin(gears.SIDE.base))
     stiffness, exponent = (fmu.variable(f"contact.{name}").start for name in ("stiffness", "exponent"))
     return (force / stiffness) ** (1.0 / exponent)
 
 
 def write(found, folder):
-    """Errors and cost by facets, and one mesh cycle."""
+    """Writes errors and cost by facets, and one mesh cycle."""
     head = ["teeth", "facets", "smoothing", "arc_height_um", "steps", "evaluations", "cpu_s", "cpu_s_low", "cpu_s_high", "real_time",
             "cost", "mean_force_N", "peak_force_N", "ripple_N", "tangential_ripple_N", "mean_te_um"]
     for name, (unit, _) in QUANTITIES.items():
@@ -189,7 +190,7 @@ def write(found, folder):
 
 
 def verdict(found):
-    """Fails if the mean force of solids misses its bound. Their speed is only reported, as machines differ."""
+    """Fails if the mean force of solids misses its bound. Their speed is only reported, because machines differ."""
     for facets, bound in BOUNDS.items():
         row = found.solid(facets, 1)
         off = abs(row.look["mean"] / found.tooth.look["mean"] - 1.0) if row else 0.0

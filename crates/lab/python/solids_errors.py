@@ -1,14 +1,14 @@
-"""Errors caused by facets: a record of faceted teeth compared with a record of exact teeth.
+"""Errors caused by facets: comparison of a record of faceted teeth with a record of exact teeth.
 
-On the path of contact, away from tip corners, exact involutes transmit motion evenly. Speed and force are constant, so all
-variation there comes from the facets. Where a tip corner takes over the load, exact teeth vary too, and facets change the
-instant and the course of the hand-over. So errors are counted over the whole record, on the path, and at the corners.
+On the path of contact, away from tip corners, exact involutes transmit motion evenly. Speed and force are constant, so all variation
+there comes from the facets. If a tip corner takes over the load, exact teeth vary too, and facets change the time and shape of the
+hand-over. Errors are therefore counted separately: over the whole record, on the path, and at the corners.
 
 Records are dicts of arrays, of shape (points,) or (points, 2): left and right side gear."""
 
 import numpy as np
 
-# a smaller deviation of the speed from Willis' equation means contact on the path alone [deg/s]
+# a smaller deviation of the speed from Willis' equation means contact only on the path [deg/s]
 EVEN = 1e-3
 # reported errors, by quantity: unit, and expected order in 1/facets
 QUANTITIES = {
@@ -24,9 +24,9 @@ def rms(values):
 
 
 def on_path(exact, side, willis):
-    """Indices of the points at which exact teeth run evenly at the speeds `willis`, one array for each stretch of the path.
+    """Indices of the points at which exact teeth run evenly at the speeds `willis`, one array for each part of the path.
 
-    Only the middle half of a stretch counts, because a patch carries the effect of a corner some way onto the path."""
+    Only the middle half of a part counts, because a patch extends the effect of a corner onto the path."""
     even = np.flatnonzero(np.abs(exact["speed"][:, side] - willis[side]) < EVEN)
     pairs = exact["pairs"][even, side]
     stretches = np.split(even, np.flatnonzero((np.diff(even) > 1) | (np.diff(pairs) != 0)) + 1)
@@ -38,9 +38,9 @@ def on_path(exact, side, willis):
 
 
 def errors(points, exact, close, willis):
-    """Errors of a record against that of exact teeth at the same times, by quantity.
+    """Errors of a record compared with exact teeth at the same times, by quantity.
 
-    Figures of the last mesh cycle are taken from the time `close` on [s]."""
+    Values of the last mesh cycle are taken after the time `close` [s]."""
     here, there = look(points, close), look(exact, close)
     apart = {name: (points[name] - exact[name])[points["communicates"]] for name in ("speed", "force", "error")}
     even = np.zeros(exact["speed"].shape, bool)
@@ -58,7 +58,7 @@ def errors(points, exact, close, willis):
 
 
 def look(points, close):
-    """Figures of the left side gear after the time `close` [s]: forces [N] and mean deflection [m]."""
+    """Values of the left side gear after the time `close` [s]: forces [N] and mean deflection [m]."""
     own = points["time"] > close
     force, tangential = points["force"][own, 0], points["tangential"][own, 0]
     return {"mean": float(np.mean(force)), "peak": float(force.max()), "ripple": float(np.ptp(force)),
@@ -66,8 +66,9 @@ def look(points, close):
 
 
 def path_ripple(points, exact, close, willis):
-    """Ripple of the left side gear's force by facets alone [N]: the largest distance of the force from its mean over a stretch
-    on the path of contact. The force of exact teeth is constant there."""
+    """Ripple of the left side gear's force caused only by facets [N].
+
+    It is the largest distance of the force from its mean over a part of the path of contact, where the force of exact teeth is constant."""
     worst = 0.0
     for stretch in on_path(exact, 0, willis):
         forces = points["force"][stretch[exact["time"][stretch] > close], 0]
@@ -77,10 +78,10 @@ def path_ripple(points, exact, close, willis):
 
 
 def order(coarse, fine):
-    """Order in 1/facets between two pairs (facets, error)."""
+    """Order in 1/facets from two pairs (facets, error)."""
     return float(np.log(coarse[1] / fine[1]) / np.log(fine[0] / coarse[0]))
 
 
 def fitted(pairs):
-    """Order in 1/facets through all pairs (facets, error): least squares of the logarithms."""
+    """Order in 1/facets fitted to all pairs (facets, error) by least squares of the logarithms."""
     return -float(np.polyfit(*np.log(np.array(pairs)).T, 1)[0])

@@ -11,7 +11,7 @@ from bevel_differential.style import BLUE, FAINT, INK, RED, TEXT
 KINDS = {0.02: (RED, "s", "deepest point"), 1.0: (BLUE, "o", "patch (default)")}
 # numbers of facets: in the figure of one mesh cycle, and marked on the axes
 CYCLE, MARKED = [4, 8, 16, 32], (4, 8, 16, 32, 64, 128)
-# panels: title, label of the y axis, whether in per cent of the mean force; columns, each with line style and name
+# panels: title, label of the y axis, True for per cent of the mean force; columns, each with line style and name
 PANELS = [
     ("Transmission error", "error, µm", False,
      [("te_rms_um", "-", "all (rms)"), ("te_swing_rms_um", ":", "swing, mean taken out (rms)")]),
@@ -23,7 +23,7 @@ PANELS = [
 
 
 def draw(folder):
-    """Draws both figures into `folder`, which holds the CSV files."""
+    """Draws both figures from the CSV files in `folder`."""
     style.apply()
     machine, rows = read(folder / "solids.csv")
     convergence(folder, machine, rows)
@@ -74,7 +74,7 @@ def against_cost(axes, exact, solids):
         own = [row for row in solids if row["smoothing"] == smoothing]
         axes.plot([1.0 / row["real_time"] for row in own], [row["speed_rms_deg_s"] for row in own], color=color, marker=marker,
                   ms=5, label=name)
-        # the patch has its numbers of facets above the line, the deepest point below
+        # labels of the patch are above the line, those of the deepest point below
         above = smoothing == 1.0
         for row in own:
             if row["facets"] in MARKED:

@@ -1,24 +1,24 @@
-"""What the numbers about facets say: tables and sentences for docs/inside/cost.md and docs/study.md."""
+"""Text about facets: tables and sentences for docs/inside/cost.md and docs/study.md."""
 
 from bevel_differential.text import markdown
 from solids_errors import fitted
 from tools import machine, significant
 
-# facets from which an order is fitted: coarser ones are not yet in the range where one term dominates
+# facets from which an order is fitted: with fewer facets, no single term dominates yet
 FINE = 16
 # facet numbers of the short table
 SHORT = (4, 8, 16, 32, 64, 128)
 # columns of the table
 SHOWN = {"speed_rms": "speed, °/s", "speed_path_rms": "on the path", "speed_corner_rms": "at corners", "force_mean": "mean force, N",
          "te_rms": "TE, µm", "te_swing_rms": "its swing, µm"}
-# orders that are told, in words
+# quantities whose orders are stated, with their names
 ORDERED = {"te_rms": "transmission error", "te_swing_rms": "its swing", "force_mean": "mean force",
            "force_path_ripple": "force ripple on the path", "speed_path_rms": "speed on the path",
            "speed_corner_rms": "speed at tip corners", "speed_max": "largest error of speed"}
 
 
 def three(value):
-    """Three significant digits."""
+    """Formats with three significant digits."""
     return significant(value, 3)
 
 
@@ -27,7 +27,7 @@ def percent(part, whole):
 
 
 def page(found):
-    """What is written into docs/inside/cost.md."""
+    """Text for docs/inside/cost.md."""
     parts = [_sentences(found)]
     for title, which in [("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", 1),
                          ("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", 0)]:
@@ -57,7 +57,7 @@ def _errors(found, which):
 
 
 def study(found):
-    """The table of ripples for docs/study.md, with its sentences: what of the force's ripple is of facets."""
+    """Table and sentences for docs/study.md: the part of the force's ripple that facets cause."""
     def cells(row):
         return [f"{row.look['peak'] / row.look['mean']:.4f}", *(f"{percent(value, row.look['mean'])} %"
                                                                 for value in (row.look["ripple"], row.path_ripple))]

@@ -1,11 +1,11 @@
-"""Whether answers of the command `accuracy` can be trusted: random scenes, three quantities each, at 1 and 5 %. The chosen
-setting runs in the packaged FMU, started from the parameter set that the answer writes, and is compared with a reference
-that the search did not use: the richest model by another method (Radau) at a tenth of the tolerance.
+"""Survey of the answers of the command `accuracy`: random scenes with three quantities each, at 1 and 5 %. The chosen setting runs in the
+packaged FMU, started from the parameter set of the answer. It is compared with a reference that is independent of the search: the
+richest model with another method (Radau) at a tenth of the tolerance.
 
 usage: survey.py FMU FOLDER SCENES SEED [--shipped]
 
-Prints the verdict, and writes it to FOLDER/survey.md beside FOLDER/cases.csv; or answers for the shipped scenes, and writes what that
-takes to FOLDER/shipped.md."""
+Prints the verdict, and writes it to FOLDER/survey.md next to FOLDER/cases.csv. With --shipped, answers for the shipped scenes instead, and
+writes the times to FOLDER/shipped.md."""
 
 import csv
 import os
@@ -30,25 +30,27 @@ from survey_scenes import drawn
 from tools import percent, say, significant
 
 WITHIN = (0.01, 0.05)
-# seconds of a long scene that are answered for
+# maximum duration of a scene in seconds
 LONGEST = 60.0
-# the independent reference: a part of the tolerance of the search's own
+# tolerance of the independent reference relative to that of the search's reference
 FINER = 0.1
-# what is recorded beside the outputs, for orders
+# outputs that are also recorded, for orders
 ANGLES = ["planet[1].spin_angle", "carrier.angle"]
-# the part of a run in which the teeth meet, which does not count
+# fraction of a run in which the teeth meet, which is ignored
 START = 0.15
-# the reference of an answer is not certain where its own error is above this part of the accuracy
+# fraction of the accuracy above which the error of an answer's reference makes it uncertain
 THIRD = 1.0 / 3.0
-# letters in a line
+# maximum length of a line
 WIDTH = 118
 
 
 @dataclass(frozen=True)
 class Case:
-    """A question with its answer, and what the FMU showed. `error`: of the chosen setting in the FMU against the independent
-    reference; `promised`: that which the answer gives; `stray`: how far its reference strays; `apart`: difference of both references;
-    `gain`: price of the reference over that of the chosen setting; `spent`: price of the search over that of a reference run."""
+    """A question with its answer and the results of the FMU.
+
+    `error`: of the chosen setting in the FMU compared with the independent reference; `promised`: error stated by the answer; `stray`:
+    uncertainty of its reference; `apart`: difference of both references; `gain`: price of the reference divided by that of the chosen
+    setting; `spent`: price of the search divided by that of a reference run."""
 
     case: str
     want: str
@@ -67,25 +69,25 @@ class Case:
 
     @property
     def is_silent(self):
-        """Whether the reference of the answer was wrong by more than a third of the accuracy, and the answer did not say so."""
+        """True if the reference of the answer was wrong by more than a third of the accuracy, and the answer did not say so."""
         return self.apart > THIRD * self.within and not self.uncertain
 
 
 def error(value, wanted, scale):
-    """As a part of `scale`; what is no more than nothing differs wholly."""
+    """Error as a fraction of `scale`; any change from zero is an error of 100 %."""
     by = abs(value - wanted)
     return float(by if by == 0.0 else np.inf if not np.isfinite(by) else by / scale if scale else 1.0)
 
 
 class Runs:
-    """Runs of the FMU in a drawn scene, and figures of them."""
+    """Runs of the FMU in a drawn scene, with their statistics."""
 
     def __init__(self, fmu, scene):
         self.fmu, self.scene = fmu, scene
         self.outputs = list(dict.fromkeys([*scene.contents()["outputs"], *ANGLES]))
 
     def record(self, values):
-        """What counts of a run with these start values."""
+        """Record of a run with these start values, without its start."""
         with Differential(values, fmu=self.fmu) as differential:
             record = differential.run(outputs=self.outputs, stop=self.scene.stop, step=self.scene.step)
         return record[record["time"] > START * self.scene.stop + 0.5 * self.scene.step]
@@ -96,17 +98,17 @@ class Runs:
 
 
 def cases_of(fmu, folder, seed, index):
-    """All questions about a scene."""
+    """Answers to all questions about a scene."""
     scene = drawn(seed, index)
     runs, independent, found = Runs(fmu, scene), None, []
     for place, want in enumerate(scene.wants):
         for within in WITHIN:
             answer = accuracy(scene, want, within, from_=START * scene.stop)
             if answer.use is None:
-                raise DifferentialError("nothing comes to its end")
+                raise DifferentialError("no run finishes")
             reference = answer.answer["reference"]
             if independent is None:
-                # one run for all quantities of a scene, by the finest of the references
+                # one run for all quantities of a scene, based on the finest of the references
                 tolerance = FINER * reference["set"].get("solver.relative_tolerance", 1e-6)
                 variable = Differential(fmu=fmu).fmu.variable("solver.relative_tolerance")
                 independent = runs.record({**reference["set"], "solver.method": "radau",
@@ -124,7 +126,7 @@ def cases_of(fmu, folder, seed, index):
 
 
 def surveyed(fmu, folder, scenes, seed):
-    """All cases, and scenes that cannot be asked."""
+    """All cases, and scenes without an answer."""
     failed, cases, done = [], [], iter(range(1, scenes + 1))
 
     def work(index):
@@ -144,7 +146,7 @@ def surveyed(fmu, folder, scenes, seed):
 
 
 def verdict(cases, failed):
-    """Counts in sentences, and tables of misses and of references that were not certain."""
+    """Counts in sentences, and tables of misses and of uncertain references."""
     certain = [one for one in cases if not one.uncertain]
     good = sum(one.is_within for one in certain)
     gain, spent = [one.gain for one in cases], [one.spent for one in cases]
@@ -173,7 +175,7 @@ def wrapped(text):
 
 
 def shipped():
-    """How long the answers for the shipped scenes take: all outputs of each, to 1 %; of a long one for its first part."""
+    """Times of the answers for the shipped scenes: all outputs of each to 1 %, for a long scene only of its first part."""
     rows = [["scene", "one reference run, s", "search, reference runs", "answer, s", "setting"]]
     scenes = shipped_scenes()
     for place, scene in enumerate(scenes):
@@ -193,7 +195,7 @@ def shipped():
 
 
 def counted(setting):
-    """A setting with the number of its effects in place of their names."""
+    """A setting with the number of its effects instead of their names."""
     gears, _, rest = setting.partition(" with ")
     effects, _, solver = rest.partition("; ")
     number = 0 if effects == "no effect" else effects.count(",") + 1
@@ -205,10 +207,10 @@ def main():
     if "--shipped" in sys.argv:
         tell(f"{shipped()}\n", folder / "shipped.md")
         return
-    # what an earlier survey left
+    # remove the results of an earlier survey
     shutil.rmtree(folder)
     folder.mkdir()
-    # the richest model has effects that a drawn scene cannot feel
+    # the richest model has effects that do not act in a drawn scene
     warnings.simplefilter("ignore", DifferentialWarning)
     cases, failed = surveyed(fmu, folder, scenes, seed)
     with open(folder / "cases.csv", "w", newline="", encoding="utf-8") as file:

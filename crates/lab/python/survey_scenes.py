@@ -1,15 +1,15 @@
-"""Plausible scenes at random: gears, loads, drives and effects of differentials that could be built."""
+"""Plausible random scenes: gears, loads, drives and effects of differentials that could be built."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-# communication steps of a scene, and cycles of the teeth that it lasts for
+# number of communication steps of a scene, and its duration in tooth cycles
 STEPS, CYCLES = 240.0, 2.6
-# load of a wheel [N·m] per cube of the outer cone distance [m³], around which loads are drawn: that of the study
+# load of a wheel [N·m] per cube of the outer cone distance [m³], around which loads are drawn, from the study
 LOAD = 835.0 / 0.04245**3
-# quantities that are wanted of a scene, three of them
+# possible quantities, of which three are wanted of a scene
 WANTS = ["left.speed:mean", "left.speed:peak_to_peak", "right.speed:rms", "carrier.torque:mean", "left.shaft_torque:max",
          "planet[1].left_normal_force:mean", "planet[1].left_normal_force:max", "planet[1].left_transmission_error:mean",
          "planet[1].left_transmission_error:peak_to_peak", "planet[1].left_transmission_error:mesh_order_1", "efficiency:mean",
@@ -18,7 +18,7 @@ WANTS = ["left.speed:mean", "left.speed:peak_to_peak", "right.speed:rms", "carri
 
 @dataclass(frozen=True)
 class Drawn:
-    """A scene as `ask` takes it, and what is wanted of it."""
+    """A scene for `ask`, with its wanted quantities."""
 
     name: str
     stop: float
@@ -27,7 +27,7 @@ class Drawn:
     wants: list
 
     def contents(self):
-        """As a scene file has it."""
+        """Contents of a scene file."""
         outputs = [want.partition(":")[0] for want in self.wants]
         return {"description": "drawn at random", "stop_time": self.stop, "step": self.step, "outputs": outputs, "set": self.values}
 
@@ -50,13 +50,13 @@ def drawn(seed, index):
     values |= _effects(d, module, load)
     first = int(d.integers(len(WANTS)))
     stop = CYCLES * 360.0 / (planet * spin)
-    # of different kinds
+    # quantities of different kinds
     wants = [WANTS[(first + k) % len(WANTS)] for k in (0, 5, 9)]
     return Drawn(f"random_{seed}_{index}", stop, stop / STEPS, values, wants)
 
 
 def _drive(d, load, spin, carrier, ratio):
-    """A turn with imposed spin, wheels that are driven by speed, or wheels with inertia."""
+    """A turn with imposed spin, wheels driven by speed, or wheels with inertia."""
     kind = int(d.integers(3))
     if kind == 1:
         values = {"scene.carrier_drive": "torque", "carrier.torque_command": 2.0 * load}

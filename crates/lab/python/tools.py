@@ -1,4 +1,4 @@
-"""What scripts of the laboratory share: progress, files of what was measured, numbers as people read them, sections of documents."""
+"""Shared tools of the laboratory's scripts: progress, files of measurements, numbers for readers, sections of documents."""
 
 import csv
 import math
@@ -10,14 +10,14 @@ from pathlib import Path
 from bevel_differential.command import FINDING
 
 WORKSPACE = Path(__file__).resolve().parents[3]
-# below this a number is shown with a power of ten
+# smaller numbers are shown with a power of ten
 SMALL = 1e-3
-# from here on a fraction is shown as a multiple
+# larger fractions are shown as multiples
 MANY = 10.0
 
 
 class Finding(SystemExit):
-    """Ends a script whose check is done and has found something."""
+    """Ends a script whose check completed with a finding."""
 
     def __init__(self, text):
         print(text, file=sys.stderr, flush=True)
@@ -30,7 +30,7 @@ def say(fraction, what):
 
 
 def machine():
-    """Processor, cores and system, in a line."""
+    """Processor, cores and system, in one line."""
     known = Path("/proc/cpuinfo")
     lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
     model = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "processor not named")
@@ -38,19 +38,19 @@ def machine():
 
 
 def write_measured(path, comments, rows):
-    """A CSV file of what was measured on this machine: comments, then rows, the first of them the head."""
+    """Writes a CSV file of measurements on this machine: comments, then rows, the first of which is the header."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         file.writelines(f"# {comment}\n" for comment in [f"machine: {machine()}", *comments])
         csv.writer(file, lineterminator="\n").writerows([cell_of(value) for value in row] for row in rows)
 
 
 def cell_of(value):
-    """A number with seven digits; texts on one line, never empty."""
+    """Formats a number with seven digits, or a text on one line that is never empty."""
     return f"{value:.6e}" if isinstance(value, float) else str(value).replace("\n", " ") or "-"
 
 
 def significant(value, digits):
-    """With so many significant digits; whole numbers keep all of theirs."""
+    """Formats a number with `digits` significant digits; whole numbers keep all of their digits."""
     if not math.isfinite(value):
         return "–"
     if value == 0.0:
@@ -61,7 +61,7 @@ def significant(value, digits):
 
 
 def renew(document, marks, text):
-    """Puts `text` between two lines of a document of the repository."""
+    """Replaces the text between two lines of a document of the repository."""
     file = WORKSPACE / document
     old = file.read_text(encoding="utf-8")
     before, begin, rest = old.partition(marks[0])
@@ -72,7 +72,7 @@ def renew(document, marks, text):
 
 
 def percent(fraction):
-    """A fraction in per cent with two significant digits; large ones as a multiple."""
+    """Formats a fraction in per cent with two significant digits, or a large one as a multiple."""
     if not math.isfinite(fraction):
         return "no number"
     if fraction >= MANY:

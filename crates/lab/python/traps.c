@@ -1,5 +1,5 @@
-/* Instances of the sources in C: as many as there may be, one of which stops by a trap; what they allocate; and processors that
-   calculate otherwise. Compiled with the sources; with ARITHMETIC=1 the runtime is one that fuses, and no instance is to be had. */
+/* Tests of instances of the sources in C: the maximum number of instances, one of which stops with a trap; their allocations; and
+   processors with unusual arithmetic. Compiled with the sources; with ARITHMETIC=1 the runtime fuses, and no instance can be created. */
 
 #include <fenv.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ static fmi2Component made(const char *guid) {
     return fmi2Instantiate("one", fmi2CoSimulation, guid, "", &callbacks, fmi2False, fmi2False);
 }
 
-/* The GUID that the library wants, from its own message. */
+/* The GUID that the library requires, from its own message. */
 static const char *guid(void) {
     static char found[64];
     if (!found[0]) {
@@ -62,7 +62,7 @@ static fmi2Real stepped(fmi2Component c, int steps) {
 
 static u32 allocator_calls(fmi2Component c) { return bd_source_allocator_calls_0(&((bd_unit *)c)->machine); }
 
-/* After the initialisation nothing is allocated; what is would be noticed, as that for more values than any host asks for at once. */
+/* Nothing is allocated after the initialisation. The test would notice it, as it does for more values than any host reads in one call. */
 static void with_allocation(void) {
     enum { MANY = 2000 };
     static fmi2ValueReference references[MANY];
@@ -73,8 +73,8 @@ static void with_allocation(void) {
     for (k = 0; k < MANY; ++k) references[k] = 200;
     stepped(c, 1);
     before = allocator_calls(c);
-    expect(before > 0, "an instance allocates as it begins");
-    expect(fmi2DoStep(c, 1e-3, 1e-3, fmi2True) == fmi2OK && fmi2GetReal(c, references, 100, values) == fmi2OK, "an instance goes on");
+    expect(before > 0, "an instance allocates at its start");
+    expect(fmi2DoStep(c, 1e-3, 1e-3, fmi2True) == fmi2OK && fmi2GetReal(c, references, 100, values) == fmi2OK, "an instance continues");
     expect(allocator_calls(c) == before, "steps allocate nothing");
     expect(fmi2GetReal(c, references, MANY, values) == fmi2OK && allocator_calls(c) > before, "an allocation is noticed");
     fmi2FreeInstance(c);
@@ -86,23 +86,23 @@ static void with_traps(void) {
     fmi2Real before, after = 0.0;
     const fmi2ValueReference reference = 200;
     int k;
-    for (k = 0; k < BD_INSTANCES; ++k) expect((all[k] = made(guid())) != NULL, "there are all instances");
-    expect(!made(guid()) && strstr(last, "BD_INSTANCES"), "one more is refused, and how there are more is told");
+    for (k = 0; k < BD_INSTANCES; ++k) expect((all[k] = made(guid())) != NULL, "all instances are created");
+    expect(!made(guid()) && strstr(last, "BD_INSTANCES"), "one more is refused, and the message names the limit");
     before = stepped(all[0], 3);
     stepped(all[1], 3);
     /* states */
-    expect(fmi2GetFMUstate(all[0], &state) == fmi2OK && state, "a state is kept");
+    expect(fmi2GetFMUstate(all[0], &state) == fmi2OK && state, "a state is saved");
     expect(fmi2SetFMUstate(all[1], state) == fmi2Error, "a state of another instance is refused");
-    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2False) == fmi2OK && fmi2SetFMUstate(all[0], state) == fmi2OK, "a state is gone back to");
-    expect(fmi2GetReal(all[0], &reference, 1, &after) == fmi2OK && after == before, "it is the state of before");
+    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2False) == fmi2OK && fmi2SetFMUstate(all[0], state) == fmi2OK, "a state is restored");
+    expect(fmi2GetReal(all[0], &reference, 1, &after) == fmi2OK && after == before, "it is the saved state");
     expect(fmi2FreeFMUstate(all[0], &state) == fmi2OK && !state, "a state is freed");
-    /* a stack that is at its end: the next call leads out of memory */
+    /* a stack at its end: the next call accesses an address outside memory */
     ((bd_unit *)all[1])->machine.g0 = 64;
-    expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal && strstr(last, "access outside"), "a trap is fatal, and told");
+    expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal && strstr(last, "access outside"), "a trap is fatal and reported");
     expect(fmi2DoStep(all[1], 3e-3, 1e-3, fmi2True) == fmi2Fatal, "the instance is lost");
-    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2True) == fmi2OK, "another lives on");
+    expect(fmi2DoStep(all[0], 3e-3, 1e-3, fmi2True) == fmi2OK, "another instance still works");
     fmi2FreeInstance(all[1]);
-    expect((all[1] = made(guid())) != NULL && stepped(all[1], 3) == before, "its place is as good as new");
+    expect((all[1] = made(guid())) != NULL && stepped(all[1], 3) == before, "its memory works for a new instance");
     for (k = 0; k < BD_INSTANCES; ++k) fmi2FreeInstance(all[k]);
 }
 

@@ -1,4 +1,4 @@
-"""The wheel on a machine without Rust: a fresh environment, no variables of the project, the examples of the documents.
+"""Tests the wheel without Rust: a fresh environment, no variables of the project, the examples of the documents.
 
 usage: wheel.py WHEEL FOLDER"""
 
@@ -14,12 +14,12 @@ from tools import WORKSPACE, say
 EXTRAS, PAGES = "[sweep,design,plot,report,cad]", ["README.md", "docs/python.md"]
 # programs of Rust, which the environment must not find
 RUST = ["cargo", "rustc", "rustup"]
-# beginnings of the variables that stay, in capitals: what a download needs, and what every program on Windows needs
+# prefixes of variables that are kept, in capitals: those for downloads, and those for every program on Windows
 KEPT = ("PIP_", "HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "SSL_CERT_", "REQUESTS_CA_BUNDLE", "SYSTEMROOT", "TEMP", "TMP")
 
 
 class User:
-    """Somebody who has Python and the wheel, and nothing of this project."""
+    """A user who has only Python and the wheel."""
 
     def __init__(self, folder):
         self.environment, self.home = folder / "venv", folder / "home"
@@ -28,7 +28,7 @@ class User:
         finished([sys.executable, "-m", "venv", "--clear", self.environment], "the Python environment cannot be created")
 
     def run(self, *words, problem, **more):
-        """Runs the environment's Python, which sees no settings and files of anybody else."""
+        """Runs the environment's Python, isolated from settings and files of other users."""
         windows = sys.platform == "win32"
         program = self.environment / ("Scripts/python.exe" if windows else "bin/python")
         variables = {name: value for name, value in os.environ.items() if name.upper().startswith(KEPT)}
@@ -37,13 +37,13 @@ class User:
 
 
 def path_without_rust():
-    """The search path but for the folders with Rust's programs."""
+    """The search path without the folders that contain Rust's programs."""
     folders = os.environ.get("PATH", "").split(os.pathsep)
     return os.pathsep.join(folder for folder in folders if not any(shutil.which(name, path=folder) for name in RUST))
 
 
 def finished(command, problem, **options):
-    """What a program prints; ends with the problem and its messages if it fails."""
+    """Output of a program. If it fails, the error consists of `problem` and its messages."""
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8", **options)
     if done.returncode:
         raise SystemExit(f"{problem}:\n{done.stdout}{done.stderr.rstrip()}")

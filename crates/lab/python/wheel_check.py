@@ -1,9 +1,9 @@
-"""Checks the installed wheel as a user without Rust has it.
+"""Checks the installed wheel from the view of a user without Rust.
 
 usage: wheel_check.py PAGE...
 
-Run it with the Python that the wheel is installed in, from an empty folder that it may write to. PAGE is a Markdown file: its
-Python examples that import the package are run as they stand. Prints a line for each check and stops at the first that fails.
+Run it with the Python of the environment in which the wheel is installed, from an empty folder that it may write to. PAGE is a Markdown
+file: its Python examples that import the package are run unchanged. Prints a line for each check and stops at the first failure.
 """
 
 import re
@@ -77,14 +77,14 @@ def sweep():
     # a Latin hypercube has one point in each twentieth of the range
     places = np.sort(np.floor((table["left.load_torque"] - 700.0) / 10.0))
     assert (places == np.arange(20)).all(), table["left.load_torque"]
-    # the drives impose the speeds, whatever the load
+    # the drives impose the speeds for any load
     speed = np.degrees(table["left.speed:mean"])
     assert np.abs(speed / (CARRIER + TEETH_RATIO * SPIN) - 1.0).max() < 2e-3, speed
     assert table["efficiency:final"].between(0.0, 1.0 + 1e-9).all(), table["efficiency:final"]
     return f"bevel-differential sweep: {len(table)} runs"
 
 
-# each with what it prints and the files that it leaves
+# each command with a part of its output and the files that it writes
 COMMANDS = [
     (["plan", "torque_bias", "--ssv", "bias.ssv", "--python", "bias.py"], "cost class", ["bias.ssv", "bias.py"]),
     (["accuracy", "torque_bias", "--within", "1%", "--csv", "runs.csv", "--plot", "front.png", "--write", "reduced.toml"],
@@ -112,7 +112,7 @@ def commands():
 
 
 def called(*command):
-    """What a program prints; its messages are the error if it fails."""
+    """Output of a program. Its messages are the error if it fails."""
     done = subprocess.run([str(word) for word in command], check=False, capture_output=True, text=True, encoding="utf-8",
                           stdin=subprocess.DEVNULL)
     assert done.returncode == 0, f"{command}:\n{done.stdout}{done.stderr}"

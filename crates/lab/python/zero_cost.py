@@ -1,7 +1,7 @@
-"""Proof that effects that are off cost nothing: the full build gives the same bits as a build without any, and does no more
-work. Work is arithmetic, branches and calls; moves around them are the compiler's, and are held to a per cent.
+"""Proof that inactive effects cost nothing: the full build gives the same bits as a build without effects, and does no more work. Work is
+arithmetic, branches and calls. Moves around them depend on the compiler, and may differ by 1 %.
 
-usage: zero_cost.py FOLDER [EFFECT...]    with what each of these effects costs when it is on"""
+usage: zero_cost.py FOLDER [EFFECT...]    also measures the cost of each of these effects when it is on"""
 
 import sys
 from pathlib import Path
@@ -12,18 +12,18 @@ from tools import Finding, say
 
 SCENES = ("straight", "turn")
 WORK = (FLOAT, BRANCH)
-# how far builds of the same work may differ in all instructions, as the compiler keeps other values in registers
+# relative tolerance of all instructions between builds of the same work, because the compiler keeps different values in registers
 ARRANGEMENT = 0.01
 
 
 def measured(program):
-    """By scene the bits of a run, and its instructions per communication step by kind."""
+    """Bits of a run, and its instructions per communication step by kind, for each scene."""
     return {scene: (completed([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, scene))
             for scene in SCENES}
 
 
 def check(scene, off, left_out):
-    """Whether effects that are off cost no more than those that are left out."""
+    """Fails if inactive effects cost more than effects that are left out of the build."""
     (bits, here), (others, there) = off, left_out
     place = f"effects that are off, {scene}"
     if bits != others:

@@ -1,4 +1,4 @@
-//! All commands of the laboratory in one go, each in a process of its own, and one table of how they went.
+//! Runs all commands of the laboratory, each in a separate process, and prints one table of the results.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use fmu_build::tools::paths;
 use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
-/// What the commands look at and a fresh clone does not have, made by the program that builds. Tool chains come first.
+/// Inputs of the commands that a fresh clone lacks, built by `fmu-build`. Tool chains come first.
 const MADE: [&str; 3] = ["toolchains", "page", "wheel"];
 
-/// The commands with their options for a run of all, checks that need no idle machine last.
+/// Commands with their options for a complete run. Checks that do not need an idle machine come last.
 const COMMANDS: [&[&str]; 24] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
@@ -45,7 +45,7 @@ const COMMANDS: [&[&str]; 24] = [
     &["words"],
 ];
 
-/// Runs every command here in its short form and prints one table of how they went (about an hour)
+/// Runs every command of this program in its short form and prints one table of the results (about an hour)
 #[derive(Args, Clone, Debug)]
 pub struct AllCommand {
     /// Only these commands
@@ -54,11 +54,13 @@ pub struct AllCommand {
 }
 
 impl AllCommand {
-    /// Runs it.
+    /// Runs the command.
     pub fn run(&self) -> Result<()> {
         if let Some(unknown) = self.only.iter().find(|name| COMMANDS.iter().all(|words| words[0] != name.as_str())) {
             let names = COMMANDS.map(|words| words[0]).join(", ");
-            return Err(question_error(format!("{unknown} is no command that is run here; there are {names}")));
+            return Err(question_error(format!(
+                "{unknown} is not a command that is run here; the commands are {names}"
+            )));
         }
         let folder = paths::target().join("all");
         fs::create_dir_all(&folder)?;
@@ -85,7 +87,7 @@ impl AllCommand {
     }
 }
 
-/// Runs `program` with `words`; its print goes to a file. Returns its row of the table, and whether it held.
+/// Runs `program` with `words` and writes its output to a file. Returns its row of the table, and true if it succeeded.
 fn outcome(program: &Path, words: &[&str], folder: &Path) -> Result<([String; 4], bool)> {
     let name = words.iter().find(|word| **word != "run" && !word.starts_with('-')).copied().unwrap_or("command");
     let file: PathBuf = folder.join(format!("{name}.txt"));
@@ -106,7 +108,7 @@ fn outcome(program: &Path, words: &[&str], folder: &Path) -> Result<([String; 4]
     Ok(([words.join(" "), seconds, word.to_owned(), said.chars().take(LONGEST).collect()], status.success()))
 }
 
-/// Letters of a last line that the table shows.
+/// Maximum length of a last line in the table, in characters.
 const LONGEST: usize = 90;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The command line of the laboratory.
+//! Command line of the laboratory.
 
 use std::ffi::OsString;
 
@@ -11,7 +11,7 @@ use crate::all::AllCommand;
 use crate::tools::command::Command;
 use crate::{check, measure};
 
-/// A command, and the options that were given.
+/// A command with the given options.
 pub struct Called(Command, ArgMatches);
 
 impl Called {
@@ -21,7 +21,7 @@ impl Called {
     }
 }
 
-/// The command that `arguments`, the program's name first, ask for: the overview if they name none.
+/// Parses `arguments`, which start with the program's name. Without a command, the overview is shown.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Called, Stop> {
     let program = program();
     let mut matches = program.parse(arguments)?;
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_repeated_option_counts_last() {
+    fn the_last_of_repeated_options_applies() {
         assert!(parsed(&["survey", "--write", "--write", "--seed", "1", "--seed", "2"]).is_ok());
     }
 }

@@ -1,9 +1,9 @@
-//! The laboratory: what measures the library and what checks it. Users need none of it, and no command of theirs compiles it.
+//! The laboratory: measurements and checks of the library. Users do not need it, and their commands do not compile it.
 //!
-//! - [`measure`]: what accuracy, solids and couplings cost, also in other programs
-//! - [`check`]: what must hold before a change lands
-//! - [`all`]: every command of both in one go
-//! - [`tools`]: what both share, beside the tools of `fmu_build`
+//! - [`measure`]: cost of accuracy, solids and couplings, also in other programs
+//! - [`check`]: requirements for a change
+//! - [`all`]: runs every command of both
+//! - [`tools`]: shared tools in addition to those of `fmu_build`
 
 #![warn(missing_docs)]
 

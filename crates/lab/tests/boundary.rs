@@ -1,4 +1,5 @@
-//! The C functions called from outside: at random, and by hosts written in C. Long runs are the commands `fuzz` and `memcheck`.
+//! Calls of the C functions from outside: at random, and by hosts written in C. The commands `fuzz` and `memcheck` make
+//! longer runs.
 
 use std::ffi::OsString;
 use std::process::Command;
@@ -7,11 +8,11 @@ use fmu_build::fmu::libraries::own;
 use lab::check::fuzz::{self, Tally, VERSIONS};
 use lab::check::memcheck;
 
-/// Calls of the short run of each version of FMI.
+/// Number of calls of the short run of each version of FMI.
 const CALLS: usize = 4000;
-/// Least part of the calls that must be carried out: a run of refusals shows little.
+/// Minimum fraction of calls that must be carried out, because a run with many refusals shows little.
 const DONE: f64 = 0.4;
-/// Least steps of either kind in a thousand calls.
+/// Minimum number of steps of either kind in a thousand calls.
 const STEPS: u64 = 5;
 
 #[test]
@@ -56,7 +57,7 @@ fn the_same_seed_makes_the_same_calls() {
 }
 
 #[test]
-fn a_tally_says_what_was_called() {
+fn a_tally_counts_the_called_functions() {
     let mut tally = Tally::default();
     fuzz::run(VERSIONS[1], 3, 100, &mut tally).unwrap();
     let tally_json = tally.json();
@@ -96,17 +97,17 @@ fn host(name: &str, further: &[OsString]) -> String {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_host_in_c_leads_instances_of_both_kinds_through_their_lives() {
+fn a_host_in_c_uses_instances_of_both_kinds_from_creation_to_end() {
     assert!(host("life", &[]).ends_with("messages\n"));
 }
 
 #[test]
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
-fn what_belongs_to_the_host_stays_as_it_was() {
+fn the_hosts_floating_point_settings_are_preserved() {
     let said = host("surroundings", &[memcheck::reference("inertia.left_end").unwrap()]);
-    // numbers too small to be normal play no part
+    // denormal numbers have no influence
     assert!(said.contains("flush_to_zero 0\n"), "{said}");
-    // other ways to round move the speed by less than the solver's tolerance
+    // other rounding modes change the speed by less than the solver's tolerance
     for mode in ["upward", "downward", "toward_zero"] {
         let moved = said.lines().find_map(|line| line.strip_prefix(mode)).unwrap();
         assert!(moved.trim().parse::<f64>().unwrap() < 1e-6, "{said}");

@@ -1,4 +1,4 @@
-//! The command `test-page` says what is missing where it cannot test the page.
+//! The command `test-page` reports what is missing if it cannot test the page.
 
 use std::fs;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::process::Command;
 use anyhow::Result;
 use fmu_build::tools::paths;
 
-/// A folder of this test's own, empty.
+/// Empty folder for one test.
 fn folder(name: &str) -> Result<PathBuf> {
     let folder = paths::target().join("test-page").join(name);
     if folder.exists() {
@@ -17,7 +17,7 @@ fn folder(name: &str) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// What the command says about `page` where `path` is all of the search path, and that it fails.
+/// Output of the failing command about `page` if `path` is the whole search path.
 fn error(page: &str, path: &str, chrome: &str) -> Result<String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lab"));
     let output = command.args(["test-page", page]).env("PATH", path).env("CHROME", chrome).output()?;
@@ -26,7 +26,7 @@ fn error(page: &str, path: &str, chrome: &str) -> Result<String> {
 }
 
 #[test]
-fn a_page_that_is_not_made_is_said_with_the_command_that_makes_it() -> Result<()> {
+fn a_missing_page_is_reported_with_the_command_that_builds_it() -> Result<()> {
     let said = error("target/no_such_page.html", "", "")?;
     assert_eq!(said, "error: target/no_such_page.html is not there; make it: cargo run --release -- page\n");
     Ok(())
@@ -34,7 +34,7 @@ fn a_page_that_is_not_made_is_said_with_the_command_that_makes_it() -> Result<()
 
 #[cfg(unix)]
 #[test]
-fn a_missing_node_or_browser_is_said_with_what_to_install() -> Result<()> {
+fn a_missing_node_or_browser_is_reported_with_what_to_install() -> Result<()> {
     use std::os::unix::fs::PermissionsExt;
 
     let folder = folder("programs")?;
@@ -44,7 +44,7 @@ fn a_missing_node_or_browser_is_said_with_what_to_install() -> Result<()> {
     let without_node = error(&page, &path, "")?;
     assert_eq!(without_node, "error: node is not installed: apt install nodejs (or see nodejs.org)\n");
 
-    // a program that is called node and runs
+    // a runnable program named node
     let node = folder.join("path").join("node");
     fs::write(&node, "#!/bin/sh\n")?;
     fs::set_permissions(&node, fs::Permissions::from_mode(0o755))?;

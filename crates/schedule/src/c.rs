@@ -1,23 +1,26 @@
-//! The schedule as one function of C, which Python and pages call.
+//! C function of the schedule, for Python and the page.
 
 use std::{iter, slice};
 
 use crate::{MOST, Schedule, Step, Table};
 
-/// Writes the schedule of a run: a row of numbers for its start and for each of its steps, up to `room` numbers in all.
+/// Writes the schedule of a run: one row for its start and one for each of its steps, up to `room` numbers in total.
 ///
-/// A row has the beginning and size of the step as they are passed to `fmi2DoStep`, its end (s), the number of changes that are made
-/// before it, counted from the first one, the value of each table just after its beginning, and the slope of each table per second.
-/// The row of the start has zeros and the values at the start.
+/// A row contains the start and size of the step for `fmi2DoStep`, its end (s), the total number of changes made before
+/// it, the value of each table just after the start, and the slope of each table per second. The row of the start
+/// contains zeros and the values at the start.
 ///
-/// The `count` numbers of `question` are: end of the run, step or 0 for none (s), number of changes, their times, rising; then of each table:
-/// number of points, period or 0 for none, 1 if values are held and 0 if they are straight between points, times, values.
+/// The `count` numbers of `question` are the end of the run, the step or 0 for none (s), the number of changes, and
+/// their ascending times. For each table follow the number of points, the period or 0 for none, 1 for held or 0 for
+/// interpolated values, the times and the values.
 ///
-/// Returns the number of rows, of which those without room are not written; 0 if the question cannot be read; -1 if the run has
-/// more than 1e8 steps; -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without a step.
+/// Returns the number of rows; rows without room are not written. Returns 0 if the question cannot be read, -1 if the
+/// run has more than 1e8 steps, and -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without
+/// a step.
 ///
 /// # Safety
-/// `question` points to `count` numbers and `rows` to room for `room` numbers. Neither is null, whatever these are.
+/// `question` points to `count` numbers and `rows` to room for `room` numbers. Neither may be null, even if its size is
+/// 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bd_schedule(question: *const f64, count: usize, rows: *mut f64, room: usize) -> isize {
     // SAFETY: the caller's promise
@@ -44,7 +47,7 @@ pub unsafe extern "C" fn bd_schedule(question: *const f64, count: usize, rows: *
     count
 }
 
-/// Schedule and tables that a question describes.
+/// Parses a question into its schedule and tables.
 fn read(question: &[f64]) -> Option<(Schedule, Vec<Table>)> {
     let (&[stop, step, changes], rest) = question.split_first_chunk()?;
     let (changes, mut rest) = rest.split_at_checked(changes as usize)?;
@@ -65,7 +68,7 @@ mod tests {
     use super::*;
 
     fn asked(question: &[f64]) -> Result<Vec<f64>, isize> {
-        // SAFETY: both are as long as they are said to be
+        // SAFETY: the lengths match both slices
         let count = unsafe { bd_schedule(question.as_ptr(), question.len(), [].as_mut_ptr(), 0) };
         let mut rows = vec![f64::NAN; 6 * usize::try_from(count).ok().filter(|&count| count > 0).ok_or(count)?];
         assert_eq!(unsafe { bd_schedule(question.as_ptr(), question.len(), rows.as_mut_ptr(), rows.len()) }, count);
@@ -73,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_those_of_the_steps() {
+    fn rows_contain_the_steps() {
         // a ramp of 8 per second that falls back at 0.75 s, and a change at 0.25 s
         let ramp = [1.0, 0.25, 3.0, 0.0, 0.0, 0.0, 0.75, 0.75, 0.0, 6.0, 1.0];
         let rows = asked(&[&[1.0, 0.5, 1.0], &ramp[1..2], &ramp[2..]].concat()).expect("rows");
@@ -91,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_question_without_sense_is_refused() {
+    fn a_senseless_question_is_refused() {
         let square = [3.0, 1e-9, 0.0, 0.0, 5e-10, 5e-10, 1.0, 1.0, 0.0];
         for (question, why) in [
             (vec![1.0, 0.1], 0),

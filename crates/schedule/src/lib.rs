@@ -1,5 +1,5 @@
-//! The schedule of a run: its communication steps, and the values and slopes of its inputs in each. All players of a scene execute
-//! it: the library of answers, the Python package and the page.
+//! Schedule of a run: its communication steps, and the values and slopes of its inputs in each step. All players of a
+//! scene execute it: the library of answers, the Python package and the page.
 
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
@@ -14,22 +14,22 @@ pub use c::bd_schedule;
 use table::Stops;
 pub use table::Table;
 
-/// Times that differ by less than this part of a step are the same.
+/// Times that differ by less than this fraction of a step are equal.
 const SAME: f64 = 1e-9;
-/// In a run without regular steps, times that differ by less than this part of the run are the same. Its inputs may change within a
-/// small part of it.
+/// In a run without regular steps, times that differ by less than this fraction of the run are equal. Inputs may change
+/// within a small fraction of the run.
 const FINEST: f64 = 1e-12;
-/// Maximum number of steps, and of stops of a table. More of them are a mistake.
+/// Maximum number of steps, and of stops of a table. Larger numbers are mistakes.
 pub const MOST: f64 = 1e8;
 
-/// The steps of a run: to multiples of a step, to changes and jumps of inputs, and to the end.
+/// Steps of a run: to multiples of a step, to changes and jumps of inputs, and to the end.
 #[derive(Clone)]
 pub struct Schedule {
     stop: f64,
     step: Option<f64>,
     slack: f64,
     time: f64,
-    /// Regular steps done.
+    /// Number of completed regular steps.
     done: u64,
     /// Changes, then the stops of each table.
     stops: Vec<Stops>,
@@ -41,14 +41,14 @@ pub struct Step {
     begin: f64,
     /// End [s].
     pub end: f64,
-    /// Indices of the changes that are made before the step.
+    /// Indices of the changes made before the step.
     pub changes: Range<usize>,
     slack: f64,
 }
 
 impl Schedule {
-    /// Schedule of a run to `stop` [s] in steps of `step` [s], whose inputs change at `changes` [s], which rise, and follow `tables`.
-    /// Without a step there are steps only to changes and to points of tables.
+    /// Creates the schedule of a run to `stop` [s] in steps of `step` [s]. Inputs change at `changes` [s], in ascending
+    /// order, and follow `tables`. Without `step`, steps end only at changes and at points of tables.
     pub fn new<'a>(stop: f64, step: Option<f64>, changes: Vec<f64>, tables: impl Iterator<Item = &'a Table>) -> Self {
         let slack = step.map_or(FINEST * stop, |step| SAME * step.min(stop));
         let of_tables = tables.map(|table| table.stops(step.is_none()));
@@ -56,12 +56,12 @@ impl Schedule {
         Self { stop, step, slack, time: 0.0, done: 0, stops }
     }
 
-    /// Returns true if there is no further step.
+    /// Returns true after the last step.
     pub fn is_over(&self) -> bool {
         self.time >= self.stop
     }
 
-    /// Returns the index of the first table with too many stops: a mistake in its period.
+    /// Returns the index of the first table with too many stops, which is a mistake in its period.
     pub fn countless(&self) -> Option<usize> {
         let count = |stops: &Stops| stops.times.len() as f64 * stops.period.map_or(1.0, |period| self.stop / period);
         self.stops[1..].iter().position(|stops| count(stops) > MOST)
@@ -78,7 +78,7 @@ impl Iterator for Schedule {
         let (begin, slack) = (self.time, self.slack);
         let regular = self.step.map_or(self.stop, |step| (self.done + 1) as f64 * step);
         let regular = if regular < self.stop - slack { regular } else { self.stop };
-        // what has been fed is over
+        // changes made so far are complete
         let made = self.stops[0].passed;
         self.stops.iter_mut().for_each(|stops| stops.pass(begin + slack));
         let stop = self.stops.iter().filter_map(Stops::upcoming).min_by(f64::total_cmp);
@@ -90,16 +90,16 @@ impl Iterator for Schedule {
 }
 
 impl Step {
-    /// Beginning and size [s] as hosts pass them: their sum is the end without any rounding.
+    /// Start and size [s] for hosts: their sum is the end, without rounding.
     pub fn call(&self) -> [f64; 2] {
         let size = self.end - self.begin;
         [self.end - size, size]
     }
 
-    /// Value of `table` just after the beginning, and its slope from there to just before the end, per second.
+    /// Value of `table` just after the start, and its slope from there to just before the end, per second.
     pub fn follow(&self, table: &Table) -> [f64; 2] {
         let (begin, end) = (self.begin + self.slack, self.end - self.slack);
-        // between two times that are hardly different there is nothing but rounding
+        // between two almost equal times, the slope would be only a rounding error
         let slope = if end - begin > self.slack { table.slope(begin, end) } else { 0.0 };
         [table.at(begin), slope]
     }
@@ -136,8 +136,8 @@ mod tests {
     }
 
     #[test]
-    fn times_that_are_the_same_are_one_point() {
-        // 3 · 0.1 is more than 0.3 by rounding, and the last change is hardly before the end
+    fn equal_times_are_one_point() {
+        // by rounding, 3 · 0.1 is more than 0.3, and the last change is slightly before the end
         let close = Table::straight(vec![0.3, 0.3, 0.3 + 1e-13, 0.3 + 1e-13], vec![0.0, 1.0, 1.0, 2.0], None);
         let found = ends(schedule(0.7, Some(0.1), &[0.25, 0.25, 0.7 - 1e-14], &[&close]));
         assert_eq!(found, [1e5, 2e5, 2.5e5, 3e5, 4e5, 5e5, 6e5, 7e5]);
@@ -161,13 +161,13 @@ mod tests {
     }
 
     #[test]
-    fn a_run_without_duration_has_no_step_and_one_shorter_than_its_step_has_one() {
+    fn a_run_of_zero_duration_has_no_step_and_a_run_shorter_than_its_step_has_one() {
         assert_eq!(ends(schedule(0.0, Some(0.1), &[0.0], &[])), []);
         assert_eq!(ends(schedule(1e-6, Some(1e6), &[], &[])), [1.0]);
     }
 
     #[test]
-    fn the_slope_of_a_step_that_a_jump_leaves_hardly_any_time_is_no_rounding_error() {
+    fn the_slope_of_a_step_that_a_jump_shortens_almost_to_zero_is_not_a_rounding_error() {
         for off in [1.5e-9, 2e-9, 2.0000001e-9, 2.5e-9, 1e-8] {
             for at in (1..10).map(|k| 0.1 * (f64::from(k) - off)) {
                 let jump = Table::straight(vec![at, at, at + 1.0], vec![0.0, 1.0, 2.0], None);

@@ -1,20 +1,20 @@
-//! Values over time: straight from point to point or held, with jumps, once or again and again.
+//! Values over time: interpolated linearly or held, with jumps, once or repeated.
 
 /// A value over time. It is constant before the first point and after the last one, or repeats.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// Times [s], rising; two equal ones are a jump.
+    /// Times [s] in ascending order; two equal ones are a jump.
     pub times: Vec<f64>,
-    /// Values there.
+    /// Values at these times.
     pub values: Vec<f64>,
     /// Time after which the table repeats [s]; none = the last value stays.
     pub period: Option<f64>,
-    /// True if a value is held up to the next point, false if the table is straight between points.
+    /// True if a value is held up to the next point, false if the table is linear between points.
     pub is_held: bool,
 }
 
 impl Table {
-    /// Table that is straight between `times` [s], which do not fall, with as many `values`.
+    /// Creates a table that is linear between `times` [s], which must not decrease, with a value for each time.
     pub fn straight(times: Vec<f64>, values: Vec<f64>, period: Option<f64>) -> Self {
         Self { times, values, period, is_held: false }
     }
@@ -25,12 +25,13 @@ impl Table {
         self.between(time, self.times.partition_point(|&t| t <= time))
     }
 
-    /// Slope from just after `begin` to just before `end` [s], per second; no jump is between them.
+    /// Slope from just after `begin` to just before `end` [s], per second. There must be no jump between them.
     pub(crate) fn slope(&self, begin: f64, end: f64) -> f64 {
         (self.before(end) - self.at(begin)) / (end - begin)
     }
 
-    /// Jumps: two points of one time, and the end of a period whose next one begins with another value; or all `points`.
+    /// Jumps of the table, or all its points if `points` is true. Jumps are two points at one time, and the end of a
+    /// period whose last value differs from its first one.
     pub(crate) fn stops(&self, points: bool) -> Stops {
         let is_stop = |(i, time): &(usize, &f64)| points || self.times.get(i + 1) == Some(time);
         let inside = self.times.iter().enumerate().filter(is_stop).map(|(_, &time)| time);
@@ -52,7 +53,7 @@ impl Table {
         self.period.map_or(time, |period| time.rem_euclid(period))
     }
 
-    /// Value at `time` [s], with `after` as the index of the first point after it.
+    /// Value at `time` [s]; `after` is the index of the first point after it.
     fn between(&self, time: f64, after: usize) -> f64 {
         match (after.checked_sub(1), self.times.get(after)) {
             (None, _) => self.values[0],
@@ -67,25 +68,25 @@ impl Table {
     }
 }
 
-/// Times at which steps end in addition to regular ones.
+/// Times at which steps end in addition to regular steps.
 #[derive(Clone)]
 pub(crate) struct Stops {
-    /// Times [s], in the first period if they repeat, which do not fall.
+    /// Times [s] in ascending order, within the first period if they repeat.
     pub(crate) times: Vec<f64>,
     pub(crate) period: Option<f64>,
-    /// Number of those that are over.
+    /// Number of passed times.
     pub(crate) passed: usize,
 }
 
 impl Stops {
-    /// The next one [s].
+    /// The next time [s].
     pub(crate) fn upcoming(&self) -> Option<f64> {
         let Some(period) = self.period else { return self.times.get(self.passed).copied() };
         let count = self.times.len();
         (count > 0).then(|| (self.passed / count) as f64 * period + self.times[self.passed % count])
     }
 
-    /// Passes those up to `time` [s].
+    /// Passes all times up to `time` [s].
     pub(crate) fn pass(&mut self, time: f64) {
         while self.upcoming().is_some_and(|next| next <= time) {
             self.passed += 1;
@@ -118,7 +119,7 @@ mod tests {
         // the last point is after the end of the period, and so is the second jump
         let cut = table(&[0.0, 1.0, 1.0, 4.0, 4.0], &[0.0, 1.0, 0.0, 0.0, 9.0], Some(2.0));
         assert_eq!(first(&cut, 3), [1.0, 3.0, 5.0]);
-        // a period that begins as it ends
+        // a period with equal first and last values
         let smooth = table(&[0.0, 0.1, 0.3], &[0.1, 0.7, 0.1], Some(0.3));
         assert!(first(&smooth, 1).is_empty());
         let once = table(&[0.0, 1.0, 1.0, 3.0], &[1.0, 1.0, 0.0, 0.0], None);
@@ -126,17 +127,17 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_those_between_both_ends_of_a_step() {
+    fn slopes_connect_both_ends_of_a_step() {
         let given = table(&[0.0, 1.0, 3.0, 3.0, 4.0], &[0.0, 10.0, 10.0, 50.0, 20.0], Some(5.0));
         for (begin, end, slope) in [
             (0.0, 0.5, 10.0),
             // a kink
             (0.5, 1.5, 5.0),
             (1.0, 2.9, 0.0),
-            // up to a jump, and after it in the next round
+            // up to a jump, and after it in the next period
             (1.0, 3.0, 0.0),
             (8.0, 9.0, -30.0),
-            // after the last point, up to the end of the round
+            // after the last point, up to the end of the period
             (4.0, 5.0, 0.0),
             (8.5, 10.0, -10.0),
         ] {

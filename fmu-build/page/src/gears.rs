@@ -1,4 +1,4 @@
-//! Surfaces of the gears for given parameters.
+//! Surfaces of gears with given parameters.
 
 use bevel_differential::geometry::involute::Gear;
 use bevel_differential::geometry::solid::manifold::{GearSolid, Shape};
@@ -6,11 +6,11 @@ use bevel_differential::geometry::{Pair, checks};
 use bevel_differential::model::Parameters;
 use bevel_differential::variables::{Access, table};
 
-/// Facets per flank and strips along a tooth: smooth at the size of a window.
+/// Facets per flank and strips along a tooth, enough for a smooth picture in a browser window.
 const FACETS: usize = 10;
 const STRIPS: usize = 2;
 
-/// A parameter by its value reference. Whole numbers, Booleans and literals are numbers, too.
+/// A parameter, identified by its value reference. Whole numbers, Booleans and literals are converted to numbers.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Assignment {
@@ -18,7 +18,7 @@ pub struct Assignment {
     value: f64,
 }
 
-/// A surface of triangles, and the cones that it lies between.
+/// A triangulated surface with its cones.
 pub struct Surface {
     vertices: Vec<f32>,
     triangles: Vec<u32>,
@@ -26,15 +26,16 @@ pub struct Surface {
     cones: [f64; 7],
 }
 
-/// The surface of gear `gear` (0 planet, 1 side gear) with start values but for the `count` assignments; null where these gears
-/// cannot be built. Tooth 0 is centred on azimuth 0, the apex is the origin, z leads to the heel; lengths in mm.
+/// Returns the surface of gear `gear` (0 planet, 1 side gear) with start values, except for the `count` assignments.
+/// Returns null if these gears cannot be built. Tooth 0 is centred on azimuth 0, the apex is the origin, and z points
+/// to the heel; lengths are in mm.
 ///
 /// # Safety
-/// `assignments` points to `count` of them.
+/// `assignments` points to `count` assignments.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn page_gear(assignments: *const Assignment, count: usize, gear: usize) -> *mut Surface {
     let mut parameters = Parameters::default();
-    // SAFETY: the caller's promise
+    // SAFETY: guaranteed by the caller
     for assignment in unsafe { std::slice::from_raw_parts(assignments, count) } {
         assign(&mut parameters, *assignment);
     }
@@ -65,14 +66,14 @@ fn surface(parameters: &Parameters, gear: usize) -> Option<Surface> {
     Some(Surface { vertices, triangles: solid.triangles.concat(), cones: [pitch, tip, root, base, outer, mean, inner] })
 }
 
-/// Place of the numbers of a surface: kind 0, coordinates of vertices (f32); kind 1, triangles (u32); kind 2, cones (f64).
-/// `count` takes how many.
+/// Returns a pointer to the numbers of a surface: kind 0, coordinates of vertices (f32); kind 1, triangles (u32); kind
+/// 2, cones (f64). The number of values is written to `count`.
 ///
 /// # Safety
-/// `surface` is from [`page_gear`] and not null; `count` is a place for a number.
+/// `surface` is from [`page_gear`] and not null; `count` points to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn page_gear_numbers(surface: *const Surface, kind: u32, count: *mut usize) -> *const u8 {
-    // SAFETY: the caller's promise
+    // SAFETY: guaranteed by the caller
     let (surface, count) = unsafe { (&*surface, &mut *count) };
     match kind {
         0 => {
@@ -90,14 +91,14 @@ pub unsafe extern "C" fn page_gear_numbers(surface: *const Surface, kind: u32, c
     }
 }
 
-/// Gives a surface back.
+/// Frees a surface.
 ///
 /// # Safety
-/// `surface` is from [`page_gear`] and is not used any more.
+/// `surface` is from [`page_gear`] and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn page_gear_free(surface: *mut Surface) {
     if !surface.is_null() {
-        // SAFETY: the caller's promise
+        // SAFETY: guaranteed by the caller
         drop(unsafe { Box::from_raw(surface) });
     }
 }

@@ -1,4 +1,4 @@
-//! Instances that keep what they say, for the page to read.
+//! Instances that store their messages for the page.
 
 use std::ffi::CStr;
 use std::sync::Mutex;
@@ -8,10 +8,10 @@ use bevel_differential::fmi2::{
 };
 use bevel_differential::variables::guid;
 
-/// Messages since they were last read, a line each: the status of FMI, a blank, the text.
+/// Messages since the last reading, one line each: the status of FMI, a blank, the text.
 static MESSAGES: Mutex<String> = Mutex::new(String::new());
 
-/// A logger of C takes any number of arguments; compiled for WebAssembly these are one pointer, which is not used.
+/// A logger in C has any number of arguments. Compiled for WebAssembly, they are one pointer, which is not used.
 type PlainLogger = unsafe extern "C" fn(*mut core::ffi::c_void, Text, Status, Text, Text, *const core::ffi::c_void);
 
 unsafe extern "C" fn keep(
@@ -29,7 +29,7 @@ unsafe extern "C" fn keep(
     }
 }
 
-/// An instance for co-simulation, to be used with the functions of FMI.
+/// Creates an instance for co-simulation, to be used with the functions of FMI.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_instantiate() -> ComponentPointer {
     // SAFETY: the same function type for WebAssembly, see `PlainLogger`
@@ -42,11 +42,11 @@ pub extern "C" fn page_instantiate() -> ComponentPointer {
         component_environment: std::ptr::null_mut(),
     }));
     let guid = std::ffi::CString::new(guid()).unwrap_or_default();
-    // SAFETY: texts that end with 0, and callbacks that stay
+    // SAFETY: texts that end with 0, and callbacks that are never freed
     unsafe { fmi2Instantiate(c"page".as_ptr(), CO_SIMULATION, guid.as_ptr(), std::ptr::null(), callbacks, 0, 0) }
 }
 
-/// Moves all messages, in UTF-8, to `place`, which has room for `room` bytes, and returns their length; longer ones are cut.
+/// Moves all messages, in UTF-8, to `place`, and returns their length. Longer messages are cut to `room` bytes.
 ///
 /// # Safety
 /// `place` has room for `room` bytes.
@@ -54,7 +54,7 @@ pub extern "C" fn page_instantiate() -> ComponentPointer {
 pub unsafe extern "C" fn page_messages(place: *mut u8, room: usize) -> usize {
     let text = MESSAGES.lock().map(|mut messages| std::mem::take(&mut *messages)).unwrap_or_default();
     let length = text.len().min(room);
-    // SAFETY: the caller's promise
+    // SAFETY: guaranteed by the caller
     unsafe { std::ptr::copy_nonoverlapping(text.as_ptr(), place, length) };
     length
 }

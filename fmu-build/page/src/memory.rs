@@ -1,19 +1,19 @@
-//! Memory that the page passes values in.
+//! Memory in which the page passes values.
 
-/// Room for `bytes`, aligned for all numbers. It is given back by [`page_free`] with the same number.
+/// Allocates `bytes`, aligned for all numbers. [`page_free`] must free it with the same size.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_allocate(bytes: usize) -> *mut u64 {
     Box::into_raw(vec![0u64; words(bytes)].into_boxed_slice()).cast()
 }
 
-/// Gives back what [`page_allocate`] gave for `bytes`.
+/// Frees memory of `bytes` from [`page_allocate`].
 ///
 /// # Safety
-/// `place` is from [`page_allocate`] with these `bytes`, and is not used any more.
+/// `place` is from [`page_allocate`] with the same `bytes`, and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn page_free(place: *mut u64, bytes: usize) {
     let slice = std::ptr::slice_from_raw_parts_mut(place, words(bytes));
-    // SAFETY: the caller's promise
+    // SAFETY: guaranteed by the caller
     drop(unsafe { Box::from_raw(slice) });
 }
 

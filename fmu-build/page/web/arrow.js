@@ -1,4 +1,4 @@
-// An arrow with a body, drawn over everything, so that a force within the gears is seen.
+// Solid arrow, drawn over everything so that forces inside the gears are visible.
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
 
 const UP = new Vector3(0, 1, 0);
@@ -16,7 +16,7 @@ export class Arrow extends Group {
     this.add(this.body, this.head);
   }
 
-  // From where it stands along `direction`; lengths in mm, `thick` at most.
+  // Points from its position along `direction`; lengths in mm, with the maximum radius `thick`.
   draw(direction, length, thick) {
     const head = Math.min(4 * thick, 0.5 * length);
     const radius = Math.min(thick, 0.12 * length);

@@ -1,4 +1,4 @@
-// What the elements of the page call.
+// Connects the elements of the page to its functions.
 import { MODES } from "./colouring.js";
 import { listenToKeys } from "./keys.js";
 import { SPEEDS, unitText } from "./table.js";

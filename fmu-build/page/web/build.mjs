@@ -1,4 +1,4 @@
-// Builds the page, one HTML file: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html
+// Builds the page as one HTML file: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -6,17 +6,17 @@ import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 
 const HERE = dirname(fileURLToPath(import.meta.url));
-const MOST = 3e6; // bytes of the page
+const MOST = 3e6; // maximum size of the page in bytes
 const PACKAGES = ["three", "uplot", "xz-decompress"];
 const COMMON = { bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none" };
 
 const own = (file) => readFileSync(join(HERE, file), "utf8");
 const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
-// a style does not end the element it stands in
+// text inside a style must not end the style element
 const asStyle = (text) => text.replaceAll("</style", "<\\/style");
 const asHtml = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 
-// `import text from "worker:FILE"` gives a worker's whole program as a text.
+// `import text from "worker:FILE"` returns the whole program of a worker as text.
 const workers = {
   name: "workers",
   setup(bundler) {
@@ -43,7 +43,7 @@ async function main([library, data, out]) {
     style: asStyle(own("node_modules/uplot/dist/uPlot.min.css") + own("style.css")),
     licences: asHtml(licences.join("\n\n\n")),
     data: packed(JSON.stringify(known)),
-    // its code repeats at distances beyond the window of gzip
+    // its code has repetitions at distances larger than the window of gzip
     library: readFileSync(library).toString("base64"),
     program: packed(outputFiles[0].text),
   };

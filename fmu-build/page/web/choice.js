@@ -1,10 +1,10 @@
-// Which outputs are drawn.
+// Choice of the outputs that are drawn.
 import { MOST_TRACES } from "./setup.js";
 import { isThere } from "./wanted.js";
 import { words } from "./table.js";
 
 export class TraceChoice {
-  // `chosen(names)` is called when the reader has changed the choice.
+  // `chosen(names)` is called when the reader changes the choice.
   constructor(host, table, chosen) {
     this.boxes = table.outputs().map(({ name, description }) => {
       const box = Object.assign(document.createElement("input"), { type: "checkbox", value: name });
@@ -20,14 +20,14 @@ export class TraceChoice {
     return this.boxes.filter((box) => box.checked).map((box) => box.value);
   }
 
-  // These are drawn; of the outputs those of `planets` planets are offered.
+  // Marks the drawn outputs. Only outputs of the first `planets` planets are offered.
   show(names, planets) {
     for (const box of this.boxes) {
       box.parentElement.hidden = !isThere(box.value, planets);
       box.checked = names.includes(box.value);
       box.disabled = !box.checked && names.length >= MOST_TRACES;
     }
-    // the last one stays: a page without traces has nothing to follow
+    // the last one cannot be removed, because a page without traces has nothing to follow
     if (names.length === 1) this.boxes.find((box) => box.checked).disabled = true;
   }
 }

@@ -1,16 +1,16 @@
-// Colour by heat: the power that each cause turns into heat now, where it does so.
+// Colours by heat: the present heating power of each cause, at its location.
 import { scaled } from "./scale.js";
 import { readable } from "./table.js";
 import { heats } from "./wanted.js";
 
-// What has a place in the picture. `meshes` are the teeth, the rest are parts of the housing.
+// Heats with a location in the picture. `meshes` are the teeth, the other names are parts of the housing.
 const PLACES = {
   "heat.contact": ["meshes", "damping of teeth"], "heat.tooth_friction": ["meshes", "friction of teeth"],
   "heat.thrust": ["washers", "washers and pins"], "heat.clutch": ["clutches", "clutches and lock"],
   "heat.half_shaft": ["shafts", "half-shafts"], "heat.support": ["pins", "pins and case"],
   "heat.drag": ["case", "bearings and oil"], "heat.brake": ["brakes", "wheel brakes"],
 };
-const FAINT = 1e-3; // W: less is none
+const FAINT = 1e-3; // W: lower powers are not shown
 
 export const label = "heat";
 
@@ -34,7 +34,7 @@ export function colours({ table, setup, record, mostHeat }) {
   const teeth = powers.get("meshes") ?? 0;
   const mesh = { share: teeth > FAINT ? 1 : 0, colour: colour(teeth) };
   return {
-    // the library gives the sum of all meshes
+    // the library provides only the sum of all meshes
     mesh: (share) => (share > 0.01 ? mesh : { ...mesh, share: 0 }),
     pair: () => mesh,
     planet: null,
@@ -51,7 +51,7 @@ export function colours({ table, setup, record, mostHeat }) {
   };
 }
 
-// Largest power of a place over the record [W].
+// Largest power of a location over the record [W].
 export function largestPower(record, table) {
   const places = new Map();
   for (const name of heats(table)) {

@@ -1,4 +1,4 @@
-// Colour by load: meshes light up by their force.
+// Colours by load: meshes light up according to their force.
 import { Color } from "three";
 import { shown } from "./table.js";
 

@@ -1,5 +1,5 @@
-// Colour by stress: gears by the stress at their roots, flanks in contact by their rated pressure, each against the limit that the
-// rating compares it with.
+// Colours by stress: gears by the stress at their roots, flanks in contact by their rated pressure. Each is relative to
+// the limit of its rating.
 import { rolls } from "./rolling.js";
 import { scaled } from "./scale.js";
 import { readable, shown } from "./table.js";
@@ -13,7 +13,7 @@ export const label = "stress";
 
 export const needs = () => [...Object.values(ROOTS), CONTACT, ...SAFETY];
 
-// Strengths that stresses are rated against now [Pa]: teeth of planets that roll are loaded on both flanks.
+// Strengths for the present rating of stresses [Pa]. Teeth of rolling planets are loaded on both flanks.
 export function limits(setup, record) {
   const [bending, contact, idler] = ["bending_strength", "contact_strength", "idler_factor"].map((name) => setup.value(`strength.${name}`));
   const isRolling = rolls(record, setup.value("geometry.planet_count"), Math.PI / setup.value("geometry.planet_teeth"));

@@ -1,12 +1,12 @@
-// What colours mean: load, stress or heat. A mode says which outputs it needs and, for the time of the picture, what is lit and
-// which parts have which colour; all else is plain metal.
+// Meaning of colours: load, stress or heat. A mode lists the outputs that it needs and, for the time of the picture,
+// which parts are lit or coloured. All other parts are plain metal.
 import * as heat from "./colour_heat.js";
 import * as load from "./colour_load.js";
 import * as stress from "./colour_stress.js";
 
 export const MODES = { load, stress, heat };
 
-// For the moment that `record` was last sought at: {mesh, pair, planet, side, parts, legend}.
+// For the time of the last call of `record.seek`: {mesh, pair, planet, side, parts, legend}.
 //   mesh(share)  light of a mesh with this share of the largest force: {share, colour}, share 0 for none
 //   pair(pair)   light of a tooth pair of planet 1 with the left side gear
 //   planet, side colours of the gears, null for their metal

@@ -1,4 +1,4 @@
-// Where lines of contact are drawn, and what the contact pattern keeps: node --test.
+// Tests of contact lines and of the contact pattern: node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
@@ -33,18 +33,18 @@ for (const [planet, side, carrier, sense] of [[0, 1, 0, 1], [0, 1, 0.7, -1], [1,
       near(direction.length(), 1);
       near(direction.angleTo(outward), polar);
       near(direction.dot(normal), 0);
-      // beyond the pitch line toward the planet's tip, contact is nearer to the side gear's axis
+      // from the pitch line toward the planet's tip, contact is closer to the side gear's axis
       assert.ok(direction.angleTo(axis) < line.angleTo(axis) === polar > PITCH);
     }
   });
 }
 
-test("pressure is straight between toe, middle and heel", () => {
+test("pressure is interpolated linearly between toe, middle and heel", () => {
   const pressures = [4, 2, 3];
   assert.deepEqual([0, 0.25, 0.5, 0.75, 1].map((share) => along(pressures, share)), [4, 3, 2, 2.5, 3]);
 });
 
-test("a pattern keeps the largest pressure of each place that the contact of a tooth has passed", () => {
+test("a pattern contains the largest pressure of each position that contact has passed", () => {
   const pattern = new Pattern(-0.002, 0.002);
   const pair = (tooth, height, pressure) => ({ tooth, height, pressures: [pressure, pressure, pressure] });
   pattern.add([pair(3, -0.002, 5)]);
@@ -56,7 +56,7 @@ test("a pattern keeps the largest pressure of each place that the contact of a t
   assert.equal(pattern.most, 7);
 });
 
-test("a tooth that comes anew does not press where no tooth was", () => {
+test("a new tooth in contact adds no pressure at positions that no tooth touched", () => {
   const pattern = new Pattern(-0.002, 0.002);
   pattern.add([{ tooth: 0, height: -0.002, pressures: [1, 1, 1] }]);
   pattern.add([{ tooth: 1, height: 0.002, pressures: [1, 1, 1] }]);

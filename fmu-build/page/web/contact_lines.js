@@ -1,4 +1,4 @@
-// Lines of contact of tooth pairs, drawn over the teeth and coloured by pressure from toe to heel.
+// Contact lines of tooth pairs, drawn over the teeth and coloured by pressure from toe to heel.
 import { BufferAttribute, Color, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
 
 const UP = new Vector3(0, 1, 0);
@@ -17,7 +17,7 @@ export class ContactLines extends Group {
     }
   }
 
-  // `lines`: [{direction, colours: [toe, middle, heel]}] from the inner to the outer cone distance, all in mm.
+  // `lines`: [{direction, colours: [toe, middle, heel]}] from the inner to the outer cone distance; lengths in mm.
   show(lines, { inner, outer }, thick) {
     this.children.forEach((mesh, i) => {
       mesh.visible = i < lines.length;

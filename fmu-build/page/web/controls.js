@@ -1,4 +1,4 @@
-// Parameters and inputs in groups, effects as switches: made from the table of variables.
+// Parameters and inputs in groups, and effects as switches, generated from the table of variables.
 import { element } from "./element.js";
 import { inUnit, range, readable, unitText } from "./table.js";
 import { readValue } from "./value.js";
@@ -8,7 +8,7 @@ const EFFECTS = "effects";
 const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
 
 export class Controls {
-  // `changed(name)` is called after a value has been put into the set-up.
+  // `changed(name)` is called after a value of the set-up was changed.
   constructor(host, table, setup, changed) {
     Object.assign(this, { host, table, setup, changed, rows: new Map(), groups: [] });
     const groups = [...table.groups()];
@@ -56,20 +56,20 @@ export class Controls {
     return row;
   }
 
-  // Says a variable's unit, what it is and which values it takes.
+  // Shows unit, description and range of a variable.
   say({ variable, unit, what }) {
     const { description } = variable;
     unit.textContent = unitText(variable.shown);
     what.textContent = range(variable) ? `${description} (${range(variable)})` : description;
   }
 
-  // Units have changed.
+  // Updates the display after a change of units.
   relabel() {
     for (const row of this.rows.values()) if (!this.table.prices.has(row.variable.name)) this.say(row);
     this.show();
   }
 
-  // A number as its field has it.
+  // Number as text for its field.
   text(variable, value) {
     return Number.isFinite(value) ? readable(inUnit(variable, value), 7).replaceAll("−", "-") : String(value);
   }
@@ -84,7 +84,7 @@ export class Controls {
         this.complain(name, fault);
         return;
       }
-      // what is shown for the value of the scene is that value, not its rounded text
+      // an unchanged text stands for the exact value of the scene, not for its rounded text
       const same = this.text(variable, this.setup.valueInScene(name)) === this.text(variable, value);
       this.setup.set(name, same ? this.setup.valueInScene(name) : value);
     }
@@ -112,7 +112,7 @@ export class Controls {
     this.count();
   }
 
-  // Says of each group what is unusual in it.
+  // Shows how many values of each group are changed, and how many have warnings.
   count() {
     for (const { count, rows } of this.groups) {
       const own = rows.filter(({ variable }) => this.setup.isOwn(variable.name)).length;
@@ -122,14 +122,14 @@ export class Controls {
     }
   }
 
-  // Shows warnings of the library at the controls they are about: those of a run that begins, then `more` of the same run.
+  // Shows warnings of the library at their controls: those of a starting run, or `more` of the same run.
   warn(warnings, more = false) {
     for (const { warning } of more ? [] : this.rows.values()) warning.textContent = "";
     for (const { name, text } of warnings.map((line) => this.table.subject(line))) this.rows.get(name)?.warning.append(element("span", {}, text));
     this.count();
   }
 
-  // Shows a message at the control it is about.
+  // Shows a message at its control.
   complain(name, text) {
     const row = this.rows.get(name);
     if (!row) return;
@@ -141,7 +141,7 @@ export class Controls {
     row.frame.scrollIntoView({ block: "nearest" });
   }
 
-  // Leaves what has all these words in its name or description, and is not of a planet that is not there.
+  // Shows only rows whose name or description contains all these words, and no rows of missing planets.
   filter(text) {
     this.searched = text;
     const planets = this.setup.value("geometry.planet_count");

@@ -1,4 +1,4 @@
-// The differential in the scene: gears from the library's surfaces, what holds them, arrows and light at the meshes.
+// The differential in the scene: gears from the library's surfaces, their housing, arrows and light at the meshes.
 import { BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from "three";
 import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { Arrow } from "./arrow.js";
@@ -8,7 +8,7 @@ import { paint } from "./paint.js";
 import { hasPairs, pairs } from "./pairs.js";
 import { Glow } from "./steel.js";
 
-const CREASE = 0.45; // rad: faces that meet at more keep an edge
+const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
 const SIDES = [["left", 1], ["right", -1]];
 const ARROW = "#ff3b2f";
 const GEAR = 0.36; // roughness
@@ -17,21 +17,21 @@ const OWN = { planet: "#d99a35", side: "#4d7cb8", grey: "#8b929b" };
 export class Differential {
   constructor() {
     this.group = new Group();
-    this.still = new Group(); // what does not turn with the gears: the cut case
+    this.still = new Group(); // parts that do not turn with the gears: the cut case
     this.glow = new Glow();
-    this.arrowLength = 0.7; // of the largest force, in reaches of the gears
+    this.arrowLength = 0.7; // arrow of the largest force, relative to the reach of the gears
     this.side = this.glow.material(OWN.side, GEAR, true);
     this.planet = this.glow.material(OWN.planet, GEAR, true);
-    // the left side gear may be clear, so that the flanks of the planet are seen through it
+    // the left side gear can be transparent to show the planet's flanks behind it
     this.clear = this.glow.material(OWN.side, GEAR, true);
     Object.assign(this.clear, { transparent: true, opacity: 0.2, depthWrite: false, forceSinglePass: true });
     this.contactLines = new ContactLines();
     this.contactLines.visible = false;
-    // one of each kind of material, so that their programs can be compiled before there are gears
+    // one object of each kind of material, so that their programs can be compiled before there are gears
     this.group.add(fixed(new BufferGeometry(), this.side), new Arrow(ARROW));
   }
 
-  // New gears: surfaces of planet and side gear, and the assembly they stand in.
+  // Replaces the gears: surfaces of planet and side gear, and their assembly.
   build([planet, side], assembly) {
     for (const gear of this.gears ?? []) gear.geometry.dispose();
     this.housing?.dispose();
@@ -57,8 +57,9 @@ export class Differential {
     this.housing.showLeft(!this.isClear);
   }
 
-  // The moment that `record` was last sought at; `largest` is the force [N] of a whole arrow, `colours` as colouring.js has them,
-  // and the scene is turned by `held` against the carrier; `pressed(pressure)` is the colour of a pressure [Pa].
+  // Draws the time of the last call of `record.seek`. `largest` is the force of an arrow of full length [N]; `colours`
+  // come from colouring.js. The scene is turned by `held` relative to the carrier; `pressed(pressure)` is the colour of
+  // a pressure [Pa].
   pose(record, largest, colours, held, pressed) {
     if (!this.gears) return;
     const { assembly } = this;
@@ -88,7 +89,7 @@ export class Differential {
     this.paint(colours);
   }
 
-  // Line of contact of a pair of planet 1 with the left side gear.
+  // Contact line of a pair of planet 1 with the left side gear.
   contact({ force, height }, carrier) {
     const { pitch, mean } = this.assembly.cones;
     return this.assembly.contact(0, 1, carrier, Math.sign(force), pitch + (1e3 * height) / mean);

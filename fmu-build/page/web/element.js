@@ -1,4 +1,4 @@
-// A new element of the document with its properties and children.
+// Creates an element of the document with properties and children.
 export const element = (tag, properties = {}, ...children) => {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);

@@ -1,4 +1,4 @@
-// The panel beside the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
+// Panel next to the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
 import { gradient, shade } from "./scale.js";
 import { hasPairs, hasTeeth, pairNames, pairs } from "./pairs.js";
 import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
@@ -10,7 +10,7 @@ const FLANKS = [[1, "drive flank"], [-1, "coast flank"]];
 const ROOM = { left: 38, right: 12, top: 16, bottom: 18 }; // pixels around a flank
 
 export class Flank {
-  // `host` holds elements by data-flank: text, scale, and canvases drive and coast.
+  // `host` contains elements by data-flank: text, scale, and the canvases drive and coast.
   constructor(host, table) {
     Object.assign(this, { host, table, done: 0 });
     this.part = (name) => host.querySelector(`[data-flank=${name}]`);
@@ -43,7 +43,8 @@ export class Flank {
     this.patterns = FLANKS.map(() => new Pattern(height(root), height(tip)));
   }
 
-  // The pattern up to a time, and the lines of contact then; `most` is the largest pressure of the run outside the seam [Pa].
+  // Shows the pattern up to a time, and the contact lines at that time; `most` is the largest pressure of the run
+  // outside the seam [Pa].
   at(time, most) {
     if (this.host.hidden || !this.cones) return;
     this.scale = most;
@@ -63,7 +64,7 @@ export class Flank {
     for (let i = this.done; i < until; i += 1) this.add(pairs((name) => columns[name][i]));
     this.done = until;
     const present = pairs((name) => this.record.point(name));
-    // a flank that has not been touched takes no room
+    // an untouched flank is hidden
     this.canvases[1].hidden = this.patterns[1].most === 0;
     FLANKS.forEach(([sign], i) => this.draw(i, present.filter(({ force }) => Math.sign(force) === sign)));
     this.describe(present);
@@ -106,7 +107,7 @@ export class Flank {
     const { inner, mean, outer } = this.cones;
     const { root, tip, largest } = this.patterns[i];
     const x = (share) => ROOM.left + share * (width - ROOM.left - ROOM.right);
-    // a tooth grows with the cone distance
+    // tooth size is proportional to the cone distance
     const grown = (share) => (inner + share * (outer - inner)) / mean;
     const unit = (height - ROOM.top - ROOM.bottom) / ((tip - root) * grown(1));
     const y = (share, of) => ROOM.top + (tip * grown(1) - of * grown(share)) * unit;
@@ -128,7 +129,7 @@ export class Flank {
     for (const { height: of, pressures } of present) this.line(pen, x, y, of, pressures);
   }
 
-  // Pitch line, ends and heights.
+  // Draws pitch line, ends and heights.
   marks(pen, x, y, root, tip, name) {
     pen.strokeStyle = colour("--ink");
     pen.fillStyle = colour("--ink");
@@ -153,7 +154,7 @@ export class Flank {
     pen.fillText(`face ${readable(this.cones.outer - this.cones.inner, 3)} mm`, x(0.5), bottom);
   }
 
-  // A line of contact: white under the colours of its pressure.
+  // Draws a contact line: white under the colours of its pressure.
   line(pen, x, y, of, pressures) {
     const parts = 24;
     pen.lineCap = "square";

@@ -1,4 +1,5 @@
-// What holds the gears, drawn for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches, half-shafts.
+// Parts around the gears, for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches,
+// half-shafts.
 import {
   BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2,
 } from "three";
@@ -6,15 +7,16 @@ import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.j
 import { paint } from "./paint.js";
 
 const WALL = 5; // mm
-const AIR = 3; // mm between what turns and the case
+const AIR = 3; // mm between moving parts and the case
 const ROUND = 48;
-const CREASE = 0.45; // rad: faces that meet at more keep an edge
+const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
 
-// Parts that are painted alike, by the names of colouring.js, and their own metal.
+// Names of parts as in colouring.js, with the colours of their metal.
 const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
 
 export class Housing {
-  // Reach of all gears from the apex, backs of side gears and planets [mm]; `azimuth(i)` of planet i, `metal(colour, roughness)`.
+  // Reach of all gears from the apex, and backs of side gears and planets [mm]; `azimuth(i)` of planet i,
+  // `metal(colour, roughness)`.
   constructor({ reach, back, planetBack, planets, azimuth, metal }) {
     this.metals = Object.fromEntries(Object.entries(OWN).map(([name, colour]) => [name, metal(colour)]));
     const { metals } = this;
@@ -33,7 +35,7 @@ export class Housing {
       axle.rotation.x = azimuth(i);
       this.carrier.add(axle);
     }
-    // a washer and, around it, a clutch pack between each side gear and the case
+    // a washer, surrounded by a clutch pack, between each side gear and the case
     const [inner, middle, outer] = [shaftRadius(reach), 0.42 * reach, 0.62 * reach];
     for (const side of [1, -1]) {
       const pack = new Group();
@@ -45,12 +47,12 @@ export class Housing {
     }
   }
 
-  // Colours by part; a part without one has its own metal.
+  // Colours parts; a part without a colour has its own metal.
   paint(parts) {
     for (const [name, own] of Object.entries(OWN)) paint(this.metals[name], own, parts[name]);
   }
 
-  // Shows or hides what stands behind the left side gear.
+  // Shows or hides the parts behind the left side gear.
   showLeft(visible) {
     for (const part of this.left) part.visible = visible;
   }
@@ -66,7 +68,7 @@ export class Housing {
     this.shell.rotation.x = Math.atan2(eye.z, eye.y);
   }
 
-  // Half-shafts turn with the wheels [rad].
+  // Turns the half-shafts with the wheels [rad].
   turn(carrier, left, right) {
     this.carrier.rotation.x = carrier;
     this.shafts[0].rotation.x = left;
@@ -83,7 +85,7 @@ export class Housing {
 
 const shaftRadius = (reach) => 0.27 * reach;
 
-// Outline of the case's wall in a plane through the axis: (distance from the axis, place along it).
+// Outline of the case's wall in a plane through the axis: (distance from the axis, position along it).
 function section(radius, half, hub) {
   const corner = 0.35 * radius;
   const side = (grown) => {
@@ -108,7 +110,7 @@ function lathe(profile, material) {
   return mesh;
 }
 
-// The faces of the cut, painted as on cut-away models.
+// Faces of the cut, painted as on cut-away models.
 function cuts(profile, metal) {
   return [1, -1].map((side) => {
     const shape = new Shape(profile.map(({ x, y }) => new Vector2(y, side * x)));
@@ -118,7 +120,7 @@ function cuts(profile, metal) {
   });
 }
 
-// Flange for the ring gear, with bolts that show how the carrier turns.
+// Flange for the ring gear, with bolts that make the carrier's rotation visible.
 function flange(radius, half, metal) {
   const group = new Group();
   const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
@@ -139,7 +141,7 @@ function cylinder(radius, length, material) {
   return new Mesh(new CylinderGeometry(radius, radius, length, ROUND).translate(0, length / 2, 0), material);
 }
 
-// A flat ring about y, from `place` on.
+// Flat ring about y, starting at `place`.
 function ring(inner, outer, place, thick, material) {
   const [low, high] = [place, place + thick];
   const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
@@ -160,7 +162,7 @@ function shaft(side, reach, back, metals, metal) {
     bolt.position.set(side * end, 1.25 * radius * Math.cos(angle), 1.25 * radius * Math.sin(angle));
     group.add(bolt);
   }
-  // a stripe shows how the shaft turns
+  // a stripe makes the shaft's rotation visible
   const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal("#e0a030", 0.6));
   stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
   group.add(stripe);

@@ -1,6 +1,6 @@
-// Keys of the page, where no field takes them.
+// Keys of the page, unless a field uses them.
 
-const STEP = 0.01; // of the run
+const STEP = 0.01; // fraction of the run
 const TURN = 0.08; // rad
 
 export function listenToKeys(page) {

@@ -1,9 +1,9 @@
-// What the colours of the picture mean, and their values at its time.
+// Meaning of the picture's colours, with the values at the time of the picture.
 import { element } from "./element.js";
 import { css, gradient } from "./scale.js";
 
 export class Legend {
-  // `switchOn(name)` is called where an effect is to give what is missing.
+  // `switchOn(name)` is called to switch on an effect that provides missing values.
   constructor(host, switchOn) {
     Object.assign(this, { host, switchOn, shown: "" });
   }

@@ -1,12 +1,12 @@
-// The library in WebAssembly: an instance by the functions of FMI 2.0, and surfaces of gears. Values in SI.
+// The library in WebAssembly: an instance with the functions of FMI 2.0, and surfaces of gears. Values are in SI.
 
 const BYTES = { Real: 8, Integer: 4, Boolean: 4 };
 const ERROR = 2; // fmi2Discard and worse
 const CONES = ["pitch", "tip", "root", "base", "outer", "mean", "inner"]; // angles in rad, distances in mm
-// parts of a message that only hosts use: the call that failed before the message, and calls that help after it
+// parts of a message that only hosts use: the failed call before the message, and calls for recovery after it
 const CALLS = /^fmi2\w+: (?:initialisation failed:\s*)?|; continue with fmi2\w+ or fmi2\w+$/g;
 
-// What the library refused: its own messages.
+// Error with the library's messages about a refusal.
 export class Refused extends Error {}
 
 export class Library {
@@ -19,13 +19,13 @@ export class Library {
     this.exports = exports;
     this.component = exports.page_instantiate();
     this.said();
-    if (!this.component) throw new Refused("the library makes no instance");
-    // warnings, too
+    if (!this.component) throw new Refused("the library cannot create an instance");
+    // also log warnings
     this.exports.fmi2SetDebugLogging(this.component, 1, 0, 0);
     this.rooms = new Map();
   }
 
-  // Messages since they were last asked for: [{status, text}].
+  // Messages since the last call: [{status, text}].
   said() {
     const room = 65536;
     const place = this.exports.page_allocate(room);
@@ -41,7 +41,7 @@ export class Library {
     throw new Refused(errors.join("\n") || `${doing} failed with status ${status}`);
   }
 
-  // Numbers and references of a kind in the library's memory, with room for `count`.
+  // Room for `count` numbers and references of a kind in the library's memory.
   room(kind, count) {
     const known = this.rooms.get(kind);
     if (known && known.count >= count) return known;
@@ -55,13 +55,13 @@ export class Library {
   }
 
   views(kind, room, count) {
-    // anew each time: the memory moves when it grows
+    // new views each time, because the memory moves when it grows
     const { buffer } = this.exports.memory;
     const values = kind === "Real" ? new Float64Array(buffer, room.values, count) : new Int32Array(buffer, room.values, count);
     return { references: new Uint32Array(buffer, room.references, count), values };
   }
 
-  // Sets variables: [{kind, reference, value}], each kind in one call.
+  // Sets variables: [{kind, reference, value}], with one call for each kind.
   set(assignments) {
     for (const kind of Object.keys(BYTES)) {
       const own = assignments.filter((assignment) => assignment.kind === kind);
@@ -76,7 +76,7 @@ export class Library {
     }
   }
 
-  // Sets how much inputs change in a second: [{reference, value}].
+  // Sets the slopes of inputs per second: [{reference, value}].
   setSlopes(slopes) {
     const count = slopes.length;
     const room = this.room("Real", count);
@@ -92,7 +92,8 @@ export class Library {
     this.check(status, "setting slopes of inputs");
   }
 
-  // A function that reads these Reals into an array from a place on: references are written once, and nothing is allocated.
+  // Creates a function that reads these Reals into an array from a position on. It writes references only once and
+  // allocates nothing.
   reader(references) {
     const count = references.length;
     const [from, to] = [this.exports.page_allocate(4 * count), this.exports.page_allocate(8 * count)];
@@ -111,7 +112,7 @@ export class Library {
     return { count, read, free };
   }
 
-  // Starts anew with these assignments, for a run to `stop`.
+  // Restarts with these assignments, for a run to `stop`.
   start(assignments, stop) {
     this.check(this.exports.fmi2Reset(this.component), "fmi2Reset");
     this.said();
@@ -121,7 +122,7 @@ export class Library {
     this.check(this.exports.fmi2ExitInitializationMode(this.component), "fmi2ExitInitializationMode");
   }
 
-  // Rows of a run's schedule, of `width` numbers each; bd_answers.h describes question and rows.
+  // Rows of a run's schedule with `width` numbers each; bd_answers.h describes question and rows.
   schedule(question, width) {
     const from = this.exports.page_allocate(8 * question.length);
     new Float64Array(this.exports.memory.buffer, from, question.length).set(question);
@@ -140,7 +141,7 @@ export class Library {
     this.check(this.exports.fmi2DoStep(this.component, time, size, 1), `the step from ${time} s`);
   }
 
-  // Surface of a gear (0 planet, 1 side gear) for assignments of all kinds, in mm; null where it cannot be built.
+  // Surface of a gear (0 planet, 1 side gear) for assignments of all kinds, in mm; null if it cannot be built.
   gear(assignments, gear) {
     const bytes = 16 * Math.max(assignments.length, 1);
     const place = this.exports.page_allocate(bytes);

@@ -1,4 +1,4 @@
-// Unpacks what the page holds and starts it. `window.page` is the whole page, for scripts and tests that drive it.
+// Unpacks the contents of the page and starts it. `window.page` is the page object, for scripts and tests.
 import { embeddedJson, embeddedLibrary } from "./embedded.js";
 import { Page } from "./page.js";
 

@@ -1,4 +1,4 @@
-// The line of text over the picture: what went wrong until it is mended, anything else for some seconds.
+// Line of text over the picture: problems until they are solved, other remarks for a few seconds.
 
 const SHOWN = 6000; // ms
 

@@ -1,4 +1,4 @@
-// The page: the set-up goes to the worker, its points go into the record, and the picture follows the player's time.
+// The page: the set-up is sent to the worker, its points are recorded, and the picture follows the player's time.
 import { bind } from "./bindings.js";
 import { TraceChoice } from "./choice.js";
 import { coloured, MODES } from "./colouring.js";
@@ -25,11 +25,11 @@ import { forces, wanted } from "./wanted.js";
 
 const $ = (id) => document.getElementById(id);
 const REFRESH = 100; // ms between two drawings of new points
-const ASIDE = { wide: [-0.19, 0], narrow: [0, -0.2] }; // shares of the window that the picture gives way by
+const ASIDE = { wide: [-0.19, 0], narrow: [0, -0.2] }; // shift of the picture as fractions of the window
 const NARROW = 820; // pixels
 
 export class Page {
-  // `library` as it is in the page, still packed.
+  // `library` is the packed library of the page.
   constructor(data, library) {
     this.table = new Table(data);
     this.setup = new Setup(this.table);
@@ -75,7 +75,7 @@ export class Page {
     });
   }
 
-  // Takes the set-up of the page's address.
+  // Reads the set-up from the page's address.
   restore() {
     const { odd, faults } = this.setup.read(location.hash);
     this.player.chosen = false;
@@ -83,9 +83,9 @@ export class Page {
     this.shownScene = this.setup.scene.name;
     this.look(this.setup.view);
     this.changed();
-    this.odd = odd.length > 0 ? `The address has what this page does not know: ${odd.join(", ")}. ` : "";
+    this.odd = odd.length > 0 ? `The address contains unknown words: ${odd.join(", ")}. ` : "";
     for (const { name, text } of faults) this.controls.complain(name, text);
-    if (faults.length > 0) this.odd += `The address has values that are left out: ${faults.map(({ name }) => name).join(", ")}. `;
+    if (faults.length > 0) this.odd += `The address contains invalid values, which are left out: ${faults.map(({ name }) => name).join(", ")}. `;
     if (this.odd) this.notice.say(this.odd, true);
   }
 
@@ -102,7 +102,7 @@ export class Page {
     this.simulate();
   }
 
-  // The address is the set-up.
+  // Writes the set-up to the page's address.
   keep() {
     try {
       history.replaceState(null, "", this.setup.fragment());
@@ -123,7 +123,7 @@ export class Page {
     if (!this.shapes.shown) this.shapes.want(this.setup);
   }
 
-  // A run has begun: only now the old one goes.
+  // Replaces the previous run, because the new run has begun.
   started({ warnings }) {
     const { names, forces, shown, stop } = this.run;
     this.record = new Record(names);
@@ -148,7 +148,7 @@ export class Page {
     if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
   }
 
-  // What depends on all points so far.
+  // Updates everything that depends on all points so far.
   refresh() {
     this.isFresh = false;
     this.refreshed = performance.now();
@@ -166,7 +166,7 @@ export class Page {
   trapped(text) {
     this.isOver = true;
     this.shapes.standIn();
-    this.notice.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true);
+    this.notice.say(`The simulation failed and was restarted; your set-up is kept. Change a value to try again. (${text})`, true);
   }
 
   refuse(text) {
@@ -185,13 +185,13 @@ export class Page {
     else this.changed();
   }
 
-  // Another mode of colours; a run is made again where it has not noted what the mode needs.
+  // Changes the mode of colours. The run is repeated if it did not record the outputs of the mode.
   colour(mode) {
     this.setup.colour = mode;
     this.again();
   }
 
-  // Speeds in another unit: nothing is simulated anew.
+  // Changes the unit of speeds, without a new simulation.
   speeds(unit) {
     this.setup.speeds = unit;
     this.table.showSpeedsIn(unit);
@@ -201,7 +201,7 @@ export class Page {
     this.keep();
   }
 
-  // The traces that are drawn, as a file.
+  // Saves the drawn traces as a file.
   save() {
     save(`${this.setup.scene.name}.csv`, this.record, this.setup.shown());
   }
@@ -217,7 +217,7 @@ export class Page {
     this.changed();
   }
 
-  // Another view; as with colours.
+  // Changes the view. The run is repeated if it did not record the outputs of the view.
   choose(name) {
     this.look(name);
     this.again();
@@ -249,7 +249,7 @@ export class Page {
     location.hash = step.fragment;
   }
 
-  // The picture gives way to what lies over it.
+  // Moves the picture away from panels that cover it.
   makeRoom() {
     const isCovered = this.walk.isOpen || this.setup.view === "flank";
     this.view.shift(...(isCovered ? ASIDE[innerWidth > NARROW ? "wide" : "narrow"] : [0, 0]));
@@ -279,7 +279,7 @@ export class Page {
     }
   }
 
-  // Each frame asks for the next one before it draws: what fails in one does not end them all.
+  // Each frame requests the next one before it draws, so that an error in one frame does not stop the others.
   frame(now) {
     requestAnimationFrame((next) => this.frame(next));
     const seconds = Math.min((now - this.last) / 1e3, 0.1);
@@ -291,7 +291,7 @@ export class Page {
     }
   }
 
-  // A fault of the page's own is said once.
+  // Reports an error of the page itself once.
   fail(error) {
     if (this.failure === error.message) return;
     this.failure = error.message;
@@ -309,7 +309,7 @@ export class Page {
     showTransport(player, this.tooth);
   }
 
-  // The picture, the figures and the traces at the player's time.
+  // Shows the picture, the values and the traces at the player's time.
   show() {
     const { player, record, table, setup, most, mostHeat } = this;
     this.moved = false;

@@ -1,8 +1,8 @@
-// Metal, and metal painted in a colour that means a value. What is painted shines a little by itself and mirrors less, so that its
-// colour is that of the legend.
+// Metal, and metal painted in a colour that represents a value. Painted parts emit a little light and mirror less, so
+// that their colour matches the legend.
 const MIRROR = { own: 0.72, painted: 0.15 };
 const SHINE = 0.16;
-const LIT = 0.7; // of the colour: light makes it brighter than it is in the legend
+const LIT = 0.7; // fraction of the colour: light makes it brighter than in the legend
 
 export function paint(material, own, colour) {
   material.color.set(colour ?? own);

@@ -1,4 +1,4 @@
-// The tooth pairs in the mesh of planet 1 with the left side gear, which the library lists one by one.
+// Tooth pairs in the mesh of planet 1 with the left side gear, which the library lists individually.
 import { shown } from "./table.js";
 
 const TEETH = ["tooth", "solid"]; // literals of scene.gear_contact with teeth
@@ -13,17 +13,17 @@ export const pairNames = (withPressures) => {
   return each.flatMap((k) => parts.map((part) => at(k, part)));
 };
 
-// Whether gears have teeth that touch one by one.
+// True if gears have teeth that touch individually.
 export function hasTeeth(setup, table) {
   const name = "scene.gear_contact";
   return TEETH.includes(shown(table.find(name), setup.value(name)));
 }
 
-// Whether the record lists pairs at all, and with their pressures.
+// True if the record contains tooth pairs, and their pressures if requested.
 export const hasPairs = (record, withPressures = false) => pairNames(withPressures).every((name) => record.has(name));
 
-// Pairs in contact: [{tooth, force, height, pressures: [toe, middle, heel]}]. `value(name)` is a number of one point: between two
-// points pairs come and go, and a place in the list passes to another pair.
+// Pairs in contact: [{tooth, force, height, pressures: [toe, middle, heel]}]. `value(name)` is a number of one point,
+// not interpolated: between two points pairs come and go, and their positions in the list change.
 export function pairs(value) {
   return each.filter((k) => value(at(k, "tooth")) >= 0 && value(at(k, "force")) !== 0).map((k) => ({
     tooth: value(at(k, "tooth")), force: value(at(k, "force")), height: value(at(k, "height")),

@@ -1,11 +1,12 @@
-// A plot of some outputs with the same unit, and its legend.
+// Plot of several outputs with the same unit, and its legend.
 import uPlot from "uplot";
 import { readable, unitText, words } from "./table.js";
 
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// `series`: [{name, stroke}]; `range` gives the ends of the first axis, `after` is the unit behind its last number, `draw` is
-// called after drawing. Returns {plot, room, values}: the plot, the element it fills, and the elements for values in the legend.
+// `series`: [{name, stroke}]; `range` returns the ends of the first axis, `after` is the unit behind its last number,
+// and `draw` is called after drawing. Returns {plot, room, series, values}: the plot, its element, the series, and the
+// elements for values in the legend.
 export function panel(host, { unit, series, range, after, draw }) {
   const frame = Object.assign(document.createElement("div"), { className: "panel" });
   const legend = Object.assign(document.createElement("div"), { className: "legend" });
@@ -39,7 +40,7 @@ export function panel(host, { unit, series, range, after, draw }) {
   return { plot, room, series, values };
 }
 
-// Range of an axis: a value that does not change is not blown up to noise.
+// Range of an axis. It has a minimum width, so that a constant value is not magnified to noise.
 function span(_, least, most) {
   if (least === null || !Number.isFinite(least)) return [0, 1];
   const room = Math.max(most - least, 1e-3 * Math.max(Math.abs(most), Math.abs(least)), 1e-12);

@@ -1,21 +1,22 @@
-// The contact pattern of a flank: the largest pressure that each place has borne. Places are rows from root to tip and columns
-// from toe to heel; a line of contact is one row, as all of them run to the apex.
+// Contact pattern of a flank: the largest pressure so far at each position. Positions are rows from root to tip and
+// columns from toe to heel. A contact line is one row, because all contact lines run to the apex.
 
 export const ROWS = 96;
 export const COLUMNS = 33;
 
-// Pressure at a share of the way from toe to heel: straight between the three places that the library gives.
+// Pressure at a fraction of the distance from toe to heel, interpolated linearly between the three values of the
+// library.
 export function along([toe, middle, heel], share) {
   return share < 0.5 ? toe + 2 * share * (middle - toe) : middle + (2 * share - 1) * (heel - middle);
 }
 
 export class Pattern {
-  // Heights [m] of root and tip over the pitch circle at the mean cone distance.
+  // Heights of root and tip over the pitch circle at the mean cone distance [m].
   constructor(root, tip) {
     Object.assign(this, { root, tip, most: 0, largest: new Float64Array(ROWS * COLUMNS), before: [] });
   }
 
-  // The pairs of the next point. What a line of contact passed over since the last point counts, too.
+  // Adds the pairs of the next point. Positions that a contact line passed since the last point count, too.
   add(pairs) {
     for (const pair of pairs) {
       const last = this.before.find(({ tooth }) => tooth === pair.tooth) ?? pair;

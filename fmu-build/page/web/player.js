@@ -1,14 +1,14 @@
-// Time of the picture: it plays, pauses, seeks, and turns round at the end.
+// Time of the picture: it plays, pauses, seeks, and restarts at the end.
 
-const SHOW = 15; // s that a run takes on the screen unless chosen otherwise
-const TOOTH = 10; // s that one tooth takes at the slowest
+const SHOW = 15; // s on the screen for a run, by default
+const TOOTH = 10; // s on the screen for one tooth in the slowest motion
 
 export class Player {
   constructor() {
     Object.assign(this, { time: 0, stop: 1, playing: true, rate: 1, slowest: 0.01, chosen: false });
   }
 
-  // A new run: `tooth` is the time one tooth takes, Infinity where nothing turns.
+  // Starts a new run of the duration `stop`.
   begin(stop) {
     this.stop = stop;
     this.time = Math.min(this.time, stop);
@@ -17,14 +17,16 @@ export class Player {
     this.rate = Math.min(Math.max(this.rate, this.slowest), 1);
   }
 
-  // The slowest motion shows one tooth in ten seconds.
+  // Limits slow motion: at the slowest, one tooth takes ten seconds. `tooth` is its time in the run, Infinity if
+  // nothing turns.
   limit(tooth) {
     if (!(tooth > 0 && Number.isFinite(tooth))) return;
     this.slowest = Math.min(tooth / TOOTH, this.stop / SHOW, 1);
     this.rate = Math.max(this.rate, this.slowest);
   }
 
-  // On by `seconds` of the clock; `end` is how far the run has come, `isOver` whether it will come no farther.
+  // Advances by `seconds` of the clock; `end` is the end of the run so far, and `isOver` is true if the run is
+  // complete.
   tick(seconds, end, isOver) {
     if (!this.playing) return;
     this.time += this.rate * seconds;

@@ -1,9 +1,10 @@
-// Numbers beside the picture: speeds, heat, time, and how slow the motion is.
+// Numbers next to the picture: speeds, heat, time, and the rate of slow motion.
 import { readable, shown } from "./table.js";
 
 const $ = (id) => document.getElementById(id);
 
-// Time in which the planets pass one tooth; where they stand, in which the side gears pass one with the carrier [s].
+// Time in which the planets pass one tooth [s]. If they hardly spin, time in which the side gears pass one tooth with
+// the carrier.
 export function toothTime(record, parameter) {
   const passed = (name) => {
     const column = record.column(name);
@@ -14,7 +15,7 @@ export function toothTime(record, parameter) {
   return (2 * Math.PI) / (spin > 0.1 * turn ? spin : turn);
 }
 
-// Of the time that the record was last sought at.
+// Values at the time of the last call of `record.seek`.
 export function showFigures(record, table) {
   for (const part of ["carrier", "left", "right"]) {
     $(`${part}-speed`).textContent = shown(table.find(`${part}.speed`), record.value(`${part}.speed`), 4);

@@ -1,4 +1,4 @@
-// Points of a run: columns of numbers that grow, read at any time by straight lines between points.
+// Points of a run: growing columns of numbers, interpolated linearly at any time.
 
 export class Record {
   constructor(names) {
@@ -8,7 +8,7 @@ export class Record {
     this.columns = Array.from({ length: names.length + 1 }, () => new Float64Array(1024));
   }
 
-  // `points`: rows of time and values, one after the other.
+  // `points`: consecutive rows of time and values.
   append(points) {
     const width = this.columns.length;
     const rows = points.length / width;
@@ -42,7 +42,7 @@ export class Record {
     return this.columns[this.place.get(name)].subarray(0, this.count);
   }
 
-  // Makes `value(name)` read at this time.
+  // Sets the time for `value(name)`.
   seek(time) {
     const times = this.columns[0];
     let low = 0;
@@ -65,7 +65,7 @@ export class Record {
     return column[this.low] + this.share * (column[this.high] - column[this.low]);
   }
 
-  // At the point before the time: for what comes and goes from point to point.
+  // Value at the last point before the time, for quantities that must not be interpolated.
   point(name) {
     const place = this.place.get(name);
     return place === undefined || this.count === 0 ? 0 : this.columns[place][this.share < 1 ? this.low : this.high];
@@ -78,7 +78,7 @@ export class Record {
     return place === undefined || !(width > 0) ? 0 : (this.columns[place][this.high] - this.columns[place][this.low]) / width;
   }
 
-  // Largest size of a column so far.
+  // Largest magnitude of a column so far.
   largest(name) {
     return this.has(name) ? this.column(name).reduce((most, value) => Math.max(most, Math.abs(value)), 0) : 0;
   }

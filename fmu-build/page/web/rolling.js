@@ -1,6 +1,6 @@
-// Whether planets roll: rocking within a tooth pitch brings no new tooth into mesh.
+// Detection of rolling planets: rocking within a tooth pitch brings no new tooth into mesh.
 
-// Whether a planet of `record` has rolled on between the points around the time; `half` is half a pitch [rad].
+// True if a planet of `record` was rolling between the points around the time; `half` is half a pitch [rad].
 export function rolls(record, planets, half) {
   const names = Array.from({ length: planets }, (_, i) => `planet[${i + 1}].spin_angle`).filter((name) => record.has(name));
   return names.map((name) => record.column(name)).some((angles) => {

@@ -1,5 +1,5 @@
-// Every parameter and input can be set from the page and comes back through the link: npm test, with DATA the
-// page's data.json.
+// Every parameter and input can be set in the page and is restored by the link: npm test, with the page's data.json as
+// DATA.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -10,7 +10,7 @@ import { readValue, readValueInSI } from "./value.js";
 const table = new Table(JSON.parse(readFileSync(process.env.DATA, "utf8")));
 const settable = table.variables.filter(({ causality }) => ["parameter", "input"].includes(causality));
 
-// A value of the variable that is not that of the scene.
+// Returns a value of the variable that differs from the scene.
 function other({ kind, start, min, max, literals }) {
   if (kind === "Boolean") return !start;
   if (kind === "Enumeration") return literals.find(({ value }) => value !== start)?.value ?? start;
@@ -19,7 +19,7 @@ function other({ kind, start, min, max, literals }) {
   return value === start ? min + (max - min) / 7 : value;
 }
 
-test("every parameter and input comes back through the link to the last bit", () => {
+test("the link restores every parameter and input to the last bit", () => {
   assert.ok(settable.length > 100);
   for (const variable of settable) {
     const [here, there] = [new Setup(table), new Setup(table)];
@@ -32,7 +32,7 @@ test("every parameter and input comes back through the link to the last bit", ()
   }
 });
 
-test("all of them at once, with view, colours, traces and duration", () => {
+test("the link restores all of them together, with view, colours, traces and duration", () => {
   const [here, there] = [new Setup(table), new Setup(table)];
   here.choose("clunk");
   for (const variable of settable) here.set(variable.name, other(variable));
@@ -43,7 +43,7 @@ test("all of them at once, with view, colours, traces and duration", () => {
   assert.deepEqual(there.compiled(), here.compiled());
 });
 
-test("what is no value stays out with a message that names the variable, and what is unknown is named", () => {
+test("invalid values are left out with a message that names the variable, and unknown words are named", () => {
   const setup = new Setup(table);
   const { odd, faults } = setup.read("#scene=nowhere&geometry.module=big&effects.strength=perhaps&geometry.planet_teeth=9.5"
     + "&scene.gear_contact=glue&view=inside&constructor=1&stop_time=Infinity&left.speed=3&show=nothing");
@@ -54,7 +54,7 @@ test("what is no value stays out with a message that names the variable, and wha
   for (const name of names) assert.ok(!setup.isOwn(name));
 });
 
-test("what only the library can judge goes to it: NaN, and numbers out of range", () => {
+test("NaN and numbers out of range are left to the library", () => {
   const module = table.find("geometry.module");
   assert.ok(Number.isNaN(readValueInSI(module, "NaN").value));
   assert.equal(readValue(module, "-1e3").value, -1e3 / module.factor);

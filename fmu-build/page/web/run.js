@@ -1,7 +1,7 @@
-// A run of a scene, point by point: it executes the schedule that the library computes.
+// Run of a scene, point by point: it executes the schedule that the library computes.
 
-// `scene`: {stop, step, set, changes: [[time, assignments]], tables: [{reference, table: [times, values, period or null]}], slopes};
-// `slopes`: true if tables continue straight within steps.
+// `scene`: {stop, step, set, changes: [[time, assignments]], tables: [{reference, table: [times, values, period or
+// null]}], slopes}; `slopes` is true if tables are interpolated within steps.
 export class Run {
   constructor(library, scene) {
     const { stop, step, set, changes, tables } = scene;
@@ -20,7 +20,7 @@ export class Run {
     return this.place + this.width === this.rows.length;
   }
 
-  // On to the next communication point.
+  // Advances to the next communication point.
   advance() {
     this.place += this.width;
     const [begin, size, , due] = this.rows.subarray(this.place);
@@ -30,7 +30,7 @@ export class Run {
     this.library.step(begin, size);
   }
 
-  // Numbers for the inputs that follow tables, from a place in the row on.
+  // Numbers for the inputs that follow tables, starting at index `first` in the row.
   driven(first) {
     return this.scene.tables.map(({ reference }, i) => ({ kind: "Real", reference, value: this.rows[this.place + first + i] }));
   }

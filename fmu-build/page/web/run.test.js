@@ -1,4 +1,4 @@
-// Runs execute their schedules, with a library that only notes the calls: npm test.
+// Runs execute their schedules, with a library that only records the calls: npm test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Run } from "./run.js";
@@ -7,10 +7,10 @@ const SCENE = {
   stop: 1, step: 0.5, set: [{ reference: 7, value: 3 }], changes: [[0, ["a"]], [0.2, ["b"]], [0.2, ["c"]]],
   tables: [{ reference: 1, table: [[0, 1], [0, 8], null] }, { reference: 2, table: [[0], [5], 0.5] }],
 };
-// as the library would answer: beginning, size, end, changes made, values, slopes
+// answer of the library: start, size, end, number of changes, values, slopes
 const ROWS = [[0, 0, 0, 0, 0, 5, 0, 0], [0, 0.2, 0.2, 1, 0, 5, 8, 0], [0.2, 0.8, 1, 3, 1.6, 5, 8, 0]];
 
-// All calls of the library in a run, each with what it was given.
+// All calls of the library in a run, each with its arguments.
 function called(slopes) {
   const calls = [];
   const numbers = (given) => given.map(({ reference, value }) => [reference, value]);
@@ -31,7 +31,7 @@ function called(slopes) {
   return calls;
 }
 
-test("a run asks for the schedule of its scene and makes its calls in order", () => {
+test("a run requests the schedule of its scene and executes its calls in order", () => {
   assert.deepEqual(called(true), [
     ["schedule", [1, 0.5, 3, 0, 0.2, 0.2, 2, 0, 0, 0, 1, 0, 8, 1, 0.5, 0, 0, 5], 8],
     ["start", [[7, 3], [1, 0], [2, 5]], 1],

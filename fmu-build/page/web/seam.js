@@ -1,11 +1,12 @@
-// The seam at the foot of a flank: toward a base circle the flank's radius vanishes, and Hertz's pressure, which has no limit there,
-// no longer has a meaning. A scale of colours leaves it out.
+// Seam at the foot of a flank: toward a base circle, the flank's radius approaches zero. Hertz's pressure grows without
+// limit there and has no meaning, so colour scales leave the seam out.
 import { pairNames, pairs } from "./pairs.js";
 
-// Relative radius of the flanks, over that at the pitch point, below which the foot of a flank is a seam.
+// Relative radius of the flanks divided by that at the pitch point, below which the foot of a flank is a seam.
 const LEAST_RADIUS = 0.25;
 
-// What pressures of a set-up follow: modulus of the contact [Pa], face width [m], relative radius at the pitch point [m].
+// Quantities that determine pressures of a set-up: modulus of the contact [Pa], face width [m], relative radius at the
+// pitch point [m].
 export function contactOf(setup) {
   const value = (name) => setup.value(name);
   const [planet, side] = ["planet", "side"].map((gear) => value(`geometry.${gear}_teeth`));
@@ -21,7 +22,7 @@ export function contactOf(setup) {
 export const isInSeam = ({ modulus, face, radius }, { force, pressures }) =>
   Math.PI * face * LEAST_RADIUS * radius * pressures[1] ** 2 > Math.abs(force) * modulus;
 
-// Largest pressure of a record outside the seam [Pa]; that in the seam if there is no other.
+// Largest pressure of a record outside the seam [Pa]; if there is none, the largest one inside it.
 export function largestPressure(record, setup) {
   const contact = contactOf(setup);
   const columns = new Map(pairNames(true).map((name) => [name, record.column(name)]));

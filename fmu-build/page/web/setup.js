@@ -1,5 +1,5 @@
-// What is simulated and how it is looked at: a scene, what differs from it, view and colours. The fragment of the page's address
-// holds all of it.
+// The simulated set-up and its display: a scene, changed values, view and colours. The fragment of the page's address
+// contains all of it.
 import { MODES } from "./colouring.js";
 import { readable, SPEEDS } from "./table.js";
 import { readValueInSI } from "./value.js";
@@ -7,9 +7,9 @@ import { PRESETS } from "./view.js";
 
 const DURATION = "stop_time";
 const FIRST = "study_turning";
-const MOST_POINTS = 2e5; // of a run
-export const MOST_TRACES = 6; // as many as there are colours for them
-// words of the address that are no variables, and what they are when it has none
+const MOST_POINTS = 2e5; // maximum number of points of a run
+export const MOST_TRACES = 6; // number of trace colours
+// words of the address other than variables, with their defaults
 const PLAIN = { view: "whole", colour: "load", speeds: "deg/s", picture: "auto" };
 const KNOWN = { view: PRESETS, colour: MODES, speeds: SPEEDS, picture: { auto: true, fine: true } };
 
@@ -35,7 +35,7 @@ export class Setup {
     return this.own.get(name) ?? this.valueInScene(name);
   }
 
-  // The scene changes it over time; a value of one's own replaces that.
+  // True if the scene changes the variable over time; a changed value of the set-up replaces that.
   isDriven(name) {
     return this.scene.tables.some((table) => table.name === name) || this.scene.changes.some(([, values]) => name in values);
   }
@@ -53,7 +53,7 @@ export class Setup {
     this.own.delete(name);
   }
 
-  // Takes a duration [s]; returns what is wrong with it.
+  // Sets the duration [s]; returns a message if it is not allowed.
   setStop(stop) {
     const longest = MOST_POINTS * this.scene.step;
     if (!(stop > 0 && stop <= longest)) return `The duration takes a time above 0 s, up to ${readable(longest)} s in this scene.`;
@@ -70,12 +70,12 @@ export class Setup {
     return Object.entries(values).map(([name, value]) => this.table.assignment(name, value));
   }
 
-  // All that differs from the start values.
+  // All values that differ from the start values.
   settings() {
     return this.assignments({ ...this.scene.set, ...Object.fromEntries(this.own) });
   }
 
-  // The scene as a run takes it.
+  // The scene in the form that a run needs.
   compiled() {
     const left = (values) => Object.fromEntries(Object.entries(values).filter(([name]) => !this.own.has(name)));
     return {
@@ -103,7 +103,7 @@ export class Setup {
     return this.withLook(words);
   }
 
-  // Of a scene as it is, looked at as now.
+  // Fragment for an unchanged scene in the present view.
   fragmentOf(scene) {
     return this.withLook(new URLSearchParams({ scene }));
   }
@@ -113,8 +113,8 @@ export class Setup {
     return `#${words}`;
   }
 
-  // Takes the set-up of a fragment. Returns {odd, faults}: words that it did not know, and [{name, text}] for variables with
-  // values that are none.
+  // Reads the set-up from a fragment. Returns {odd, faults}: unknown words, and [{name, text}] for variables with
+  // invalid values.
   read(fragment) {
     const words = new URLSearchParams(fragment.replace(/^#/, ""));
     const [odd, faults] = [[], []];
@@ -127,7 +127,7 @@ export class Setup {
     return { odd, faults };
   }
 
-  // Whether a word of the address is known.
+  // True if the word of the address is known.
   take(word, text, faults) {
     if (word === "scene") return this.scene.name === text;
     if (word === DURATION) return this.setStop(Number(text)) === null;

@@ -1,15 +1,15 @@
-// The gears of the picture: new surfaces where the geometry has changed, those of the start values where none can be built.
+// Gears of the picture: new surfaces after a change of geometry, or those of the start values if none can be built.
 import { Assembly } from "./assembly.js";
 
 const isGeometry = (table) => ({ reference }) => table.variables[reference].name.startsWith("geometry.");
 
 export class Shapes {
-  // `ask(settings)` asks the worker for surfaces; `built(surfaces, assembly)` takes them.
+  // `ask(settings)` requests surfaces from the worker; `built(surfaces, assembly)` receives them.
   constructor(table, ask, built) {
     Object.assign(this, { table, ask, built, key: null, waiting: [] });
   }
 
-  // The gears of a set-up, unless they are those that were asked for last.
+  // Requests the gears of a set-up, unless they were requested last.
   want(setup) {
     const settings = setup.settings();
     const key = JSON.stringify(settings.filter(isGeometry(this.table)));
@@ -25,21 +25,21 @@ export class Shapes {
     else this.standIn();
   }
 
-  // Gears of the start values where there are none yet: asked for once.
+  // Requests gears of the start values once, if there are none yet.
   standIn() {
     if (this.shown || this.isStandIn) return;
     this.isStandIn = true;
     this.request([], (name) => this.table.find(`geometry.${name}`).start);
   }
 
-  // A worker that is gone answers no more: the next set-up asks again.
+  // After the loss of a worker, outstanding answers never come, so the next set-up requests the gears again.
   forget() {
     this.key = null;
     this.waiting = [];
   }
 
   request(settings, value) {
-    // values of now: the set-up may change before the answer comes
+    // values at the time of the request: the set-up may change before the answer arrives
     const names = ["planet_teeth", "side_teeth", "planet_count", "pressure_angle"];
     const values = new Map(names.map((name) => [name, value(name)]));
     this.waiting.push((name) => values.get(name));

@@ -1,11 +1,12 @@
-// The worker as the page sees it: one run at a time, the latest request wins, and a worker that fails or hangs is replaced.
+// Interface to the worker: one run at a time, the latest request takes precedence, and a failed or hanging worker is
+// replaced.
 import program from "worker:worker.js";
 
-const PATIENCE = 1000; // ms that a run which is no longer wanted may keep the worker
+const PATIENCE = 1000; // ms for which an obsolete run may occupy the worker
 
 export class Simulation {
-  // `packed`: the library as it is in the page. `on`: functions gears, started, points, over, refused, trap, each for a message
-  // of the worker, and `anew`, called when a worker takes the place of another.
+  // `packed`: the packed library of the page. `on`: functions gears, started, points, over, refused and trap, each for
+  // a message of the worker, and `anew`, called when a worker replaces another one.
   constructor(packed, on) {
     Object.assign(this, { packed, on, number: 0, module: null });
     this.address = URL.createObjectURL(new Blob([program], { type: "text/javascript" }));
@@ -20,7 +21,7 @@ export class Simulation {
     this.worker = new Worker(this.address);
     this.worker.onmessage = ({ data }) => this.hear(data);
     this.worker.onerror = (event) => this.fall(event.message || "the worker failed");
-    // what is compiled once is compiled for the next worker, too
+    // the next worker reuses the compiled module
     this.worker.postMessage({ kind: "load", packed: this.packed, module: this.module });
   }
 
@@ -43,7 +44,7 @@ export class Simulation {
     if (message.kind !== "taken") this.on[message.kind](message);
   }
 
-  // A worker that has never been ready is not tried again.
+  // A worker that was never ready is not replaced.
   fall(text) {
     if (this.isReady) {
       this.begin();
@@ -56,7 +57,7 @@ export class Simulation {
     this.number += 1;
     const request = { kind: "run", number: this.number, scene, references };
     clearTimeout(this.watch);
-    // a step that hangs hears no new request
+    // a hanging step receives no new request
     if (this.isBusy && this.isReady) this.watch = setTimeout(() => this.replace(request), PATIENCE);
     this.isBusy = true;
     this.worker.postMessage(request);

@@ -1,10 +1,10 @@
-// Amplitudes of an output over orders of the mesh: 1 is a line at each tooth, 2 at twice that.
+// Amplitudes of an output over orders of the mesh: order 1 is one period per tooth, order 2 two periods.
 
 export const HIGHEST = 8; // order
-const FINEST = 4000; // points that are transformed at most
+const FINEST = 4000; // maximum number of transformed points
 
-// {orders, amplitudes} of the last whole mesh cycles, or null where the record holds none. `frequency` is the mesh's [Hz].
-// The amplitude at order k is that of A in A cos(2 pi k f t): the sums of Fourier over whole cycles.
+// Returns {orders, amplitudes} of the last whole mesh cycles, or null if the record contains none. `frequency` is the
+// mesh frequency [Hz]. The amplitude at order k is A in A cos(2 pi k f t), from Fourier sums over whole cycles.
 export function spectrum(times, values, frequency) {
   const length = times[times.length - 1] - times[0];
   const cycles = Math.floor(length * Math.abs(frequency) + 1e-9);
@@ -28,7 +28,7 @@ export function spectrum(times, values, frequency) {
   return { orders, amplitudes };
 }
 
-// At even distances of time, by straight lines between points.
+// Resamples at equal time intervals, by linear interpolation.
 function resampled(times, values, begin, span, count) {
   let after = 1;
   return Float64Array.from({ length: count }, (_, i) => {

@@ -1,14 +1,14 @@
-// Metal, which on gears lights up along the lines of contact. All of it is one program of the graphics unit: each one more delays
-// the first picture.
+// Metal; on gears it lights up along the contact lines. All parts share one shader program, because each further
+// program delays the first picture.
 import { Color, DoubleSide, MeshStandardMaterial, Vector3, Vector4 } from "three";
 import { paint } from "./paint.js";
 
-const MOST = 10; // lines: two meshes of each of four planets, and three pairs in place of one of them
+const MOST = 10; // lines: two meshes of each of four planets, and three pairs instead of one of them
 const X = new Vector3(1, 0, 0);
 
 const dark = () => ({ value: Array.from({ length: MOST }, () => new Vector4(0, 0, 0, 0)) });
 
-// Shared by all gears: directions of lines in the scene with the strength of their light in w, and their colours.
+// Shared by all gears: directions of lines in the scene, with the intensity of their light in w, and their colours.
 export class Glow {
   constructor() {
     this.lines = dark();
@@ -17,7 +17,8 @@ export class Glow {
     this.width = { value: 5 };
   }
 
-  // `lights`: [{line, share, colour}], the rest is dark; the scene is turned by `held` about x against the carrier.
+  // `lights`: [{line, share, colour}], all others are dark; the scene is turned by `held` about x relative to the
+  // carrier.
   show(lights, held) {
     const turned = new Vector3();
     this.lines.value.forEach((place, i) => {
@@ -32,7 +33,7 @@ export class Glow {
     });
   }
 
-  // `isLit` for gears: light at the lines, none on what lies behind them.
+  // `isLit` for gears: light at the lines, but not on surfaces behind them.
   material(colour, roughness = 0.4, isLit = false) {
     const material = new MeshStandardMaterial({ color: colour, roughness, side: DoubleSide });
     const lines = isLit ? this.lines : this.noLines;

@@ -1,4 +1,4 @@
-// What stresses are compared with, and which pressures a scale of colours leaves out: node --test.
+// Tests of the limits of stresses, and of the pressures that colour scales leave out: node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Record } from "./record.js";
@@ -21,7 +21,7 @@ function rolling(angles) {
   });
 }
 
-test("planets roll once they have turned half a pitch, and not while they stand or rock within a pitch", () => {
+test("planets roll after they have turned half a pitch, but not while they stand still or rock within a pitch", () => {
   assert.deepEqual(rolling([0, 0.4 * PITCH, 0.6 * PITCH, 0.8 * PITCH]).slice(2), [true, true]);
   assert.equal(rolling([0, 0.4 * PITCH, 0.4 * PITCH])[1], false);
   assert.ok(rolling([0, 0.4, -0.4, 0.4, -0.4].map((share) => share * PITCH)).every((each) => !each));
@@ -34,14 +34,14 @@ const VALUES = {
 };
 const setup = { value: (name) => VALUES[name] };
 
-test("the radius at the pitch point is that of two involutes, and Hertz's pressure of the study follows", () => {
+test("the radius at the pitch point follows from two involutes and gives Hertz's pressure of the study", () => {
   const { modulus, face, radius } = contactOf(setup);
-  // one pair at the pitch point carries 16 144 N at the mean cone
+  // one pair at the pitch point transmits 16 144 N at the mean cone
   const pressure = Math.sqrt((16144 * modulus) / (Math.PI * face * radius));
   assert.ok(Math.abs(pressure / 2384.6e6 - 1) < 1e-4, `${pressure}`);
 });
 
-test("a scale ends at the largest pressure outside the seam, where the radius has fallen below a quarter", () => {
+test("a scale ends at the largest pressure outside the seam, in which the radius is below a quarter", () => {
   const contact = contactOf(setup);
   const pressure = (force, share) => Math.sqrt((force * contact.modulus) / (Math.PI * contact.face * contact.radius * share));
   for (const [share, is] of [[1, false], [0.26, false], [0.24, true]]) {
@@ -53,6 +53,6 @@ test("a scale ends at the largest pressure outside the seam, where the radius ha
   const none = [-1, 0, 0, 0, 0, 0];
   const rows = [[0, ...pair(1e4, 1), ...pair(3e3, 0.01), ...none], [1, ...pair(8e3, 0.5), ...none, ...none]];
   assert.ok(Math.abs(largestPressure(record(names, rows), setup) / pressure(8e3, 0.5) - 1) < 1e-12);
-  // where all contact is in the seam it is shown
+  // if all contact is in the seam, its pressure is used
   assert.ok(largestPressure(record(names, [[0, ...pair(3e3, 0.01), ...none, ...none]]), setup) > 0);
 });

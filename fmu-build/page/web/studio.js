@@ -1,9 +1,9 @@
-// What metal mirrors: a bright room with lamps, as numbers. A modelled room would need programs of the graphics unit of its own,
-// which take longer to compile than all else here.
+// Surroundings mirrored by metal: a bright room with lamps, as an image. A modelled room would need separate shader
+// programs, which take longer to compile than everything else here.
 import { DataTexture, DataUtils, EquirectangularReflectionMapping, HalfFloatType, LinearFilter, PMREMGenerator, RGBAFormat } from "three";
 
 const [WIDE, HIGH] = [128, 64];
-// ground, horizon, ceiling; brightness
+// ground, horizon, ceiling: brightness
 const FLOOR = 0.1;
 const HORIZON = 0.3;
 const CEILING = 0.5;
@@ -39,5 +39,5 @@ function brightness(azimuth, height) {
   }, room);
 }
 
-// 1 within, 0 outside, soft between.
+// 1 inside, 0 outside, with a soft transition.
 const edge = (far) => Math.min(Math.max((1.15 - far) / 0.3, 0), 1);

@@ -1,8 +1,8 @@
-// The table of variables: names, units, ranges and start values come from the library's model description.
+// Table of variables: names, units, ranges and start values come from the library's model description.
 
 const NAMES = /[\w.[\]]+(?=:)/g;
 
-// Units that speeds are shown in, with their number for 1 rad/s.
+// Units for displayed speeds, with their values for 1 rad/s.
 export const SPEEDS = { "deg/s": 180 / Math.PI, "rad/s": 1, rpm: 30 / Math.PI };
 
 export class Table {
@@ -16,7 +16,7 @@ export class Table {
     return this.byName.get(name);
   }
 
-  // Speeds are shown in another unit.
+  // Changes the displayed unit of speeds.
   showSpeedsIn(unit) {
     const speeds = this.variables.filter((variable) => variable.unit === "rad/s");
     for (const variable of speeds) Object.assign(variable, { shown: unit, factor: SPEEDS[unit] });
@@ -26,7 +26,7 @@ export class Table {
     return this.scenes.find((scene) => scene.name === name);
   }
 
-  // What a reader may set, in groups by the part of the name before the dot.
+  // Variables that a reader may set, grouped by the part of the name before the dot.
   groups() {
     const groups = new Map();
     for (const variable of this.variables) {
@@ -38,25 +38,26 @@ export class Table {
     return groups;
   }
 
-  // Numbers that can be drawn over time.
+  // Outputs that can be drawn over time.
   outputs() {
     return this.variables.filter(({ causality, kind }) => causality === "output" && kind === "Real");
   }
 
-  // As the functions of FMI take it.
+  // Assignment for the functions of FMI.
   assignment(name, value) {
     const { kind, reference } = this.find(name);
     return { kind: kind === "Enumeration" ? "Integer" : kind, reference, value };
   }
 
-  // What a message is about: {name, text}, the text from the variable's name on; name null where there is none.
+  // Finds the variable in a message: {name, text} with the text from the variable's name on; name is null if there is
+  // none.
   subject(message) {
     const found = [...message.matchAll(NAMES)].find(([name]) => this.byName.has(name));
     return found ? { name: found[0], text: message.slice(found.index) } : { name: null, text: message };
   }
 }
 
-// A number for reading: `digits` significant ones, a real minus, no exponent where it can be avoided.
+// Formats a number for readers: `digits` significant digits, a real minus sign, and an exponent only if necessary.
 export function readable(value, digits = 5) {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
@@ -65,21 +66,21 @@ export function readable(value, digits = 5) {
   return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
 }
 
-// A variable's name in words.
+// Name of a variable as words.
 export const words = (name) => name.replaceAll("]", "").replaceAll(/[[._]/g, " ");
 
-// A unit for reading.
+// Unit for readers.
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
   const read = unit.replaceAll("deg", "°").replaceAll(".", "·").replace("^1·5", "^1.5").replace("um", "µm");
   return read.replace(/([a-z)])2/g, "$1²");
 }
 
-// A value of the SI in the variable's shown unit, and back.
+// Conversion of an SI value to the variable's displayed unit, and back.
 export const inUnit = ({ factor, offset }, value) => factor * value + offset;
 export const inSI = ({ factor, offset }, number) => (number - offset) / factor;
 
-// A value of the SI with its shown unit.
+// SI value as text with its displayed unit.
 export function shown(variable, value, digits = 5) {
   if (variable.kind === "Boolean") return value ? "on" : "off";
   if (variable.kind === "Enumeration") return variable.literals.find((literal) => literal.value === value)?.name ?? "?";
@@ -87,7 +88,7 @@ export function shown(variable, value, digits = 5) {
   return `${readable(inUnit(variable, value), digits)}${unit && ` ${unit}`}`;
 }
 
-// What a variable takes, with its shown unit; empty where it takes any number.
+// Range of a variable with its displayed unit; empty if it accepts any number.
 export function range(variable) {
   if (variable.min === null) return "";
   const end = (value) => readable(inUnit(variable, value), 4);

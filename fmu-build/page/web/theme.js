@@ -1,4 +1,4 @@
-// Light or dark: as the system says, until the switch is used.
+// Light or dark theme: follows the system until the button is used.
 
 export function followTheme(button, changed) {
   const system = matchMedia("(prefers-color-scheme: dark)");

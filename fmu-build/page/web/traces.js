@@ -1,19 +1,20 @@
-// Outputs over time, a plot for each unit, scrolling with the picture; a press in a plot seeks. Or their spectra.
+// Outputs over time, with a plot for each unit that scrolls with the picture, or their spectra. A press in a plot
+// seeks.
 import { colour, panel } from "./panel.js";
 import { HIGHEST, spectrum } from "./spectrum.js";
 import { inUnit, shown } from "./table.js";
 
 const COLOURS = ["--trace-1", "--trace-2", "--trace-3", "--trace-4", "--trace-5", "--trace-6"];
-const AHEAD = 0.2; // part of the window after now
+const AHEAD = 0.2; // fraction of the window after the present time
 
 export class Traces {
-  // `seek(time)` is called with the time pressed on.
+  // `seek(time)` is called with the pressed time.
   constructor(host, table, seek) {
     Object.assign(this, { host, table, seek, plots: [], names: [], now: 0, share: 1, isSpectral: false });
     new ResizeObserver(() => this.fit()).observe(host);
   }
 
-  // Starts anew for these outputs of a record that will last to `stop`.
+  // Restarts with these outputs of a record that will reach `stop`.
   begin(names, record, stop) {
     Object.assign(this, { names, record, stop });
     this.build();
@@ -48,7 +49,7 @@ export class Traces {
     return made;
   }
 
-  // What of the time is drawn: all, or a window that moves along.
+  // Drawn interval of time: the whole run, or a moving window.
   window() {
     const width = this.stop * this.share;
     const begin = Math.min(Math.max(this.now - (1 - AHEAD) * width, 0), this.stop - width);
@@ -64,7 +65,7 @@ export class Traces {
     plot.ctx.restore();
   }
 
-  // New points have come.
+  // Draws new points.
   refresh() {
     for (const { plot, series } of this.plots) {
       const columns = series.map(({ name }) => {
@@ -75,14 +76,14 @@ export class Traces {
     }
   }
 
-  // Spectra over the same orders, or nothing where the gears do not roll through a whole mesh cycle.
+  // Spectra over common orders, or empty ones if the gears do not roll through a whole mesh cycle.
   spectra(columns) {
     const frequency = this.record.value("mesh.frequency");
     const made = columns.map((column) => spectrum(this.record.times, column, frequency));
     return made.includes(null) ? [[], ...columns.map(() => [])] : [made[0].orders, ...made.map(({ amplitudes }) => amplitudes)];
   }
 
-  // The picture is at this time.
+  // Shows the values at the time of the picture.
   at(time) {
     this.now = time;
     for (const { plot, series, values } of this.plots) {

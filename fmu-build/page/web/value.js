@@ -1,12 +1,12 @@
-// A value from a text, of a field or of the address. What is a number of the right kind is for the library to judge, also NaN and
-// what is out of range: its messages are better than a second list of rules.
+// Parses a value from a field or the address. Numbers of the right kind are left to the library, including NaN and
+// values out of range, because its messages are better than a second list of rules.
 import { inSI, range, unitText } from "./table.js";
 
 const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity, "-infinity": -Infinity };
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 const INTEGERS = [-(2 ** 31), 2 ** 31 - 1];
 
-// {value} in SI or {fault}, from a text in the variable's shown unit.
+// Returns {value} in SI or {fault}, from a text in the variable's displayed unit.
 export function readValue(variable, text) {
   const { name, kind, literals } = variable;
   const plain = text.trim().replace("−", "-").replace(",", ".");
@@ -29,5 +29,5 @@ export function readValue(variable, text) {
   return { value: inSI(variable, number) };
 }
 
-// The same from a text in SI, as in a link.
+// Parses a text in SI, as in a link.
 export const readValueInSI = (variable, text) => readValue({ ...variable, shown: variable.unit ?? "1", factor: 1, offset: 0 }, text);

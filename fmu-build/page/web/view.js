@@ -1,17 +1,18 @@
-// The window on the gears: camera, light, labels, and drawing when something has changed.
+// Window with the gears: camera, light and labels. It is drawn only after changes.
 import { ACESFilmicToneMapping, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Differential } from "./differential.js";
 import { studio } from "./studio.js";
 
-const MARGIN = 44; // pixels from a label's middle to the window's edge
-const ANGLE = 26; // deg of view, upright
-const FINEST = 2; // pixels of the picture to one of the page, in a line
-const COARSE = 5e4; // pixels of a picture that the processor draws
+const MARGIN = 44; // minimum distance of a label's middle from the window's edge in pixels
+const ANGLE = 26; // vertical angle of view in degrees
+const FINEST = 2; // maximum number of picture pixels per page pixel, in one direction
+const COARSE = 5e4; // maximum number of pixels if the processor draws
 
-// From the rear of a vehicle: +x, its left, is at the left.
-// `from` is where the eye is, in axes of the scene or, with `at`, of the left mesh of planet 1: along its pitch line, forward,
-// away from the planet. `at` is the place looked at along the pitch line; lengths are in reaches of the gears.
+// Seen from the rear of a vehicle, with +x, its left, at the left.
+// `from` is the position of the eye in axes of the scene. With `at`, it is in axes of the left mesh of planet 1: along
+// its pitch line, forward, away from the planet. `at` is the target along the pitch line; lengths are relative to the
+// reach of the gears.
 export const PRESETS = {
   whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7 },
   mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
@@ -20,7 +21,7 @@ export const PRESETS = {
 };
 
 export class View {
-  // `isFine` draws every pixel where the processor draws, too, for pictures to keep.
+  // `isFine` draws every pixel even if the processor draws, for pictures that are saved.
   constructor(canvas, labels, isFine) {
     this.canvas = canvas;
     this.isCoarse = !isFine && isDrawnByProcessor();
@@ -29,7 +30,7 @@ export class View {
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
     if (this.isCoarse) {
-      // mirrored light takes more than half of a picture's time where the processor draws
+      // mirrored light takes more than half of a picture's time if the processor draws
       this.scene.add(new HemisphereLight("#ffffff", "#8a8078", 1.5));
     } else {
       this.scene.environment = studio(this.renderer);
@@ -37,7 +38,7 @@ export class View {
     }
     const key = new DirectionalLight("#fff4e4", 1.8);
     key.position.set(-0.6, 1.2, -0.9);
-    // a lamp beside the eye: no face that is seen stays black
+    // a lamp next to the eye, so that no visible face is black
     this.lamp = new DirectionalLight("#ffffff", 0.9);
     this.scene.add(key, this.lamp);
     this.camera = new PerspectiveCamera(ANGLE, 1, 1, 10000);
@@ -46,7 +47,7 @@ export class View {
     this.orbit.addEventListener("change", () => { this.stale = true; });
     this.differential = new Differential();
     this.scene.add(this.differential.group, this.differential.still);
-    // the graphics unit compiles its programs while the library is loaded
+    // the shader programs are compiled while the library is loaded
     this.renderer.compile(this.scene, this.camera);
     this.labels = labels;
     this.preset = "whole";
@@ -77,7 +78,7 @@ export class View {
       target.copy(line).multiplyScalar(at * reach);
       direction.copy(line).multiplyScalar(from[0]).addScaledVector(forward, from[1]).addScaledVector(apart, from[2]);
     }
-    // a narrow window sees the whole from farther away
+    // in a narrow window, the eye is farther away
     const wide = Math.max(1, (at ? 0.9 : 1.45) / this.camera.aspect);
     this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * wide).add(target);
     this.orbit.target.copy(target);
@@ -90,7 +91,7 @@ export class View {
     this.stale = true;
   }
 
-  // Moves the eye about the gears by angles [rad].
+  // Moves the eye around the gears by angles [rad].
   turn(around, up) {
     const offset = this.camera.position.clone().sub(this.orbit.target);
     offset.applyAxisAngle(this.camera.up, around);
@@ -115,7 +116,7 @@ export class View {
     this.stale = true;
   }
 
-  // Moves the picture by shares of the window, out of the way of what covers it.
+  // Shifts the picture by fractions of the window, away from panels that cover it.
   shift(x, y) {
     this.aside = [x, y];
     this.fit();
@@ -136,7 +137,7 @@ export class View {
     this.label();
   }
 
-  // Names beside the parts, where they are in the window.
+  // Puts names next to the parts in the window.
   label() {
     const { reach, group, planets } = this.differential;
     const places = this.preset !== "whole" ? {} : {
@@ -158,7 +159,7 @@ export class View {
   }
 }
 
-// Whether there is no graphics unit: browsers draw by a program then, of one of these names.
+// True without a graphics unit: browsers then draw with a software renderer, which has one of these names.
 function isDrawnByProcessor() {
   const context = document.createElement("canvas").getContext("webgl2");
   const extension = context?.getExtension("WEBGL_debug_renderer_info");

@@ -1,11 +1,11 @@
-// The guided walk: five set-ups, and what to see in each.
+// Guided walk: five set-ups with explanations.
 
 export const STEPS = [
   {
     title: "Straight ahead",
     fragment: "scene=study_straight&show=carrier.speed+left.speed+left.normal_force+right.normal_force",
     text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
-      + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
+      + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all equal.",
   },
   {
     title: "A turn",
@@ -38,8 +38,8 @@ export const STEPS = [
 ];
 
 export class Walk {
-  // `host` holds elements by data-walk: title, text, place, back, next, close; `go(step)` sets the page up;
-  // `opened(whether)` makes room for it.
+  // `host` contains elements by data-walk: title, text, place, back, next, close; `go(step)` applies a set-up;
+  // `opened(isOpen)` adapts the layout.
   constructor(host, go, opened) {
     this.opened = opened;
     this.host = host;

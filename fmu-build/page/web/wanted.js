@@ -1,10 +1,10 @@
-// What a run notes at each point: what the picture, the figures, the traces and the colours need, and no more.
+// Outputs that a run records at each point: only those for the picture, the values, the traces and the colours.
 import { pairNames } from "./pairs.js";
 
 const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
 const SIDES = ["left", "right"];
 
-// Whether a gear set of so many planets has a variable: false for one of a planet with a higher number.
+// True if a gear set of `count` planets has the variable: false for variables of further planets.
 export const isThere = (name, count) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > count);
 
 export const planets = (setup) => Array.from({ length: setup.value("geometry.planet_count") }, (_, i) => `planet[${i + 1}]`);
@@ -13,7 +13,7 @@ export const forces = (setup) => planets(setup).flatMap((planet) => SIDES.map((s
 
 export const heats = (table) => table.outputs().map(({ name }) => name).filter((name) => name.startsWith("heat."));
 
-// `colours` are the outputs that the colour mode needs; `withPressures` asks for the pressures of tooth pairs.
+// `colours` are the outputs for the colour mode; `withPressures` adds the pressures of tooth pairs.
 export function wanted(table, setup, colours, withPressures) {
   const sides = SIDES.flatMap((side) => [`${side}.angle`, `${side}.speed`, `${side}.twist`, `${side}.tangential_force`]);
   const spins = planets(setup).map((planet) => `${planet}.spin_angle`);

@@ -1,27 +1,27 @@
-// The worker: it owns the library, runs scenes and makes surfaces of gears. It answers every request with messages.
+// The worker: it owns the library, runs scenes and computes surfaces of gears. It answers every request with messages.
 import { XzReadableStream } from "xz-decompress";
 import { Library, Refused } from "./library.js";
 import { Run } from "./run.js";
 
 const BATCH = 30; // ms of simulation between two messages
-const MOST = 500; // points in a message
+const MOST = 500; // maximum number of points in a message
 
-const WARM = 700; // ms at most before the first run
-const FASTER = 6; // times: how much faster a run is when it is compiled well
+const WARM = 700; // maximum warm-up before the first run in ms
+const FASTER = 6; // speed-up of a run by optimised compilation
 
 let library = null;
-let loaded = null; // settles when the library is there
+let loaded = null; // resolves when the library is loaded
 let isWarm = false;
-let current = 0; // number of the run that is wanted
+let current = 0; // number of the current run
 
-// Lets messages in.
+// Lets the worker receive messages.
 const pause = () => new Promise((resolve) => {
   const { port1, port2 } = new MessageChannel();
   port1.onmessage = () => resolve(port1.close());
   port2.postMessage(null);
 });
 
-// Compiles while it unpacks.
+// Compiles the library while unpacking it.
 function compiled(packed) {
   const stream = new XzReadableStream(new Blob([packed]).stream());
   return WebAssembly.compileStreaming(new Response(stream, { headers: { "Content-Type": "application/wasm" } }));
@@ -31,7 +31,7 @@ const requests = {
   async load({ packed, module }) {
     const made = module ?? await compiled(packed);
     library = await Library.of(made);
-    // what another worker has run is compiled already
+    // a module from another worker is already compiled and optimised
     isWarm = Boolean(module);
     postMessage({ kind: "ready", module: made });
   },
@@ -55,8 +55,8 @@ const requests = {
   },
 };
 
-// A browser compiles what runs often once more, to faster code. The first scene runs over and over for that, reading what will be
-// noted: other scenes and outputs take other ways through the library.
+// Repeats the first scene to warm up: browsers compile frequently executed code again to faster code. The recorded
+// outputs are read as well, because other scenes and outputs use other parts of the library.
 async function warm(number, scene, reader) {
   const begin = performance.now();
   const isWanted = () => current === number && performance.now() - begin < WARM;
@@ -75,10 +75,10 @@ async function warm(number, scene, reader) {
   isWarm = isWarm || current === number;
 }
 
-// Warnings of the library since they were last asked for.
+// Warnings of the library since the last call.
 const warned = () => library.said().filter(({ status }) => status > 0).map(({ text }) => text);
 
-// The run that is shown.
+// Runs the displayed scene.
 async function noted(number, scene, reader) {
   const run = new Run(library, scene);
   postMessage({ kind: "started", number, warnings: warned() });
@@ -94,7 +94,7 @@ async function noted(number, scene, reader) {
   }
 }
 
-// Points of a run for one message: rows of time and what the reader reads.
+// Points of a run for one message: rows of time and the reader's values.
 class Batch {
   constructor(reader) {
     this.reader = reader;
@@ -110,7 +110,7 @@ class Batch {
     this.count += 1;
   }
 
-  // Goes on with the run for a while; returns the time it took [ms].
+  // Continues the run for a while; returns the elapsed time [ms].
   fill(run) {
     const begin = performance.now();
     this.count %= MOST;
@@ -134,7 +134,7 @@ onmessage = async ({ data }) => {
     await loaded;
     if (data.kind !== "load") await requests[data.kind](data);
   } catch (error) {
-    // a trap leaves the library in no state to go on
+    // after a trap, the library cannot continue
     const kind = error instanceof Refused ? "refused" : "trap";
     postMessage({ kind, number: data.number, text: String(error.message ?? error) });
   }

@@ -1,4 +1,4 @@
-"""Renders the solids of the differential, with half-shafts, pin and carrier added for orientation.
+"""Renders the solids of the differential. Half-shafts, pin and carrier are added for orientation.
 
 Writes the picture of docs/geometry.md and the FMU's icon, from the meshes that `bevel-differential geometry` wrote:
 
@@ -24,21 +24,21 @@ from bevel_differential import style  # noqa: E402
 
 mitsuba.set_variant("scalar_rgb")
 STEEL, BRASS, SHAFT, CARRIER = (0.24, 0.40, 0.64), (0.84, 0.53, 0.14), (0.42, 0.44, 0.47), (0.16, 0.17, 0.19)
-# metres: radius of half-shafts and pin, and the carrier as a hoop about both
+# metres: radius of half-shafts and pin, and of the carrier, which is a hoop around both
 SHAFT_RADIUS, PIN_RADIUS = 12e-3, 7.5e-3
 HOOP_INNER, HOOP_OUTER, HOOP_WIDTH = 45e-3, 49e-3, 20e-3
 SHAFT_END = 70e-3
-# where side gears and planets end, at their backs: shafts and pin begin inside
+# back faces of side gears and planets [m]: shafts and pin begin inside
 BACK = 16e-3
-# faces that meet at more than this keep an edge
+# edges stay sharp between faces at a larger angle
 SHARP = np.radians(25.0)
-# what is labelled: text, a point of it [m], place of the text in shares of the picture
+# labels: text, labelled point [m], position of the text as fractions of the picture
 LABELS = [("side gear", (-23e-3, -15e-3, 31e-3), (0.08, 0.20)), ("side gear", (22e-3, -20e-3, 24e-3), (0.93, 0.20)),
           ("planet", (10e-3, 33e-3, 20e-3), (0.88, 0.90)), ("half-shaft", (-62e-3, 8e-3, 9e-3), (0.06, 0.80)),
           ("pin", (-5e-3, 40e-3, 5e-3), (0.27, 0.95)), ("carrier (outline)", (-34e-3, 33e-3, 10e-3), (0.13, 0.90))]
-# lines to labels stay visible on dark parts
+# lines to labels with a halo stay visible on dark parts
 HALO = [withStroke(linewidth=3.5, foreground="white")]
-# direction of the camera from the middle [m], angle of view, size and rays per pixel
+# direction and distance of the camera from the middle [m], angle of view, picture sizes and rays per pixel
 VIEW, DISTANCE, ANGLE = np.array([0.48, 0.36, 1.0]), 0.5, 18.4
 PICTURE, ICON = (1400, 930), (256, 256)
 RAYS, ICON_RAYS, QUICK_RAYS = 144, 400, 16
@@ -61,7 +61,7 @@ def main():
 
 
 def gears(scene):
-    """(mesh, colour, roughness) of each gear where it stands."""
+    """Mesh, colour and roughness of each gear in its position."""
     for node in scene.graph.nodes_geometry:
         placed, name = scene.graph[node]
         mesh = scene.geometry[name].copy()
@@ -70,7 +70,7 @@ def gears(scene):
 
 
 def surroundings():
-    """Half-shafts along x, the pin along y, and the carrier as a hoop that both pass through."""
+    """Half-shafts along x, the pin along y, and the carrier as a hoop through which both pass."""
     for sign in (1.0, -1.0):
         yield cylinder(SHAFT_RADIUS, [sign * BACK, 0.0, 0.0], [sign * SHAFT_END, 0.0, 0.0]), SHAFT, 0.25
     yield cylinder(PIN_RADIUS, [0.0, -HOOP_OUTER - 3e-3, 0.0], [0.0, HOOP_OUTER + 3e-3, 0.0]), SHAFT, 0.25
@@ -82,7 +82,7 @@ def cylinder(radius, begin, end):
 
 
 def shape(file, mesh, colour, roughness):
-    """A part as the renderer takes it: metal, edges sharp, curved faces smooth."""
+    """A part for the renderer: metal with sharp edges and smooth curved faces."""
     mesh.merge_vertices(merge_norm=True, merge_tex=True)
     trimesh.graph.smooth_shade(mesh, angle=SHARP).export(file, vertex_normal=True)
     metal = {"type": "principled", "base_color": {"type": "rgb", "value": list(colour)}, "metallic": 0.55,
@@ -91,7 +91,7 @@ def shape(file, mesh, colour, roughness):
 
 
 def camera():
-    """Where the camera is, and the axes of its picture: right, up, toward the camera."""
+    """Position of the camera, and the axes of its picture: right, up, toward the camera."""
     toward = VIEW / np.linalg.norm(VIEW)
     right = np.cross([0.0, 1.0, 0.0], toward)
     right /= np.linalg.norm(right)
@@ -99,7 +99,7 @@ def camera():
 
 
 def render(shapes, size, rays):
-    """The picture as sRGB with alpha: what no ray hits is empty."""
+    """Picture as sRGB with alpha: pixels without a hit are transparent."""
     look = mitsuba.ScalarTransform4f().look_at(origin=camera()[0].tolist(), target=[0.0, 0.0, 0.0], up=[0.0, 1.0, 0.0])
     scene = {
         "type": "scene",
@@ -123,7 +123,7 @@ def lamp(position, size, strength):
 
 
 def labelled(file, bitmap):
-    """The picture with the names of its parts and a caption."""
+    """Picture with the names of its parts and a caption."""
     image = np.array(bitmap)
     picture, axes = style.panels(1, 1, 9.6)
     axes.imshow(image, interpolation="antialiased")
@@ -141,7 +141,7 @@ def labelled(file, bitmap):
 
 
 def projected(point, shape):
-    """Where a point is in the picture [pixels]."""
+    """Position of a point in the picture [pixels]."""
     origin, axes = camera()
     x, y, z = axes @ (point - origin)
     scale = 0.5 * shape[1] / np.tan(np.radians(0.5 * ANGLE))

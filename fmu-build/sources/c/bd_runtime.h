@@ -1,15 +1,15 @@
-/* What the library in C stands on: an instance with its memory, the operations of WebAssembly, and traps.
+/* Runtime of the library in C: an instance with its memory, the operations of WebAssembly, and traps.
 
-   The library is a program for a machine of WebAssembly. Here the machine is a struct: its memory has a fixed size, so that nothing
-   is allocated and no operating system is needed. An access outside of it, or whatever else the machine forbids, is a trap, which
-   ends the call of FMI and the instance, and nothing else. */
+   The library is a program for a machine of WebAssembly. Here the machine is a struct: its memory has a fixed size, so nothing is
+   allocated and no operating system is needed. An access outside of it, or anything else that the machine forbids, is a trap. A trap
+   ends only the present call of FMI and its instance. */
 
 #ifndef BD_RUNTIME_H
 #define BD_RUNTIME_H
 
-/* Products and sums are rounded one by one: an operation that fuses them gives other bits. Compilers that fuse by default, as gcc's
-   default dialect does, are kept from it here, and bd_arithmetic_differs looks whether that worked. Vectors of statements go with it:
-   gcc 12 fuses alternating sums and differences of products that it has put into vectors, whatever it is told about fusing. */
+/* Products and sums must be rounded individually, because a fused operation gives other bits. Some compilers fuse by default, as gcc
+   does in its default dialect. These lines prevent it, and bd_arithmetic_differs checks the result. Vectorised statements are also
+   switched off: gcc 12 fuses alternating sums and differences of products in vectors even if fusing is forbidden. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__)
@@ -27,7 +27,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What no host shall see: a library exports the functions of FMI alone. */
+/* Hides internal functions: a library exports only the functions of FMI. */
 #if defined(__ELF__) || defined(__APPLE__)
 #define BD_HIDDEN _Pragma("GCC visibility push(hidden)")
 #define BD_SEEN _Pragma("GCC visibility pop")
@@ -50,7 +50,7 @@ typedef double f64;
 BD_HIDDEN
 
 #define BD_PAGE 65536u
-/* Memory of an instance in pages of 64 KiB: what the library may grow to. */
+/* Maximum memory of an instance, in pages of 64 KiB. */
 #ifndef BD_PAGES
 #define BD_PAGES 32u
 #endif
@@ -58,10 +58,10 @@ BD_HIDDEN
 
 typedef struct bd {
     union { u8 bytes[BD_MEMORY]; f64 aligned; } memory;
-    /* pages in use, and the most that ever were: what lies beyond holds zeros */
+    /* pages in use, and their maximum so far: memory beyond contains zeros */
     u32 pages, touched;
     BD_GLOBALS
-    /* where a trap leads to */
+    /* destination of the jump after a trap */
     jmp_buf home;
 } bd;
 
@@ -81,14 +81,14 @@ enum { BD_UNREACHABLE = 1, BD_OUT_OF_BOUNDS, BD_DIVISION, BD_WRONG_CALL };
 
 BD_NO_RETURN void bd_trap(bd *s, int reason);
 
-/* Begins an instance anew: memory as the library wants it. */
+/* Initialises an instance, including its memory. */
 void bd_start(bd *s);
-/* First content of memory and globals; made from the library. */
+/* Initial content of memory and globals; generated from the library. */
 void bd_library_start(bd *s);
-/* What of the arithmetic of this program, as compiled and as it runs, would give other bits than IEEE 754 step by step; NULL if nothing. */
+/* Reason why this program's arithmetic gives other bits than step-by-step IEEE 754; NULL if the bits agree. */
 const char *bd_arithmetic_differs(void);
 
-/* Where `count` bytes at `place` + `offset` are. */
+/* Pointer to `count` bytes at `place` + `offset`. */
 static inline u8 *bd_at(bd *s, u32 place, u32 offset, u32 count) {
     if (BD_UNLIKELY((u64)place + offset + count > BD_MEMORY)) bd_trap(s, BD_OUT_OF_BOUNDS);
     return s->memory.bytes + ((size_t)place + offset);
@@ -136,10 +136,10 @@ static inline void memory_copy(bd *s, u32 to, u32 from, u32 count) {
 static inline void memory_fill(bd *s, u32 to, u32 value, u32 count) {
     memset(bd_at(s, to, 0, count), (int)(value & 255u), count);
 }
-/* Pages before, or -1 if there is no room for so many more. */
+/* Adds `pages`. Returns the previous number of pages, or -1 if there is not enough room. */
 u32 memory_grow(bd *s, u32 pages);
 
-/* The table of functions; those of one type have one number. */
+/* Table of functions; functions of one type have the same type number. */
 typedef void bd_function(void);
 typedef struct { bd_function *function; u32 type; } bd_entry;
 extern const bd_entry bd_table[];
@@ -190,7 +190,7 @@ static inline u32 I32_CTZ(u32 x) { return x ? (u32)I64_CTZ(x) : 32u; }
 static inline u32 I32_POPCNT(u32 x) { u32 n = 0; for (; x; x &= x - 1) ++n; return n; }
 static inline u64 I64_POPCNT(u64 x) { u64 n = 0; for (; x; x &= x - 1) ++n; return n; }
 
-/* Numbers: what C leaves open or does otherwise. */
+/* Numbers: operations that C leaves undefined or defines differently. */
 static inline u64 i64_reinterpret_f64(f64 x) { u64 y; memcpy(&y, &x, sizeof y); return y; }
 static inline f64 f64_reinterpret_i64(u64 x) { f64 y; memcpy(&y, &x, sizeof y); return y; }
 static inline u32 i32_reinterpret_f32(f32 x) { u32 y; memcpy(&y, &x, sizeof y); return y; }
@@ -212,7 +212,7 @@ static inline f64 bd_max(f64 x, f64 y) {
 }
 #define FMIN bd_min
 #define FMAX bd_max
-/* Conversions that end at the ends of the range; what is no number becomes 0. */
+/* Conversions that saturate at the ends of the range; NaN becomes 0. */
 static inline u32 I32_TRUNC_SAT_S_F64(f64 x) {
     return x != x ? 0 : x <= -2147483649.0 ? 0x80000000u : x >= 2147483648.0 ? 0x7fffffffu : (u32)(s32)x;
 }

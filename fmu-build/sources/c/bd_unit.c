@@ -1,4 +1,4 @@
-/* Instances of the unit, and what passes between their machines and the host. */
+/* Instances of the unit, and the data passed between their machines and the host. */
 
 #include "bd_unit.h"
 
@@ -10,7 +10,7 @@ static void append(char *text, size_t most, const char *more) {
     text[length] = 0;
 }
 
-/* messages have no conversions: each is a format of printf that prints itself */
+/* messages contain no conversions, so each one is a format for printf that prints itself */
 static void say(const bd_unit *u, fmi2Status status, const char *category, const char *text) {
     if (u->logger) u->logger(u->environment, u->name, status, category, text);
 }
@@ -39,7 +39,7 @@ bd_unit *bd_take(const fmi2CallbackFunctions *functions, fmi2String name) {
 }
 
 u32 bd_room(bd_unit *u, size_t bytes) {
-    /* more than memory holds is a trap of its own */
+    /* more than memory holds is a separate trap */
     if (bytes > BD_MEMORY) bd_trap(&u->machine, BD_OUT_OF_BOUNDS);
     return bd_source_room_0(&u->machine, (u32)bytes);
 }
@@ -95,14 +95,14 @@ fmi2Status bd_died(bd_unit *u, int reason) {
     char text[768] = "internal error, please report: ";
     u->is_dead = 1;
     append(text, sizeof text, reasons[reason]);
-    /* the library's own words, unless it is so broken that it cannot even say where they are */
+    /* the library's own message, unless the library is so damaged that it cannot return its position */
     reason = setjmp(u->machine.home);
     if (!reason) {
         const char *words = (const char *)u->machine.memory.bytes + bd_source_reason_0(&u->machine);
         append(text, sizeof text, *words ? ": " : "");
         append(text, sizeof text, words);
     }
-    append(text, sizeof text, "; this instance is lost, others live on");
+    append(text, sizeof text, "; this instance is lost, the others still work");
     say(u, fmi2Fatal, "logStatusError", text);
     return fmi2Fatal;
 }

@@ -3,7 +3,7 @@
 #include "bd_unit.h"
 
 #define M (&u->machine)
-/* The begin of every call: `u` is the instance of the component `c`. A trap returns from the function that this stands in. */
+/* Start of every call: `u` is the instance of the component `c`. After a trap, the function that contains this returns. */
 #define BEGIN \
     bd_unit *const u = (bd_unit *)c; \
     int reason; \
@@ -11,7 +11,7 @@
     if (u->is_dead) return fmi2Fatal; \
     reason = setjmp(u->machine.home); \
     if (reason) return bd_died(u, reason)
-/* The function fmi2`name` of the library. */
+/* Calls the library's function fmi2`name`. */
 #define CALL(name, ...) bd_fmi2##name##_0(M, u->component __VA_ARGS__)
 #define END(name, ...) return bd_ended(u, CALL(name, __VA_ARGS__))
 
@@ -19,7 +19,7 @@ const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 const char *fmi2GetVersion(void) { return fmi2Version; }
 
-/* The instance of a machine that was just started; 0 if the library refuses it or stops. */
+/* Creates the instance of a machine that was just started; 0 if the library refuses it or stops. */
 static u32 begun(bd_unit *u, fmi2String name, fmi2Type type, fmi2String guid, fmi2Boolean logging) {
     enum { MOST = 256 };
     int reason = setjmp(u->machine.home);
@@ -48,7 +48,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
 }
 
 void fmi2FreeInstance(fmi2Component c) {
-    /* its memory is begun anew for the next one */
+    /* its memory is initialised again for the next instance */
     if (c) ((bd_unit *)c)->is_used = 0;
 }
 
@@ -82,7 +82,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real point, fmi2Real size, fmi2Boolea
     END(DoStep, , point, size, (u32)neverBack);
 }
 
-/* Values: an array of references and one of values, in the room one behind the other, the values first as they are wider. */
+/* Values: an array of values followed by an array of references in the room; the values are first because they are wider. */
 #define VALUES(bytes) \
     const u32 values = bd_room(u, count * ((bytes) + sizeof(u32))), references = values + (u32)(count * (bytes)); \
     bd_put(u, references, vr, count * sizeof(u32))
@@ -108,7 +108,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real point, fmi2Real size, fmi2Boolea
             END(name, , PASSED); \
         } \
     }
-/* there are no texts among the variables: what the library needs to say so is the references alone */
+/* no variable is a text: the library needs only the references to refuse the call */
 #define TEXTS(name, type) \
     fmi2Status fmi2##name(fmi2Component c, const fmi2ValueReference vr[], size_t count, type value[]) { \
         BEGIN; \
@@ -139,7 +139,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
     }
 }
 
-/* what real-time targets do without is refused by the library, with a message */
+/* features that real-time targets do not need are refused by the library, with a message */
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t count, const fmi2Integer order[], fmi2Real value[]) {
     (void)vr, (void)count, (void)order, (void)value;
     BEGIN;
@@ -176,7 +176,7 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     }
 }
 
-/* States lie in the memory of the instance that they belong to: the host's pointers point there. */
+/* States are in the memory of their instance, and the host's pointers point there. */
 static void put_state(bd_unit *u, u32 place, void *const *state) {
     if (state) i32_store(M, place, 0, bd_from_host(u, *state));
 }

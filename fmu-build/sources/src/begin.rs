@@ -1,4 +1,4 @@
-//! Begin of an instance.
+//! Start of an instance.
 
 use std::ffi::{c_int, c_void};
 use std::ptr;
@@ -7,7 +7,7 @@ use bevel_differential::fmi2::{Boolean, CallbackFunctions, ComponentPointer, Log
 
 use crate::{messages, reason, room};
 
-/// A logger of C takes any number of arguments; compiled for WebAssembly these are one pointer, which is not used.
+/// A logger in C has any number of arguments. Compiled for WebAssembly, they are one pointer, which is not used.
 type PlainLogger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, *const c_void);
 
 unsafe extern "C" fn keep(_: *mut c_void, _: Text, status: Status, category: Text, message: Text, _: *const c_void) {
@@ -15,7 +15,7 @@ unsafe extern "C" fn keep(_: *mut c_void, _: Text, status: Status, category: Tex
     unsafe { messages::keep(status, category, message) };
 }
 
-/// Makes room and keeps reasons: the first call of all.
+/// Allocates room and sets the panic hook. It must be the first call.
 #[unsafe(no_mangle)]
 pub extern "C" fn source_start() {
     reason::keep();
@@ -23,7 +23,7 @@ pub extern "C" fn source_start() {
     messages::make();
 }
 
-/// fmi2Instantiate with messages that are kept.
+/// Calls fmi2Instantiate with a logger that stores messages.
 ///
 /// # Safety
 /// `name` and `guid` are NULL or end with 0.
@@ -38,6 +38,6 @@ pub unsafe extern "C" fn source_instantiate(name: Text, kind: c_int, guid: Text,
         step_finished: None,
         component_environment: ptr::null_mut(),
     };
-    // SAFETY: the caller's promise; the callbacks are copied
+    // SAFETY: guaranteed by the caller; the callbacks are copied
     unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), &callbacks, 0, logging) }
 }

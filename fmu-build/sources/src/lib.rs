@@ -1,7 +1,9 @@
-//! The library that is turned into C: the functions of FMI 2.0, and functions that the C around it needs: room for the values of a
-//! call, an instance that keeps its messages, the reason of a panic, and how often memory was allocated.
+//! Library that is translated to C: the functions of FMI 2.0 with additional functions for the surrounding C code.
+//! These provide room for the values of a call, an instance that stores its messages, the reason of a panic, and the
+//! number of allocations.
 //!
-//! One such library, with a memory of its own, is one instance of the unit. Pointers are places in that memory, 0 is NULL.
+//! One such library with its separate memory is one instance of the unit. Pointers are indices into that memory; 0 is
+//! NULL.
 #![cfg(target_family = "wasm")]
 
 mod allocator;

@@ -1,9 +1,9 @@
-//! Why the library stopped: the message of a panic, which in WebAssembly ends in a trap.
+//! Reason for a stop of the library: the message of a panic, which in WebAssembly ends in a trap.
 
 use std::cell::UnsafeCell;
 use std::fmt::Write as _;
 
-/// Bytes of the reason; the rest is cut.
+/// Maximum size of the reason in bytes; a longer one is cut.
 const MOST: usize = 512;
 
 struct Reason(UnsafeCell<([u8; MOST], usize)>);
@@ -13,7 +13,7 @@ unsafe impl Sync for Reason {}
 
 static REASON: Reason = Reason(UnsafeCell::new(([0; MOST], 0)));
 
-/// Writes as much as there is room for, without allocating: memory may be what is lacking.
+/// Writes as much as there is room for, without allocating, because memory may be exhausted.
 impl std::fmt::Write for &Reason {
     fn write_str(&mut self, text: &str) -> std::fmt::Result {
         // SAFETY: one thread, and no other reference
@@ -26,16 +26,16 @@ impl std::fmt::Write for &Reason {
     }
 }
 
-/// From now on panics leave their reason.
+/// Makes later panics store their reason.
 pub fn keep() {
-    // the library sets its hook at the first call, and not again
+    // the library sets its hook only at the first call
     let _ = bevel_differential::instance::catch(|| ());
     std::panic::set_hook(Box::new(|info| {
         let _ = write!(&REASON, "{info}");
     }));
 }
 
-/// Where the reason is, a text that ends with 0; empty if no panic stopped the library.
+/// Returns a pointer to the reason, a text that ends with 0. It is empty if no panic occurred.
 #[unsafe(no_mangle)]
 pub extern "C" fn source_reason() -> *const u8 {
     REASON.0.get().cast()

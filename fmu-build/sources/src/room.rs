@@ -1,8 +1,8 @@
-//! Room for what a host passes by pointers.
+//! Room for values that a host passes by pointers.
 
 use std::cell::UnsafeCell;
 
-/// Words that are there from the start: references and values of all variables of the unit, and more.
+/// Number of words allocated at the start: more than references and values of all variables of the unit.
 const WORDS: usize = 1024;
 
 struct Room(UnsafeCell<Vec<u64>>);
@@ -12,12 +12,12 @@ unsafe impl Sync for Room {}
 
 static ROOM: Room = Room(UnsafeCell::new(Vec::new()));
 
-/// Makes the room that any usual call takes, so that none allocates later.
+/// Allocates the room for all usual calls, so that none allocates later.
 pub fn make() {
     source_room(WORDS * size_of::<u64>());
 }
 
-/// Room for `bytes`, aligned for all numbers, until this is called again. What it holds is left over from calls before.
+/// Returns room for `bytes`, aligned for all numbers, until the next call of this function. It is not cleared.
 #[unsafe(no_mangle)]
 pub extern "C" fn source_room(bytes: usize) -> *mut u64 {
     // SAFETY: one thread, and no reference outlives this call

@@ -1,4 +1,4 @@
-//! The .fmu archive: the libraries, their description, documentation and licences; the same bytes every time.
+//! The .fmu archive: libraries, their description, documentation and licences. The same sources give the same bytes.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -14,20 +14,20 @@ use crate::fmu::{describe, describe3, documentation, evidence, licences, page, t
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 
-/// Permissions of the archive's files.
+/// Permissions of files in the archive.
 const PLAIN: u32 = 0o644;
 const EXECUTABLE: u32 = 0o755;
 
-/// How an archive is compressed: the level of deflate.
+/// Compression level of an archive (deflate).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// In little time, for this machine.
+    /// Fast, for this machine.
     Quick = 1,
-    /// To little size, for shipping.
+    /// Small, for shipping.
     Small = 9,
 }
 
-/// Version of FMI that an archive is made for. Both hold the same library.
+/// FMI version of an archive. Both versions contain the same library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// FMI 2.0.
@@ -57,7 +57,7 @@ impl Version {
     }
 }
 
-/// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
+/// Packs `libraries`, and the page if it is given, into the FMU `target`. The file is either complete or missing.
 pub fn write_archive(
     version: Version,
     libraries: &[Library],

@@ -1,56 +1,58 @@
-//! Which inputs each output depends on at an instant: the model structure of the description.
+//! Inputs on which each output depends at an instant: the model structure of the description.
 
 use bevel_differential::variables::{Access, OutputSource, Table, Variable, units};
 
-/// Ending of names of outputs that depend on the torques of their side, and on speeds that a held wheel opposes.
+/// Suffix of outputs that depend on the torques of their side, and on speeds that a held wheel opposes.
 const BY_OWN_LOAD: &str = ".twist";
-/// Endings of names of outputs that depend only on positions.
+/// Suffixes of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
-/// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
+/// Parts of the names of outputs that depend on positions and speeds but not on torques: outputs of teeth, and of
+/// shafts as well.
 const BY_MOTION_OF_TEETH: [&str; 6] =
     ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing", "pv.washers", "pv.clutch"];
 const BY_MOTION: [&str; 1] = ["power.loss"];
-/// Output that depends on speeds and on the torques of the brakes, and the ending of their names.
+/// Output that depends on speeds and on brake torques, and the suffix of these torques.
 const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
-/// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
+/// Commands that speeds follow immediately, and the suffixes of these speeds. Sides of unequal inertia couple both.
 const COMMANDS: [&str; 2] = ["carrier.speed_command", "spin.command"];
 const FOLLOWERS: [&str; 6] =
     ["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"];
-/// Ends of half-shafts whose speed is commanded: the command's ending and that of the output, both of one side.
+/// Suffixes for ends of half-shafts with a commanded speed: of the command and of the output, both on one side.
 const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 
-/// Whether speeds follow the input at once.
+/// True if speeds follow the input immediately.
 fn is_followed(input: &Variable) -> bool {
     COMMANDS.contains(&input.name)
 }
 
-/// Whether the input is a torque.
+/// True if the input is a torque.
 pub fn is_torque(input: &Variable) -> bool {
     input.unit == Some(units::NEWTON_METRE)
 }
 
-/// Whether the input is a speed.
+/// True if the input is a speed.
 pub fn is_speed(input: &Variable) -> bool {
     input.unit == Some(units::RAD_PER_S)
 }
 
-/// Whether the output changes with accepted steps only.
+/// True if the output changes only with accepted steps.
 pub fn is_of_ledger(row: &Variable) -> bool {
     let by_step =
         |source| matches!(source, OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
     matches!(row.access, Access::Output(source) if by_step(source))
 }
 
-/// Inputs that are `wanted`, by their indices.
+/// Indices of the inputs that are `wanted`.
 pub fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
     table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
 }
 
-/// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
+/// Inputs on which output `index` depends at an instant, over all scenes and both kinds of FMU. A test in tests/python
+/// checks them.
 ///
-/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
-/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the ledger
-/// follow with time alone.
+/// Torques act immediately on accelerations and, without teeth, on all forces. In model exchange, imposed speeds act
+/// immediately on speeds and on all forces, because forces are damped. In co-simulation, imposed speeds act only
+/// through the step. Angles and the ledger change only over time.
 pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];
     let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));

@@ -18,7 +18,7 @@ use crate::tools::files::write_whole;
 use crate::tools::paths;
 use answers::text::xml::Element;
 
-/// Fixed, so that the same sources give the same bytes.
+/// Fixed time, so that the same sources give the same bytes.
 const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
 /// The study's duration and output interval [s].
 const STOP_TIME: f64 = 0.5;
@@ -53,7 +53,7 @@ impl DescribeCommand {
     }
 }
 
-/// The first file that is out of date: the model description in `file`, or a document with a list of effects.
+/// Returns the first file that is out of date: the model description in `file`, or a document with a list of effects.
 pub fn stale_document(file: &Path) -> Result<Option<String>> {
     if fs::read_to_string(file).ok() != Some(model_description(Choices::Enumerations)?) {
         return Ok(Some(paths::shown(file).to_string()));
@@ -61,16 +61,16 @@ pub fn stale_document(file: &Path) -> Result<Option<String>> {
     Ok(effect_list::stale()?.map(str::to_owned))
 }
 
-/// How the model description declares variables with named choices. Hosts set either kind by fmi2SetInteger.
+/// Declaration of variables with named choices in the model description. Hosts set both kinds with fmi2SetInteger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choices {
-    /// As enumerations.
+    /// Enumerations.
     Enumerations,
-    /// As integers, for hosts without enumerations. The description of a variable names its choices.
+    /// Integers, for hosts without enumerations. The description of a variable names its choices.
     Integers,
 }
 
-/// The model description as XML, with named choices declared as `choices` says.
+/// Returns the model description as XML. `choices` selects the declaration of named choices.
 pub fn model_description(choices: Choices) -> Result<String> {
     let root = root("2.0", "guid", guid())
         .with("numberOfEventIndicators", EVENT_INDICATORS)
@@ -82,7 +82,8 @@ pub fn model_description(choices: Choices) -> Result<String> {
     described(root, choices, Part::Whole)
 }
 
-/// That of the sources in C, of which `files` are compiled: what real-time targets do without is not there.
+/// Returns the model description of the sources in C, of which `files` are compiled. Features that real-time targets do
+/// not need are left out.
 pub fn model_description_of_sources<'a>(files: impl Iterator<Item = &'a str>) -> Result<String> {
     let files = files.map(|name| Element::new("File").with("name", name));
     let kind = kind_element("CoSimulation", |kind| co_simulation(kind, 0))
@@ -91,16 +92,16 @@ pub fn model_description_of_sources<'a>(files: impl Iterator<Item = &'a str>) ->
     described(root("2.0", "guid", guid()).child(kind), Choices::Enumerations, Part::RealTime)
 }
 
-/// What of the unit a description is of.
+/// Extent of a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// All of it.
+    /// The whole unit.
     Whole,
-    /// What real-time targets need.
+    /// Features for real-time targets.
     RealTime,
 }
 
-/// What only co-simulation has.
+/// Adds the attributes that only co-simulation has.
 fn co_simulation(kind: Element, output_order: i32) -> Element {
     kind.with("canHandleVariableCommunicationStepSize", true)
         .with("canInterpolateInputs", true)
@@ -108,7 +109,7 @@ fn co_simulation(kind: Element, output_order: i32) -> Element {
         .with("canRunAsynchronuously", false)
 }
 
-/// The description behind the kinds of simulation.
+/// Completes the description after the elements for the kinds of simulation.
 fn described(root: Element, choices: Choices, part: Part) -> Result<String> {
     let table = table();
     let variables = table.rows.iter().enumerate();
@@ -128,7 +129,8 @@ fn described(root: Element, choices: Choices, part: Part) -> Result<String> {
     root.document().context("the model description cannot be written")
 }
 
-/// The root of a model description of the FMI version `version`, with the attribute that names these very sources.
+/// Creates the root of a model description of the FMI version `version`. The attribute `token` identifies the sources
+/// of the FMU.
 pub(super) fn root(version: &str, token: &'static str, guid: &str) -> Element {
     Element::new("fmiModelDescription")
         .with("fmiVersion", version)
@@ -144,14 +146,14 @@ pub(super) fn root(version: &str, token: &'static str, guid: &str) -> Element {
         .with("variableNamingConvention", "structured")
 }
 
-/// The categories of the log.
+/// Log categories.
 pub(super) fn log_categories() -> Element {
     Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
         Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
     }))
 }
 
-/// The study's duration and output interval.
+/// Default experiment: the study's duration and output interval.
 pub(super) fn default_experiment() -> Element {
     Element::new("DefaultExperiment")
         .with("startTime", number(0.0))
@@ -164,7 +166,8 @@ pub fn write(file: &Path) -> Result<()> {
     write_whole(file, model_description(Choices::Enumerations)?.as_bytes())
 }
 
-/// Element for co-simulation or model exchange: the attributes that only this kind has, then those of both kinds.
+/// Creates the element for co-simulation or model exchange: first the attributes of only this kind, then those of both
+/// kinds.
 fn kind_element(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
     own(Element::new(name).with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false))
         .with("canBeInstantiatedOnlyOncePerProcess", false)
@@ -226,7 +229,7 @@ fn enumeration(kind: &EnumType) -> Element {
         .child(Element::new("Enumeration").children(enumeration_items(kind)))
 }
 
-/// The choices of an enumeration.
+/// Items of an enumeration.
 pub(super) fn enumeration_items(kind: &EnumType) -> impl Iterator<Item = Element> {
     kind.choices.iter().map(|choice| {
         Element::new("Item")
@@ -236,7 +239,7 @@ pub(super) fn enumeration_items(kind: &EnumType) -> impl Iterator<Item = Element
     })
 }
 
-/// Causality as FMI spells it.
+/// Causality in FMI's spelling.
 pub(super) fn causality(row: &Variable) -> &'static str {
     match row.causality {
         Causality::Parameter => "parameter",
@@ -247,7 +250,7 @@ pub(super) fn causality(row: &Variable) -> &'static str {
     }
 }
 
-/// Variability as FMI spells it.
+/// Variability in FMI's spelling.
 pub(super) fn variability(row: &Variable) -> &'static str {
     match row.variability {
         Variability::Fixed => "fixed",
@@ -272,7 +275,7 @@ fn scalar_variable(reference: usize, row: &Variable, (choices, part): (Choices, 
         .child(variable_type(row, part == Part::Whole && table().is_velocity(reference as u32), choices))
 }
 
-/// Description of a variable. Where its choices are integers, the description names the choice of each number.
+/// Description of a variable. If its choices are integers, the description names the choice of each number.
 fn description(row: &Variable, choices: Choices) -> String {
     match enumeration_of(row) {
         Some(kind) if choices == Choices::Integers => {
@@ -311,7 +314,7 @@ fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
     }
 }
 
-/// The model structure: outputs and state derivatives with their direct dependencies, and the initial unknowns.
+/// Model structure: outputs and state derivatives with their direct dependencies, and the initial unknowns.
 fn structure(table: &Table) -> Element {
     let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
     let outputs = table.outputs.iter().map(|&index| {
@@ -331,7 +334,7 @@ fn structure(table: &Table) -> Element {
         known.sort_unstable();
         Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
     });
-    // without a list of dependencies an initial unknown depends on all knowns (FMI 2.0.4, 2.2.8)
+    // without a list of dependencies, an initial unknown depends on all knowns (FMI 2.0.4, 2.2.8)
     let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
     let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
     let mut initial: Vec<usize> = calculated.chain(others).collect();
@@ -344,7 +347,7 @@ fn structure(table: &Table) -> Element {
         .child(Element::new("InitialUnknowns").children(initial))
 }
 
-/// The shortest decimal number that reads back to the same bits.
+/// Shortest decimal number that keeps all bits.
 pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }

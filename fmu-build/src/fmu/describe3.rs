@@ -16,7 +16,7 @@ use answers::text::xml::Element;
 /// Name of the enumeration of events.
 const EVENT: &str = "Event";
 
-/// The model description as XML.
+/// Returns the model description as XML.
 pub fn model_description() -> Result<String> {
     let table = table();
     let kinds = enumerations(table)
@@ -60,7 +60,7 @@ pub fn model_description() -> Result<String> {
         .context("the model description of FMI 3.0 cannot be written")
 }
 
-/// Element for co-simulation or model exchange, with the attributes of both.
+/// Creates the element for co-simulation or model exchange, with the attributes of both.
 fn interface(name: &'static str) -> Element {
     Element::new(name)
         .with("modelIdentifier", MODEL_NAME)
@@ -75,7 +75,7 @@ fn named(kind: &'static str, reference: usize, name: &str, description: &str) ->
     Element::new(kind).with("name", name).with("valueReference", reference).with("description", description)
 }
 
-/// A variable that is a row of the table.
+/// Declares a variable of the table.
 fn variable(reference: usize, row: &Variable) -> Element {
     let is_structural = reference == planet_count() as usize;
     let kind = match row.access {
@@ -112,7 +112,7 @@ fn variable(reference: usize, row: &Variable) -> Element {
     }
 }
 
-/// A variable that FMI 2.0 does not have.
+/// Declares a variable that exists only in FMI 3.0.
 fn added_variable(reference: usize, added: &Added) -> Element {
     let of = |kind| named(kind, reference, &added.name, &added.description);
     let event =
@@ -146,7 +146,8 @@ fn added_variable(reference: usize, added: &Added) -> Element {
     }
 }
 
-/// The model structure: outputs and derivatives of states with what they depend on at an instant, initial unknowns, event indicators.
+/// Model structure: outputs and state derivatives with their direct dependencies, initial unknowns, and event
+/// indicators.
 fn structure(table: &Table) -> Element {
     let list = |known: &[usize]| known.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
     let of = |index: usize| {
@@ -178,7 +179,7 @@ fn structure(table: &Table) -> Element {
         known.extend(table.states);
         unknown("ContinuousStateDerivative", index, known)
     });
-    // without a list of dependencies an initial unknown depends on all knowns
+    // without a list of dependencies, an initial unknown depends on all knowns
     let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
     let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
     let mut initial: Vec<usize> = calculated.chain(others).collect();

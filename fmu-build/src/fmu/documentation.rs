@@ -1,4 +1,4 @@
-//! documentation/index.html of the FMU: what it is, and its variables, from the table.
+//! documentation/index.html of the FMU: an introduction, and its variables from the table.
 
 use anyhow::{Context, Result};
 use bevel_differential::model::Parameters;
@@ -27,7 +27,7 @@ const USE: [&str; 5] = [
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
      half-shaft.",
     "For a turn, set scene.planet_spin to imposed (2) and spin.command to the spin of the planets.",
-    "Parameters of the group effects switch effects on and off; the group with the name of an effect holds its parameters.",
+    "Parameters of the group effects switch effects on and off; the group with the name of an effect contains its parameters.",
     "Read the host's log: each warning and error names the variable, its value and what is allowed.",
 ];
 const UNITS: [&str; 3] = [
@@ -51,19 +51,19 @@ const LIMITATIONS: [&str; 4] = [
 
 /// A picture of the page.
 pub struct Figure {
-    /// Its file, as parts of the path from the workspace.
+    /// File of the picture, as parts of its path in the workspace.
     pub file: [&'static str; 3],
     caption: &'static str,
 }
 
 impl Figure {
-    /// Name of its file next to the page.
+    /// Name of the file next to the page.
     pub fn name(&self) -> &'static str {
         self.file[2]
     }
 }
 
-/// The pictures: the study's two cases as the program simulates them.
+/// Pictures: the study's two cases, simulated with this program.
 pub const FIGURES: [Figure; 3] = [
     Figure {
         file: ["docs", "figures", "speeds.png"],
@@ -76,7 +76,7 @@ pub const FIGURES: [Figure; 3] = [
     Figure { file: ["docs", "figures", "ripple.png"], caption: "Ripple in the turn, from pair to pair of teeth." },
 ];
 
-/// Files beside the page that an archive may have.
+/// Optional files of an archive next to the page.
 pub struct Beside {
     /// The differential in motion.
     pub live: Option<&'static str>,
@@ -84,7 +84,7 @@ pub struct Beside {
     pub tests: Option<&'static str>,
 }
 
-/// The page of an archive with `libraries`, into which all of `linked` is linked.
+/// Page of an archive with `libraries`, which contain the parts in `linked`.
 pub fn page(libraries: &[Library], linked: &[LinkedPart], beside: &Beside) -> Result<String> {
     let mut body = Element::new("body")
         .child(Element::new("h1").text(MODEL_NAME))
@@ -129,12 +129,12 @@ pub fn page(libraries: &[Library], linked: &[LinkedPart], beside: &Beside) -> Re
     html.page().context("the documentation cannot be written")
 }
 
-/// Variables of a causality in the order of the table.
+/// Variables of a causality, in the order of the table.
 fn of(causality: Causality) -> impl Iterator<Item = &'static Variable> {
     table().rows.iter().filter(move |row| row.causality == causality)
 }
 
-/// Parameters by the first part of their names.
+/// Parameters, grouped by the first part of their names.
 pub(super) fn parameter_groups() -> Vec<(&'static str, Vec<&'static Variable>)> {
     let mut groups: Vec<(&str, Vec<&Variable>)> = Vec::new();
     for row in of(Causality::Parameter) {
@@ -173,7 +173,7 @@ fn figure(figure: &Figure) -> Element {
         .child(Element::new("figcaption").text(figure.caption))
 }
 
-/// A row of a table: a cell each, th in the head and td below.
+/// Row of a table with a cell for each text. `kind` is th in the header and td below it.
 fn row_of(kind: &'static str, cells: impl IntoIterator<Item = impl AsRef<str>>) -> Element {
     Element::new("tr").children(cells.into_iter().map(|cell| Element::new(kind).text(cell.as_ref())))
 }
@@ -194,7 +194,7 @@ fn licences(linked: &LinkedPart) -> Element {
     row_of("td", [&linked.name, &linked.licence]).child(Element::new("td").children(links))
 }
 
-/// Whether variables of a causality have start values and ranges.
+/// True if variables of a causality have start values and ranges.
 fn has_start(causality: Causality) -> bool {
     matches!(causality, Causality::Parameter | Causality::Input)
 }

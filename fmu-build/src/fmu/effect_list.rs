@@ -1,5 +1,5 @@
-//! The effects as documents and scripts read them: tables for README.md and docs/effects.md, and a list in JSON beside the
-//! FMU. All of it follows from the effects' own declarations.
+//! Lists of effects for documents and scripts: tables for README.md and docs/effects.md, and a JSON file next to the
+//! FMU. All lists are generated from the declarations of the effects.
 
 use std::path::Path;
 
@@ -16,10 +16,10 @@ use answers::text::table::Table;
 
 type EffectEntry = bevel_differential::model::effects::EffectEntry;
 
-/// Most letters of a description in a table of the documents, so that no line is longer than 160.
+/// Maximum length of a description in a table of the documents, so that no line has more than 160 characters.
 const LONGEST: usize = 96;
 
-/// The sections of documents that list the effects: document, lines around it, text.
+/// Sections of documents that list the effects: document, lines around the section, text.
 fn sections() -> [(&'static str, [&'static str; 2], String); 4] {
     [
         ("README.md", ["<!-- effects begin -->", "<!-- effects end -->"], overview().markdown()),
@@ -34,7 +34,7 @@ pub fn write() -> Result<()> {
     sections().iter().try_for_each(|(document, marks, text)| sections::renew(document, *marks, text))
 }
 
-/// The document whose list of effects is out of date, if any.
+/// Returns a document whose list of effects is out of date, if there is one.
 pub fn stale() -> Result<Option<&'static str>> {
     for (document, marks, text) in sections() {
         if !sections::is_current(document, marks, &text)? {
@@ -44,7 +44,7 @@ pub fn stale() -> Result<Option<&'static str>> {
     Ok(None)
 }
 
-/// Writes the list of effects in JSON beside the FMU, for scripts.
+/// Writes the list of effects as JSON next to the FMU, for scripts.
 pub fn write_json(fmu: &Path) -> Result<()> {
     let list: Vec<Value> = EFFECTS.iter().map(described).collect();
     write_whole(&fmu.with_file_name("effects.json"), serde_json::to_string_pretty(&list)?.as_bytes())
@@ -64,7 +64,7 @@ fn described(effect: &EffectEntry) -> Value {
     })
 }
 
-/// Literals of scene.gear_contact that the effect works with.
+/// Literals of scene.gear_contact that the effect supports.
 fn contacts(effect: &EffectEntry) -> Vec<&'static str> {
     let Some(Access::Enumeration(kind, ..)) = named("scene.gear_contact").map(|row| row.access) else {
         return Vec::new();
@@ -85,7 +85,7 @@ fn inputs(effect: &EffectEntry) -> Vec<bevel_differential::declaration::Row<Inpu
     effects::inputs_of(effect.name)
 }
 
-/// Name, what it adds, and the levels of gear contact that it works with.
+/// Table of names, descriptions, and supported levels of gear contact.
 fn overview() -> Table {
     let mut table = Table::new(["`effects.`…", "what it adds", "gear contact"]).all_left();
     for effect in EFFECTS {
@@ -96,7 +96,7 @@ fn overview() -> Table {
     table
 }
 
-/// What each effect brings to the interface beside its parameters.
+/// Table of the inputs and outputs that each effect adds.
 fn interface() -> Table {
     let mut table = Table::new(["effect", "own inputs and outputs"]).all_left();
     for effect in EFFECTS {
@@ -108,7 +108,8 @@ fn interface() -> Table {
     table
 }
 
-/// Own inputs and outputs of an effect: of both sides those of the left, of all planets `planet[i]`, of a group `GROUP.*`.
+/// Own inputs and outputs of an effect, in short form: only the left of both sides, `planet[i]` for all planets,
+/// `GROUP.*` for a group.
 fn own_names(effect: &EffectEntry) -> String {
     let inputs = inputs(effect);
     let heat = effect.heat.map(|heat| heat.output);
@@ -116,7 +117,7 @@ fn own_names(effect: &EffectEntry) -> String {
     let of_right = |name: &&str| name.split('.').any(|part| part.starts_with("right"));
     let of_other_planets = |name: &&str| name.starts_with("planet[") && !name.starts_with("planet[1]");
     let mut names: Vec<&str> = all.filter(|name| !of_right(name) && !of_other_planets(name)).collect();
-    // those of one group together, where its first one is
+    // names of one group are together, at the position of the first one
     let groups: Vec<&str> = names.iter().map(|name| group(name)).collect();
     names.sort_by_key(|name| groups.iter().position(|&other| other == group(name)));
     let shown = names.chunk_by(|a, b| group(a) == group(b)).map(|same| match same {
@@ -127,12 +128,13 @@ fn own_names(effect: &EffectEntry) -> String {
     shown.collect::<Vec<_>>().join(", ")
 }
 
-/// The part of a variable's name before the first dot.
+/// Part of a variable's name before the first dot.
 fn group(name: &str) -> &str {
     name.split_once('.').map_or(name, |(group, _)| group)
 }
 
-/// Every parameter of every effect, of both sides those of the left; what several effects have alike stands once, as `*.parameter`.
+/// Table of all parameters of all effects, with only the left of both sides. A parameter that several effects share is
+/// listed once, as `*.parameter`.
 fn parameters() -> Table {
     let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
     let is_of_right = |row: &&Variable| own_part(row.name).starts_with("right");
@@ -148,7 +150,7 @@ fn parameters() -> Table {
     table
 }
 
-/// The part of a variable's name after the first dot.
+/// Part of a variable's name after the first dot.
 fn own_part(name: &str) -> &str {
     name.split_once('.').map_or(name, |(_, own)| own)
 }
@@ -161,7 +163,7 @@ fn start_with_unit(row: &Variable) -> String {
     }
 }
 
-/// A description, of a long one what stands before the explanation.
+/// Shortens a long description to the part before its explanation.
 fn brief(description: &str) -> &str {
     if description.chars().count() <= LONGEST {
         return description;

@@ -1,5 +1,5 @@
-//! Evidence in the FMU: start values, inputs, results and tolerances of scenes, as data in the repository. The
-//! command `evidence` makes them; packaging copies them.
+//! Evidence in the FMU: start values, inputs, results and tolerances of scenes, as files in the repository. The command
+//! `evidence` creates them, and packaging copies them.
 
 use std::fs;
 use std::path::Path;
@@ -10,24 +10,25 @@ use crate::tools::files::remove_folder;
 use crate::tools::lock::Lock;
 use crate::tools::paths;
 
-/// The folder in the archive. FMI-LS-REF gives its name.
+/// Folder in the archive, with the name from FMI-LS-REF.
 const IN_ARCHIVE: &str = "extra/org.fmi-standard.fmi-ls-ref";
-/// Document that states how to test with the evidence. FMI-LS-REF recommends its name, in the FMU's folder of documentation.
+/// Instructions for testing with the evidence. FMI-LS-REF recommends this name, in the FMU's folder of documentation.
 pub const DOCUMENT: &str = "fmi-ls-ref.txt";
 
-/// The lock of the evidence in the repository, held while it is replaced or read.
+/// Locks the evidence in the repository while it is replaced or read.
 fn lock() -> Result<Lock> {
     Lock::of(&paths::target().join("evidence-files"))
 }
 
-/// Puts the folder `made` in the place of the evidence in the repository.
+/// Replaces the evidence in the repository by the folder `made`.
 pub fn take(made: &Path) -> Result<()> {
     let (_alone, old) = (lock()?, paths::evidence());
     remove_folder(&old)?;
     fs::rename(made, &old).with_context(|| format!("{} cannot be written", paths::shown(&old)))
 }
 
-/// Paths in the archive and contents, in a fixed order. Empty without the folder, because the FMU that makes the first evidence has none.
+/// Paths in the archive with contents, in a fixed order. Empty if the folder is missing, because the FMU that creates
+/// the first evidence has none.
 pub fn files() -> Result<Vec<(String, Vec<u8>)>> {
     let (_alone, root) = (lock()?, paths::evidence());
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! The command that makes the evidence again with the present FMU.
+//! Command that recreates the evidence with the present FMU.
 
 use anyhow::Result;
 use clap::Args;
@@ -9,9 +9,9 @@ use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script};
 
-/// The script that makes the files.
+/// Script that creates the files.
 const SCRIPT: &str = "fmu-build/python/evidence.py";
-/// Scenes only for the evidence, with the laws, levels of gear contact and effects that no shipped scene uses.
+/// Scenes only for the evidence. They use the laws, levels of gear contact and effects that no shipped scene uses.
 const SCENES: &str = "fmu-build/evidence";
 
 /// Simulates the shipped scenes and those of fmu-build/evidence, and writes their results to modelDescription/evidence, for `bevel-differential verify`

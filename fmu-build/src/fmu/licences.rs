@@ -1,5 +1,5 @@
-//! Licences of everything that is linked into the library: the project's own, those of its crates, read where cargo keeps
-//! their sources, and those of what the compilers add.
+//! Licences of everything that is linked into the library: the licences of the project, of its crates from cargo's
+//! copies of their sources, and of the parts that compilers add.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -12,30 +12,30 @@ use serde_json::Value;
 use crate::fmu::libraries::{Library, cargo};
 use crate::tools::paths;
 
-/// Beginnings of the names of files that hold licences, in small letters.
+/// Prefixes of the names of licence files, in lower case.
 const NAMES: [&str; 6] = ["license", "licence", "copying", "copyright", "notice", "unlicense"];
-/// A licence whose text is the same for all that use it, and the file with it.
+/// A licence with one common text, and the file of that text.
 const COMMON: (&str, &str) = ("Apache-2.0", "LICENSE-APACHE");
 
-/// What is linked in, and under which licence.
+/// A linked part with its licence.
 pub struct LinkedPart {
     /// Name and version.
     pub name: String,
-    /// The licence by its SPDX name.
+    /// SPDX name of the licence.
     pub licence: String,
-    /// Paths of its texts.
+    /// Paths of the licence texts.
     pub files: Vec<String>,
 }
 
-/// All licence files, and the parts they belong to.
+/// All licence files, and the parts to which they belong.
 pub struct Licences {
-    /// The files of documentation/licenses with their texts, sorted by path.
+    /// Files of documentation/licenses with their texts, sorted by path.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What is linked in.
+    /// Linked parts.
     pub linked: Vec<LinkedPart>,
 }
 
-/// Collects the licences of `libraries` of the crate `package`. A part without a text is an error.
+/// Collects the licences of `libraries` of the crate `package`. Fails if a part has no licence text.
 pub fn collected(package: &str, libraries: &[Library]) -> Result<Licences> {
     let mut found = Licences { files: Vec::new(), linked: Vec::new() };
     for (name, (folder, licence)) in linked_crates(package)? {
@@ -64,14 +64,14 @@ pub fn collected(package: &str, libraries: &[Library]) -> Result<Licences> {
     Ok(found)
 }
 
-/// Rust's standard library, whose notices come with rustc.
+/// Adds Rust's standard library, whose notices come with rustc.
 fn standard_library(found: &mut Licences) -> Result<()> {
     let output = Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc cannot be run")?;
     let root = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
     let folder = root.join("share").join("doc").join("rust");
     let notices = ["COPYRIGHT-library.html", "COPYRIGHT"].map(|name| folder.join(name));
     let Some(notice) = notices.iter().find(|file| file.is_file()) else {
-        // a compiler packed by others keeps them elsewhere; the licences themselves are those of this project
+        // other packages of the compiler keep the notices elsewhere; the licences are the same as those of this project
         found.linked.push(LinkedPart {
             name: "Rust standard library".into(),
             licence: "MIT OR Apache-2.0".into(),
@@ -80,7 +80,7 @@ fn standard_library(found: &mut Licences) -> Result<()> {
         return Ok(());
     };
     let name = notice.file_name().unwrap_or_default().display();
-    // extensions that no program opens are text
+    // a text file without an extension would not open on a double click
     let ending = if notice.extension().is_some() { "" } else { ".txt" };
     add(found, "Rust standard library", "MIT OR Apache-2.0", format!("std/{name}{ending}"), notice)
 }
@@ -92,7 +92,7 @@ fn add(found: &mut Licences, name: &str, licence: &str, path: String, source: &P
     Ok(())
 }
 
-/// The crates linked into the library on any platform, by name and version: the folder of each, and its licence.
+/// Crates linked into the library on any platform, by name and version, each with its folder and licence.
 fn linked_crates(package: &str) -> Result<BTreeMap<String, (PathBuf, String)>> {
     let tree =
         cargo_output(&["tree", "-p", package, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
@@ -117,7 +117,7 @@ fn linked_crates(package: &str) -> Result<BTreeMap<String, (PathBuf, String)>> {
     Ok(crates)
 }
 
-/// Licence files in `folder`, by name.
+/// Licence files in `folder`, sorted by name.
 fn texts_in(folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     let mut texts = Vec::new();
     for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", folder.display()))? {

@@ -1,6 +1,6 @@
-//! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
-//! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
-//! `evidence`, `toolchains`.
+//! Builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation, the
+//! archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`, `evidence`,
+//! `toolchains`.
 
 pub mod archive;
 pub mod dependencies;

@@ -1,4 +1,4 @@
-//! The command that builds the libraries and packs the FMU for every version of FMI.
+//! Command that builds the libraries and packs the FMU for both versions of FMI.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub struct PackageCommand {
 }
 
 impl PackageCommand {
-    /// Packages the FMU and prints where it is.
+    /// Packages the FMU and prints its path.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("packaging the FMU");
         let (fmu, mut left_out) = packed()?;
@@ -47,12 +47,12 @@ impl PackageCommand {
     }
 }
 
-/// Builds the library with every installed tool chain and packs the FMU to its usual place.
+/// Builds the library with every installed tool chain and packs the FMU to its default path.
 pub fn package() -> Result<PathBuf> {
     packed().map(|(fmu, _)| fmu)
 }
 
-/// The same, with what it holds no library for, and how to get it.
+/// Packs the FMU. Also returns remarks about missing parts and how to get them.
 fn packed() -> Result<(PathBuf, Vec<String>)> {
     let Libraries { built, mut left_out, ships } = libraries::build()?;
     let (fmu, (page, remark)) = (paths::fmu(), page::made()?);
@@ -66,7 +66,7 @@ fn packed() -> Result<(PathBuf, Vec<String>)> {
     Ok((fmu, left_out))
 }
 
-/// The FMU of FMI 3.0 beside that of FMI 2.0.
+/// Path of the FMU of FMI 3.0, next to the one of FMI 2.0.
 pub fn of_fmi3(fmu: &Path) -> PathBuf {
     fmu.with_file_name(format!("{MODEL_NAME}3.fmu"))
 }

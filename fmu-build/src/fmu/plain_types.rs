@@ -1,7 +1,7 @@
-//! The FMU for hosts without enumerations: the same archive with a description that has integers in their place.
+//! FMU for hosts without enumerations: the same archive with integers instead of enumerations in its description.
 //!
-//! libcosim and Ecos skip Enumeration variables, so that they cannot set any choice. FMI sets both types by fmi2SetInteger,
-//! so that the library needs no change.
+//! libcosim and Ecos skip Enumeration variables and therefore cannot set any choice. FMI sets both types with
+//! fmi2SetInteger, so the library needs no change.
 
 use std::fs::File;
 use std::io::{Cursor, Write};
@@ -16,7 +16,7 @@ use crate::tools::files::write_whole;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 
-/// Writes the variant of `fmu` next to it and returns its path.
+/// Writes the variant of `fmu` next to it and returns the path.
 pub fn package(fmu: &Path) -> Result<PathBuf> {
     let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
     let target = fmu.with_file_name(format!("{name}_integers.fmu"));

@@ -1,16 +1,17 @@
-//! terminalsAndIcons.xml: which variables belong to one physical connection. FMI 2.0.4 takes the file of FMI 3.0.
+//! terminalsAndIcons.xml: groups of variables that belong to one physical connection. FMI 2.0.4 uses the file of FMI
+//! 3.0.
 //!
-//! A shaft has two terminals, as a parameter of the scene decides which of its variables is the input. A host connects the terminal
-//! that fits the drive of the scene.
+//! A shaft has two terminals, because a parameter of the scene determines which of its variables is the input. A host
+//! connects the terminal that fits the drive of the scene.
 
 use anyhow::{Context, Result, ensure};
 use bevel_differential::variables::{Causality, named};
 
 use answers::text::xml::Element;
 
-/// The path in the archive.
+/// Path in the archive.
 pub const FILE: &str = "terminalsAndIcons/terminalsAndIcons.xml";
-/// The version of FMI whose schema the file follows.
+/// Version of FMI whose schema the file follows.
 const VERSION: &str = "3.0";
 /// Members with equal names are connected.
 const MATCHING_RULE: &str = "plug";
@@ -20,14 +21,14 @@ const SPEED_DRIVEN: &str = "org.bevel-differential.rotational-flange.speed-drive
 const BRAKE: &str = "org.bevel-differential.wheel-brake";
 const COMMAND: &str = "org.bevel-differential.command";
 
-/// What FMI says of a variable in a connection.
+/// FMI's kind of a variable in a connection.
 #[derive(Clone, Copy)]
 enum Kind {
     /// Connected variables are equal.
     Signal,
     /// Connected flows add up to zero; positive into the differential.
     Inflow,
-    /// The same; positive out of the differential.
+    /// Connected flows add up to zero; positive out of the differential.
     Outflow,
 }
 
@@ -145,7 +146,7 @@ const TERMINALS: [Terminal; 13] = [
     },
 ];
 
-/// The file's text. Fails where a terminal names a variable that is neither input nor output.
+/// Text of the file. Fails if a terminal names a variable that is neither input nor output.
 pub fn text() -> Result<String> {
     let terminals = TERMINALS.iter().map(terminal).collect::<Result<Vec<_>>>()?;
     let root = Element::new("fmiTerminalsAndIcons")

@@ -1,5 +1,5 @@
-//! The tool chains for other machines, each in a separate folder of target/toolchains. None is required: packaging uses those
-//! that are installed.
+//! Tool chains for other machines, each in a separate folder of target/toolchains. None is required: packaging uses the
+//! installed ones.
 
 use std::env;
 use std::ffi::OsString;
@@ -17,19 +17,19 @@ use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::Wanted;
 
-/// The command that installs them, for hints.
+/// Command that installs the tool chains, for hints.
 pub const COMMAND: &str = "cargo run --release -- toolchains";
 
-/// Oldest glibc that the library for Linux is linked for.
+/// Oldest glibc that the library for Linux supports.
 pub const GLIBC: &str = "2.17";
 
-/// Rust's names of the targets for Windows and for browsers.
+/// Rust's name of the target for Windows.
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
-/// The second one.
+/// Rust's name of the target for browsers.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
-/// That for Linux on ARM.
+/// Rust's name of the target for Linux on ARM.
 pub const ARM_TARGET: &str = "aarch64-unknown-linux-gnu";
-/// Those for macOS: on x86-64 and on ARM.
+/// Rust's names of the targets for macOS on x86-64 and on ARM.
 pub const DARWIN_TARGETS: [&str; 2] = ["x86_64-apple-darwin", "aarch64-apple-darwin"];
 
 /// Oldest Rust that compiles the library.
@@ -47,17 +47,17 @@ pub struct ToolchainsCommand {
 }
 
 impl ToolchainsCommand {
-    /// Installs what is missing and prints where it is.
+    /// Installs missing tool chains and prints their paths.
     pub fn run(&self) -> Result<()> {
         if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
             bail!(
-                "the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone"
+                "the tool chains are programs for Linux on x86-64; elsewhere the FMU contains only this machine's library"
             );
         }
         let wanted = |name: &str| self.platform.as_deref().is_none_or(|only| only == name);
         let progress = Progress::start("looking for Python");
         let mut made = Vec::new();
-        // zig links for ARM as well, and describes the library of macOS
+        // zig also links for ARM, and describes the library of macOS
         if ["linux64", "aarch64-linux", "darwin64"].into_iter().any(wanted) {
             let linux = old_linux().made(|what| progress.stage(what))?;
             made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
@@ -93,13 +93,13 @@ impl ToolchainsCommand {
     }
 }
 
-/// The linker for old Linux systems, on x86-64 and on ARM.
+/// Linker for old Linux systems, on x86-64 and on ARM.
 pub fn old_linux() -> Wanted {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
     Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
 }
 
-/// What turns WebAssembly into C; the tool chain for WebAssembly goes with it.
+/// Translator from WebAssembly to C. It needs the tool chain for WebAssembly.
 pub fn sources() -> Wanted {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("sources.txt");
     Wanted { folder: paths::toolchains().join("sources"), requirements, holds: "wasm2c" }
@@ -107,9 +107,9 @@ pub fn sources() -> Wanted {
 
 /// A tool chain that a script in fmu-build/cross unpacks from Debian's packages.
 pub struct DebianToolchain {
-    /// Name of its folder and of its script.
+    /// Name of the folder and of the script.
     name: &'static str,
-    /// What is unpacked, in words.
+    /// Description of the unpacked programs.
     what: &'static str,
 }
 
@@ -119,14 +119,14 @@ pub const WINDOWS: DebianToolchain =
 /// Rust for browsers, ARM and macOS, and linkers.
 const RUST: DebianToolchain =
     DebianToolchain { name: "rust", what: "Rust for browsers, ARM and macOS (150 MB to download)" };
-/// What runs the library for ARM: qemu and glibc.
+/// Programs that run the library for ARM: qemu and glibc.
 pub const ARM: DebianToolchain =
     DebianToolchain { name: "aarch64", what: "qemu and glibc for ARM (64 MB to download)" };
-/// What links for macOS.
+/// Linker for macOS.
 pub const DARWIN: DebianToolchain = DebianToolchain { name: "darwin", what: "what links for macOS" };
 
 impl DebianToolchain {
-    /// The tool chain, if the present scripts installed it.
+    /// Returns the tool chain if the present scripts installed it.
     pub fn found(&self) -> Option<UnpackedToolchain> {
         let unpacked = self.folder();
         let wanted = self.wanted_stamp().ok()?;
@@ -139,7 +139,7 @@ impl DebianToolchain {
         }
         let unpacked = self.folder();
         let _alone = Lock::of(&unpacked.0)?;
-        // while this run waited, another one may have installed it
+        // another run may have installed it while this one waited
         if let Some(unpacked) = self.found() {
             return Ok(unpacked);
         }
@@ -163,7 +163,7 @@ impl DebianToolchain {
         UnpackedToolchain(paths::toolchains().join(self.name))
     }
 
-    /// Changes with the scripts, and with the oldest Rust that will do.
+    /// Text that changes with the scripts and with the oldest supported Rust.
     fn wanted_stamp(&self) -> Result<String> {
         let mut scripts = OLDEST_RUST.as_bytes().to_vec();
         for name in ["debian", self.name] {
@@ -174,7 +174,7 @@ impl DebianToolchain {
     }
 }
 
-/// What compiles for targets whose standard library this machine may lack.
+/// Compiler for targets whose standard library this machine may lack.
 pub enum Compiler {
     /// The Rust of this machine, with rustup's own targets.
     Installed,
@@ -183,7 +183,7 @@ pub enum Compiler {
 }
 
 impl Compiler {
-    /// rustup's targets if all of them are installed, otherwise what was unpacked.
+    /// Finds rustup's targets if all of them are installed, otherwise the unpacked compiler.
     pub fn found(targets: &[&str]) -> Option<Self> {
         let installed = targets.iter().all(|target| has_target(target));
         if installed { Some(Self::Installed) } else { RUST.found().map(Self::Unpacked) }
@@ -193,20 +193,21 @@ impl Compiler {
         Self::found(targets).map_or_else(|| RUST.made(progress).map(Self::Unpacked), Ok)
     }
 
-    /// Lets `cargo` compile by it, and where it has only the source of the standard library, that too.
+    /// Sets up `cargo` to use this compiler. Debian's Rust also compiles the standard library, because it contains only
+    /// its source.
     pub fn compile(&self, cargo: &mut Command) {
         if let Self::Unpacked(tools) = self {
             cargo
                 .arg("-Zbuild-std=std,panic_unwind")
                 .env("RUSTC", tools.programs().join("rustc"))
-                // Debian's Rust is a stable one, and building the standard library is not yet
+                // Debian's Rust is stable, but building the standard library is an unstable feature
                 .env("RUSTC_BOOTSTRAP", "1");
         }
     }
 }
 
-/// What compiles for Linux on ARM. What was unpacked for browsers does only after `toolchains aarch64-linux`: packaging is to
-/// hold what was asked for.
+/// Finds the compiler for Linux on ARM. A compiler that was unpacked for browsers counts only after `toolchains
+/// aarch64-linux`, because the FMU should contain only the platforms that were requested.
 pub fn for_arm() -> Option<Compiler> {
     if has_target(ARM_TARGET) {
         Some(Compiler::Installed)
@@ -215,18 +216,18 @@ pub fn for_arm() -> Option<Compiler> {
     }
 }
 
-/// What compiles for macOS, and what links.
+/// Finds the compiler and the linker for macOS.
 pub fn for_darwin() -> Option<(Compiler, UnpackedToolchain)> {
     Compiler::found(&DARWIN_TARGETS).zip(DARWIN.found())
 }
 
-/// Whether the Rust of this machine has the standard library of a target, as rustup installs it.
+/// True if the Rust of this machine has the standard library of a target, as installed by rustup.
 pub fn has_target(target: &str) -> bool {
     let output = Command::new("rustc").args(["--print", "target-libdir", "--target", target]).output();
     output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
-/// A folder with an unpacked tool chain.
+/// Folder with an unpacked tool chain.
 pub struct UnpackedToolchain(PathBuf);
 
 impl UnpackedToolchain {
@@ -234,23 +235,23 @@ impl UnpackedToolchain {
         self.0.join("stamp")
     }
 
-    /// The folder itself.
+    /// Path of the folder.
     pub fn folder(&self) -> &Path {
         &self.0
     }
 
-    /// The folder with the programs to call: rustc, a linker, wine64.
+    /// Folder with the programs to call: rustc, a linker, wine64.
     pub fn programs(&self) -> PathBuf {
         self.0.join("bin")
     }
 
-    /// The folder that the packages are unpacked to.
+    /// Folder to which the packages are unpacked.
     pub fn root(&self) -> PathBuf {
         self.0.join("root")
     }
 }
 
-/// The search path with `folder` before all others.
+/// Search path with `folder` before all others.
 pub fn path_with(folder: &Path) -> Result<OsString> {
     let path = env::var_os("PATH").unwrap_or_default();
     let folders = std::iter::once(folder.to_path_buf()).chain(env::split_paths(&path));

@@ -47,7 +47,7 @@ fn push_group(out: &mut String, title: &str, rows: &[&Variable]) {
     }
 }
 
-/// True for a variable whose twin represents it: the right side by the left side, elements of arrays by the first one.
+/// True if another variable represents this one: the right side by the left side, elements of arrays by the first one.
 fn has_twin(row: &Variable) -> bool {
     let name = row.name.replace("right", "left");
     let twin: String = match name.split_once('[') {

@@ -1,4 +1,4 @@
-//! Crates compiled for WebAssembly.
+//! Compilation of crates for WebAssembly.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -10,11 +10,11 @@ use crate::fmu::toolchains::{Compiler, WASM_TARGET};
 use crate::tools::paths;
 use crate::tools::python::finish;
 
-/// A crate, and how it is compiled.
+/// A crate with its compiler settings.
 pub struct WasmCrate<'a> {
-    /// Its name.
+    /// Name of the crate.
     pub package: &'a str,
-    /// Parts that are compiled beside each other: one inlines what matters.
+    /// Number of codegen units. With one unit, the important functions are inlined.
     pub parts: &'a str,
     /// Level of optimisation.
     pub level: &'a str,
@@ -25,7 +25,7 @@ pub struct WasmCrate<'a> {
 }
 
 impl WasmCrate<'_> {
-    /// The library, compiled by `tools`; `problem` is the beginning of the error.
+    /// Compiles the library with `tools`; `problem` is the start of the error.
     pub fn compiled(&self, tools: &Compiler, problem: &'static str) -> Result<PathBuf> {
         let folder = paths::target().join("cross").join(self.folder);
         let mut options = libraries::without_folders();
@@ -36,7 +36,7 @@ impl WasmCrate<'_> {
             .args(["build", "--release", "--quiet", "--package", self.package])
             .args(["--target", WASM_TARGET, "--target-dir"])
             .arg(&folder)
-            // whatever this build is for
+            // independent of the settings of this build
             .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", self.parts)
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", self.level)
             .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
@@ -44,7 +44,7 @@ impl WasmCrate<'_> {
             cargo
                 .arg("-Zbuild-std=std,panic_abort")
                 .env("RUSTC", tools.programs().join("rustc"))
-                // Debian's Rust is a stable one, and building the standard library is not yet
+                // Debian's Rust is stable, but building the standard library is an unstable feature
                 .env("RUSTC_BOOTSTRAP", "1")
                 .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"));
         }

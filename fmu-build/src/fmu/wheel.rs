@@ -1,4 +1,4 @@
-//! The Python package as a wheel, with the FMU, the scenes and the licences in it; the same bytes every time.
+//! The Python package as a wheel with the FMU, the scenes and the licences. The same sources give the same bytes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,31 +18,31 @@ use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{self, Environment};
 
-/// The time of all files in the wheel, in seconds of Unix: 1980-01-01, the earliest that an archive can tell.
+/// Modification time of all files in the wheel, in Unix seconds: 1980-01-01, the earliest time of the archive format.
 const TIME: &str = "315532800";
-/// Endings of scenes and of the inputs beside them.
+/// Extensions of scenes and of their input files.
 const SCENE_FILES: &[&str] = &["toml", "csv"];
-/// Folders of examples that the package holds, and the endings of their files.
+/// Folders of examples in the package, with the extensions of their files.
 const EXAMPLES: [(&str, &[&str]); 2] = [("design", &["toml", "csv"]), ("vehicle", &["py"])];
-/// The licences of the project. Those of all that the FMU links lie in the FMU.
+/// Licences of the project. Those of linked parts are in the FMU.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Builds target/wheel/bevel_differential-VERSION-py3-none-PLATFORMS.whl, the Python package with the FMU in it
 ///
-/// The FMU holds the libraries of the platforms chosen, of all whose tool chains are installed if none is. Tool chains come from
-/// the command `toolchains`.
+/// The FMU contains the libraries of the selected platforms, or of all platforms whose tool chains are installed. The
+/// command `toolchains` installs tool chains.
 #[derive(Args, Clone, Debug)]
 pub struct WheelCommand {
-    /// Platforms that the FMU in the wheel is for
+    /// Platforms of the FMU in the wheel
     #[arg(long, value_enum, value_delimiter = ',')]
     platforms: Vec<Platform>,
-    /// Write what the wheel holds beside Python's files to this folder, and no wheel; `pip install ./python` asks for it
+    /// Instead of a wheel, write its contents other than Python's files to this folder (used by `pip install ./python`)
     #[arg(long, value_name = "FOLDER")]
     parts: Option<PathBuf>,
 }
 
 impl WheelCommand {
-    /// Builds the wheel and prints where it is and what it is for.
+    /// Builds the wheel and prints its path and platforms.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("building the library");
         let _alone = Lock::of(&paths::wheel())?;
@@ -82,7 +82,7 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
     let platforms: Vec<&str> = libraries.iter().map(|library| library.in_wheels).collect();
     let mut pip = environment.command();
     pip.args(["-m", "pip", "wheel", "--quiet", "--no-input", "--disable-pip-version-check"])
-        // the backend is a package of the environment, which has its pinned version
+        // the build backend is a package of the environment, with its pinned version
         .args(["--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir"])
         .arg(&built)
         .arg(source.join("python"))
@@ -95,7 +95,7 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
     Ok(target)
 }
 
-/// Copies into `source` what the wheel is built from, so that nothing is written where the sources are.
+/// Copies the sources of the wheel to `source`, so that nothing is written to their folder.
 fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     let (from, to) = (paths::workspace(), source.join("python"));
     let package = to.join("src").join("bevel_differential");
@@ -103,7 +103,7 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     for file in ["pyproject.toml", "hatch_build.py"] {
         copy_file(&from.join("python").join(file), &to)?;
     }
-    // with the version
+    // Cargo.toml contains the version
     copy_file(&from.join("Cargo.toml"), source)?;
     for licence in LICENCES {
         copy_file(&from.join(licence), &to)?;
@@ -122,14 +122,14 @@ fn copy_with_endings(from: &Path, endings: &[&str], to: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Writes what the package holds beside Python's files.
+/// Writes the contents of the package other than Python's files.
 fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Result<()> {
     let from = paths::workspace();
     copy_with_endings(&paths::scenes(), SCENE_FILES, &package.join("scenes"))?;
     for (folder, endings) in EXAMPLES {
         copy_with_endings(&from.join("examples").join(folder), endings, &package.join("examples").join(folder))?;
     }
-    // beside the FMU, not in it: its address stays, and links to set-ups with it
+    // next to the FMU, not in it, so that its address and links to set-ups stay valid
     if let (Some(page), _) = page::made()? {
         write_whole(&package.join("page").join(page::FILE), &page)?;
     }
@@ -138,7 +138,7 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
     }
     let header = from.join("crates").join("answers").join("include").join("bd_answers.h");
     copy_file(&header, &package.join("answers"))?;
-    // what the FMU's library links too has its texts in the FMU
+    // licence texts of parts that the FMU's library also links are in the FMU
     let known = licences::collected(CRATES[0], &[])?.files;
     for (path, text) in licences::collected(CRATES[1], &[])?.files {
         if known.iter().all(|(known, _)| *known != path) {

@@ -1,4 +1,4 @@
-//! Files that builds write and copy, none where the sources are.
+//! Files that builds write and copy, always outside the sources' folders.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use answers::text::whole_file;
 
 use crate::tools::paths;
 
-/// Copies all files below `from` to `to`, but for folders called `without`.
+/// Copies all files below `from` to `to`, except folders named `without`.
 pub fn copy_folder(from: &Path, to: &Path, without: &str) -> Result<()> {
     for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
         let path = entry?.path();
@@ -23,20 +23,20 @@ pub fn copy_folder(from: &Path, to: &Path, without: &str) -> Result<()> {
     Ok(())
 }
 
-/// Writes a file that is complete or not there, as others may write it at the same time.
+/// Writes a file that is either complete or missing, even if other processes write it at the same time.
 pub fn write_whole(file: &Path, content: &[u8]) -> Result<()> {
     make_whole(file, |part| {
         fs::write(part, content).with_context(|| format!("{} cannot be written", paths::shown(file)))
     })
 }
 
-/// Lets `make` write a file to the path that it gets. The file is complete or not there.
+/// Calls `make` to write a file to the path that it receives. The file is either complete or missing.
 pub fn make_whole(file: &Path, make: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     paths::create_folder(file.parent().unwrap_or(Path::new(".")))?;
     whole_file::write(file, make)
 }
 
-/// Removes a folder with all that is in it, if it exists.
+/// Removes a folder with its contents, if it exists.
 pub fn remove_folder(folder: &Path) -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder).with_context(|| format!("{} cannot be removed", paths::shown(folder)))?;
@@ -44,7 +44,7 @@ pub fn remove_folder(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Copies a file into a folder, which is made.
+/// Copies a file into a folder, which is created if necessary.
 pub fn copy_file(file: &Path, folder: &Path) -> Result<()> {
     paths::create_folder(folder)?;
     let target = folder.join(file.file_name().unwrap_or_default());

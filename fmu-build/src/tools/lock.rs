@@ -1,4 +1,4 @@
-//! Work that one process at a time does.
+//! Locks for work that only one process may do at a time.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
@@ -7,13 +7,13 @@ use anyhow::{Context, Result};
 
 use crate::tools::{paths, progress};
 
-/// The right to work in a folder, or on a file. It ends with this value, or with the process.
+/// Lock of a folder or file. It is released when this value is dropped or the process ends.
 pub struct Lock {
     _file: File,
 }
 
 impl Lock {
-    /// Waits, and says so, until no other process has the lock of `place`.
+    /// Waits until no other process has the lock of `place`, and reports the waiting.
     pub fn of(place: &Path) -> Result<Self> {
         let failed = || format!("{} cannot be locked", paths::shown(place));
         paths::create_folder(place.parent().unwrap_or(place))?;

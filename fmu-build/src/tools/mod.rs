@@ -1,5 +1,5 @@
-//! Shared tools: tables, marked sections of documents, paths, progress, Python. Nothing here knows gears or the FMU, and
-//! nothing here uses another module.
+//! Shared tools: tables, marked sections of documents, paths, progress, Python. They are independent of gears, of the
+//! FMU and of other modules.
 
 pub mod files;
 pub mod lock;

@@ -1,4 +1,4 @@
-//! A program with commands in groups: what it prints as help, and usage errors in one line.
+//! Program with grouped commands: its help, and its usage errors in one line.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -12,10 +12,10 @@ use answers::problem::Problems;
 
 /// Exit status of wrong use, as in the commands of the Python package.
 const WRONG: u8 = 2;
-/// Exit status of a check that is done and has found something, as in the commands of the Python package.
+/// Exit status of a completed check with a finding, as in the commands of the Python package.
 pub const FINDING: u8 = 3;
 
-/// Error of a check that is done and has found something.
+/// Error of a completed check with a finding.
 #[derive(Debug)]
 pub struct Finding(pub String);
 
@@ -27,24 +27,24 @@ impl fmt::Display for Finding {
 
 impl std::error::Error for Finding {}
 
-/// A program, as its overview shows it.
+/// A program with the data of its overview.
 pub struct Program {
-    /// How users call it.
+    /// Command line to call the program.
     pub call: &'static str,
-    /// All that it understands.
+    /// Declaration of the complete command line.
     pub root: clap::Command,
-    /// Titles of groups, and a command whose subcommands are those of the group.
+    /// Titles of groups, each with a command whose subcommands belong to the group.
     pub groups: Vec<(&'static str, clap::Command)>,
-    /// The end of the overview.
+    /// Last paragraph of the overview.
     pub end: String,
 }
 
-/// Why no command runs: help was asked for, or the command line is wrong.
+/// Reason to run no command: help was requested, or the command line is wrong.
 #[derive(Debug)]
 pub enum Stop {
-    /// This is to be printed.
+    /// Text to print.
     Shown(String),
-    /// This is wrong, in one line.
+    /// Usage error in one line.
     Wrong(String),
 }
 
@@ -54,7 +54,7 @@ impl Stop {
         match self {
             Self::Shown(text) => {
                 use std::io::Write as _;
-                // a closed pipe is no reason to fail
+                // a closed pipe is not an error
                 let _ = write!(std::io::stdout(), "{text}");
                 ExitCode::SUCCESS
             }
@@ -67,21 +67,21 @@ impl Stop {
 }
 
 impl Program {
-    /// What `arguments`, the program's name first, say.
+    /// Parses `arguments`, which start with the program's name.
     pub fn parse(&self, arguments: impl IntoIterator<Item = OsString>) -> Result<ArgMatches, Stop> {
         self.command().try_get_matches_from(arguments).map_err(|error| self.stop(&error))
     }
 
-    /// What `--help` shows, of `command` if one is named.
+    /// Help text of the program, or of `command` if one is given.
     pub fn help(&self, command: Option<String>) -> Stop {
         let words = [self.root.get_name().to_owned()].into_iter().chain(command).chain(["--help".to_owned()]);
         let shown = self.command().try_get_matches_from(words);
         self.stop(&shown.err().unwrap_or_else(|| clap::Error::new(ErrorKind::DisplayHelp)))
     }
 
-    /// How the program reads its command line.
+    /// Command line parser.
     pub fn command(&self) -> clap::Command {
-        // the last of two equal options counts, as in most programs
+        // the last of two equal options applies, as in most programs
         self.root
             .clone()
             .bin_name(self.call)
@@ -90,7 +90,7 @@ impl Program {
             .mut_subcommands(|command| command.args_override_self(true))
     }
 
-    /// The commands by group, a line each.
+    /// Commands by group, one line for each.
     pub fn overview(&self) -> String {
         let all = || self.groups.iter().flat_map(|(_, group)| group.get_subcommands());
         let width = all().map(|command| command.get_name().len()).max().unwrap_or(0);
@@ -106,7 +106,7 @@ impl Program {
         out
     }
 
-    /// What stops it where clap does not understand.
+    /// Converts an error of clap into help or a usage error.
     pub fn stop(&self, error: &clap::Error) -> Stop {
         let text = error.render().to_string();
         if error.use_stderr() {
@@ -116,7 +116,7 @@ impl Program {
         }
     }
 
-    /// The usage error `text` with clap's suggestion, and where to read on.
+    /// Formats the usage error `text` with clap's suggestion, and a reference to the help.
     fn one_line(&self, text: &str) -> String {
         let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
         let parts: Vec<&str> = lines.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
@@ -128,7 +128,8 @@ impl Program {
     }
 }
 
-/// Exit status of the program after its command. An error is printed; wrong use and findings have their own exit statuses.
+/// Returns the exit status of the program after its command. An error is printed; wrong use and findings have their own
+/// exit statuses.
 pub fn end(outcome: Result<()>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

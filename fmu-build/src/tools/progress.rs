@@ -1,5 +1,5 @@
-//! Progress on the terminal; without a terminal, a line per stage. Work in several steps tells the step, the share of the whole and
-//! about how long the rest takes.
+//! Progress on the terminal; without a terminal, one line per stage. For work in several steps, the number of the step,
+//! the completed share and the approximate remaining time are shown.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -10,22 +10,22 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 const TICK: Duration = Duration::from_millis(100);
 /// Resolution of the bar.
 const FULL: u64 = 1000;
-/// A step that takes longer than expected is not taken for done.
+/// Maximum completed fraction of a step that takes longer than expected.
 const ALMOST: f64 = 0.95;
-/// Share of the whole from which on the pace counts that was found, and not the one expected.
+/// Share of the whole from which the measured pace outweighs the expected one.
 const FIRST: f64 = 0.1;
 
-/// What is shown at present, for notes beside it.
+/// Present display, which notes must not overwrite.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// A spinner, and a bar once a fraction is known.
+/// Spinner, with a bar as soon as a fraction is known.
 pub struct Progress {
     bar: ProgressBar,
     steps: Option<Arc<Mutex<Steps>>>,
 }
 
 impl Progress {
-    /// Starts with a first stage.
+    /// Starts the display with a first stage.
     pub fn start(stage: &str) -> Self {
         let progress = Self::shown(None);
         progress.style("{spinner} {msg}");
@@ -33,7 +33,7 @@ impl Progress {
         progress
     }
 
-    /// Starts work of so many seconds in each step, as expected on a machine of two cores.
+    /// Starts work in steps, whose durations are `expected` on a machine with two cores [s].
     pub fn of_steps(expected: Vec<f64>) -> Self {
         let progress = Self::shown(Some(Arc::new(Mutex::new(Steps::new(expected)))));
         progress.style("{spinner} {place}, {msg}, {left}");
@@ -47,7 +47,7 @@ impl Progress {
         Self { bar, steps }
     }
 
-    /// The next step begins.
+    /// Begins the next step.
     pub fn step(&self, what: &str) {
         if let Some(steps) = &self.steps {
             held(steps).begin();
@@ -55,7 +55,7 @@ impl Progress {
         self.stage(what);
     }
 
-    /// Next stage, of the present step if there are steps.
+    /// Begins the next stage, within the present step if there are steps.
     pub fn stage(&self, stage: &str) {
         if self.bar.is_hidden() {
             match self.steps.as_deref().map(held) {
@@ -66,7 +66,7 @@ impl Progress {
         self.bar.set_message(stage.to_owned());
     }
 
-    /// A stage of known length begins.
+    /// Begins a stage of known length.
     pub fn begin_bar(&self, stage: &str) {
         if self.steps.is_none() {
             self.style("{spinner} [{bar:40}] {percent:>3} % {msg}");
@@ -74,7 +74,7 @@ impl Progress {
         self.stage(stage);
     }
 
-    /// A part of the stage is done: `fraction` from 0 to 1.
+    /// Shows the completed fraction of the stage, from 0 to 1.
     pub fn advance(&self, fraction: f64, what: &str) {
         match &self.steps {
             Some(steps) => held(steps).fraction = Some(fraction.clamp(0.0, 1.0)),
@@ -90,7 +90,7 @@ impl Progress {
     }
 
     fn style(&self, template: &str) {
-        // a template that does not parse only changes the looks
+        // a template that does not parse only changes the appearance
         let Ok(mut style) = ProgressStyle::with_template(template) else { return };
         if let Some(steps) = &self.steps {
             type Shown = fn(&Steps) -> String;
@@ -111,7 +111,7 @@ impl Drop for Progress {
     }
 }
 
-/// Prints a remark above what is shown.
+/// Prints a remark above the display.
 pub fn note(text: &str) {
     match &*held(&SHOWN) {
         Some(bar) => bar.suspend(|| eprintln!("{text}")),
@@ -119,18 +119,18 @@ pub fn note(text: &str) {
     }
 }
 
-/// What the mutex holds; a thread that failed leaves nothing half done here.
+/// Locks the mutex. A failed thread leaves no inconsistent data here.
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Work in steps, and how far it is.
+/// Progress of work in steps.
 struct Steps {
-    /// Time that each step is expected to take [s].
+    /// Expected duration of each step [s].
     expected: Vec<f64>,
-    /// Steps that have begun.
+    /// Number of steps that have begun.
     begun: usize,
-    /// Part of the present step that is done, where it is known.
+    /// Completed fraction of the present step, if it is known.
     fraction: Option<f64>,
     start: Instant,
     start_of_step: Instant,
@@ -146,19 +146,19 @@ impl Steps {
         (self.begun, self.fraction, self.start_of_step) = (self.begun + 1, None, Instant::now());
     }
 
-    /// "2 of 6 (40 %)".
+    /// Position as text: "2 of 6 (40 %)".
     fn place(&self) -> String {
         format!("{} of {} ({:.0} %)", self.begun, self.expected.len(), 100.0 * self.share())
     }
 
-    /// "about 20 s left".
+    /// Remaining time as text: "about 20 s left".
     fn left(&self) -> String {
         let total = self.expected.iter().sum();
         let seconds = time_left(total, self.share(), self.start.elapsed().as_secs_f64());
         if seconds < 1.5 { "almost done".to_owned() } else { format!("about {seconds:.0} s left") }
     }
 
-    /// Share of the whole that is done: of the present step as told, or by the clock.
+    /// Completed share of the whole. The fraction of the present step is the reported one, or follows from the clock.
     fn share(&self) -> f64 {
         let Some(at) = self.begun.checked_sub(1).filter(|&at| at < self.expected.len()) else { return 0.0 };
         let by_clock = || self.start_of_step.elapsed().as_secs_f64() / self.expected[at];
@@ -167,8 +167,8 @@ impl Steps {
     }
 }
 
-/// Time that the rest of work takes [s], of which `total` was expected and a `share` took the time `elapsed`: at the pace expected
-/// first, and more and more at that found.
+/// Estimates the remaining time [s] of work whose expected time is `total`, if a `share` of it took the time `elapsed`.
+/// The estimate starts with the expected pace and moves to the measured one.
 fn time_left(total: f64, share: f64, elapsed: f64) -> f64 {
     let pace = (elapsed + FIRST * total) / ((share + FIRST) * total);
     (1.0 - share) * total * pace
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rest_takes_what_was_expected_at_first_and_later_what_the_pace_says() {
+    fn the_remaining_time_moves_from_the_expected_to_the_measured_pace() {
         assert_eq!(time_left(60.0, 0.0, 0.0), 60.0);
         // as expected
         assert!((time_left(60.0, 0.5, 30.0) - 30.0).abs() < 1e-9);
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_tell_their_number_their_share_and_the_rest() {
+    fn steps_show_their_number_their_share_and_the_remaining_time() {
         let mut steps = Steps::new(vec![30.0, 10.0]);
         steps.begin();
         steps.fraction = Some(0.5);
@@ -197,7 +197,7 @@ mod tests {
         steps.begin();
         steps.fraction = Some(0.0);
         assert_eq!(steps.place(), "2 of 2 (75 %)");
-        // nothing took any time
+        // the steps took no time
         assert_eq!(steps.left(), "almost done");
         steps.start -= Duration::from_secs(60);
         assert_eq!(steps.left(), "about 19 s left");

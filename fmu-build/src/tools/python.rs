@@ -1,5 +1,5 @@
-//! Python environments, each made once from pinned versions: that of users' commands, to which the tests add their packages, and
-//! those that other commands ask for.
+//! Python environments, each created once from pinned versions: the environment of users' commands, to which the tests
+//! add packages, and separate ones for other commands.
 
 use std::env;
 use std::ffi::OsStr;
@@ -17,7 +17,7 @@ use crate::tools::program::Finding;
 
 /// Oldest Python that the pinned numpy and matplotlib support.
 const OLDEST: (u32, u32) = (3, 11);
-/// Newest one worth asking for by its number.
+/// Newest Python that is searched for by its number.
 const NEWEST: u32 = 15;
 
 /// A Python environment.
@@ -25,18 +25,19 @@ pub struct Environment {
     folder: PathBuf,
 }
 
-/// What an environment shall hold.
+/// Specification of an environment.
 pub struct Wanted {
-    /// Its folder.
+    /// Folder of the environment.
     pub folder: PathBuf,
-    /// The list of packages.
+    /// File with the list of packages.
     pub requirements: PathBuf,
-    /// The packages in a few words.
+    /// Short description of the packages.
     pub holds: &'static str,
 }
 
 impl Wanted {
-    /// The environment, made if it does not exist or has other requirements; `report` receives the current stage.
+    /// Returns the environment. It is created if it does not exist or has other requirements; `report` receives the
+    /// current stage.
     pub fn made(&self, report: impl Fn(&str)) -> Result<Environment> {
         let stamp = stamp_of(&[&self.requirements])?;
         self.folder().made(&[&stamp], &stamp, |environment| {
@@ -45,7 +46,7 @@ impl Wanted {
         })
     }
 
-    /// The same if it has been made, for these requirements.
+    /// Returns the environment if it exists with these requirements.
     pub fn found(&self) -> Option<Environment> {
         let stamp = stamp_of(&[&self.requirements]).ok()?;
         let environment = self.folder();
@@ -58,8 +59,8 @@ impl Wanted {
 }
 
 impl Environment {
-    /// The environment of users' commands, made if it does not exist; `report` receives the current stage. It may hold the
-    /// packages of the tests as well.
+    /// Returns the environment of users' commands, which is created if it does not exist. It may also contain the
+    /// packages of the tests. `report` receives the current stage.
     pub fn ready(report: impl Fn(&str)) -> Result<Self> {
         let (environment, [first, all], [first_stamp, all_stamp]) = of_users()?;
         environment.made(&[&first_stamp, &all_stamp], &first_stamp, |environment| {
@@ -68,12 +69,13 @@ impl Environment {
         })
     }
 
-    /// Whether nothing is left to make for users' commands.
+    /// True if the environment of users' commands is complete.
     pub fn is_ready() -> bool {
         of_users().is_ok_and(|(environment, _, stamps)| stamps.iter().any(|stamp| environment.has(stamp)))
     }
 
-    /// The same with the packages of the tests, of all extras of the Python package, and of the wheel.
+    /// Returns the environment of users' commands with the packages of the tests, of all extras of the Python package,
+    /// and of the wheel.
     pub fn complete(report: impl Fn(&str)) -> Result<Self> {
         let (environment, [_, all], [first_stamp, all_stamp]) = of_users()?;
         environment.made(&[&all_stamp], &all_stamp, |environment| {
@@ -84,19 +86,19 @@ impl Environment {
         })
     }
 
-    /// The folder with its programs.
+    /// Folder with the programs.
     pub fn programs(&self) -> PathBuf {
         self.folder.join(if cfg!(windows) { "Scripts" } else { "bin" })
     }
 
-    /// The folder with its packages.
+    /// Folder with the packages.
     pub fn packages(&self) -> Result<PathBuf> {
         let mut command = self.command();
         let output = command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output()?;
         Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim()))
     }
 
-    /// This environment, worked on by `make` unless it has one of the stamps that are `enough`; then it gets `stamp`.
+    /// Completes this environment by `make` unless it has one of the stamps in `enough`. Then it gets `stamp`.
     fn made(self, enough: &[&str], stamp: &str, make: impl FnOnce(&Self) -> Result<()>) -> Result<Self> {
         let _alone = Lock::of(&self.folder)?;
         if !enough.iter().any(|stamp| self.has(stamp)) {
@@ -110,7 +112,7 @@ impl Environment {
         self.folder.join("requirements.stamp")
     }
 
-    /// Complete, with this stamp, and its interpreter still runs.
+    /// True if the environment is complete, has this stamp, and its interpreter still runs.
     fn has(&self, stamp: &str) -> bool {
         fs::read_to_string(self.stamp()).is_ok_and(|found| found == stamp) && version_of(&self.interpreter()).is_some()
     }
@@ -124,11 +126,12 @@ impl Environment {
         )
     }
 
-    /// Installs the packages of a list; if it has names alone, these and no others, in the versions that `pins` has.
+    /// Installs the packages of a list. If the list contains only names, `pins` contains the versions, and no other
+    /// packages are installed.
     fn install(&self, list: &Path, pins: Option<&Path>, what: &str, report: impl Fn(&str)) -> Result<()> {
         report(&format!("installing {what}"));
         let mut pip = self.command();
-        // most modules of the packages are never imported: those that are get their bytecode then
+        // most modules of the packages are never imported; bytecode is compiled at the first import
         pip.args([
             "-m",
             "pip",
@@ -146,8 +149,8 @@ impl Environment {
         finish(&mut pip, "the Python packages cannot be installed (check the network)")
     }
 
-    /// The folder with the bytecode of modules, which keeps it out of the checkout. A process that compiles the package anew starts
-    /// three times as slowly.
+    /// Folder with the bytecode of modules, outside the checkout. Without bytecode, a process takes three times as long
+    /// to start.
     fn bytecode(&self) -> PathBuf {
         self.folder.join("bytecode")
     }
@@ -157,8 +160,8 @@ impl Environment {
         Python { program: program.into(), arguments: &[] }
     }
 
-    /// A command that runs the environment's Python, isolated from the user's settings and files. It finds the package
-    /// `bevel_differential` and the modules that scripts share.
+    /// Creates a command that runs the environment's Python, isolated from the user's settings and files. It can import
+    /// the package `bevel_differential` and the modules that scripts share.
     pub fn command(&self) -> Command {
         let folders =
             [["python", "src"], ["fmu-build", "python"]].map(|[top, folder]| paths::workspace().join(top).join(folder));
@@ -175,7 +178,8 @@ impl Environment {
         command
     }
 
-    /// Writes the program `bevel-differential` of this checkout into the environment, with `fmu`; where it is.
+    /// Writes the program `bevel-differential` of this checkout, with `fmu`, into the environment. Returns the path of
+    /// the program.
     pub fn launcher(&self, fmu: &Path) -> Result<PathBuf> {
         let source = paths::workspace().join("python").join("src");
         let values = [("FMU", fmu.to_path_buf()), ("ANSWERS", paths::built("answers")?), ("SCENES", paths::scenes())];
@@ -206,7 +210,8 @@ impl Environment {
         Ok(program)
     }
 
-    /// Runs pytest on tests/python with the packaged `fmu` and this `program`; its report is the error if a test fails.
+    /// Runs pytest on tests/python with the packaged `fmu` and this `program`. If a test fails, the error is the
+    /// report.
     pub fn test(&self, fmu: &Path, program: &Path, arguments: &[impl AsRef<OsStr>]) -> Result<String> {
         let output = self
             .command()
@@ -225,8 +230,8 @@ impl Environment {
     }
 }
 
-/// The environment of users' commands; its lists of packages, the first with names alone, whose versions the other one has; and the
-/// stamps of an environment with the first packages and with all.
+/// Returns the environment of users' commands, its two lists of packages, and the stamps of an environment with the
+/// first list and with both. The first list contains only names, the second one all versions.
 fn of_users() -> Result<(Environment, [PathBuf; 2], [String; 2])> {
     let lists = paths::workspace().join("fmu-build").join("python");
     let [first, all] = ["first.txt", "requirements.txt"].map(|name| lists.join(name));
@@ -234,7 +239,7 @@ fn of_users() -> Result<(Environment, [PathBuf; 2], [String; 2])> {
     Ok((Environment { folder: paths::target().join("python") }, [first, all], stamps))
 }
 
-/// What the stamp of an environment with the packages of these lists says.
+/// Text of the stamp of an environment with the packages of these lists.
 fn stamp_of(lists: &[&Path]) -> Result<String> {
     let mut text = Vec::new();
     for list in lists {
@@ -243,7 +248,7 @@ fn stamp_of(lists: &[&Path]) -> Result<String> {
     Ok(format!("{:016x}\n", variables::fnv1a(text.into_iter())))
 }
 
-/// A way to call Python.
+/// Command line to call Python.
 struct Python {
     program: std::ffi::OsString,
     arguments: &'static [&'static str],
@@ -257,7 +262,7 @@ impl Python {
     }
 }
 
-/// Version of an interpreter that runs.
+/// Returns the version of an interpreter if it runs.
 fn version_of(python: &Python) -> Option<(u32, u32)> {
     let output = python.command().args(["-c", "import sys; print(*sys.version_info[:2])"]).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
@@ -265,7 +270,7 @@ fn version_of(python: &Python) -> Option<(u32, u32)> {
     Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
-/// A Python that is new enough and can make environments.
+/// Finds a Python that is new enough and can create environments.
 fn find_python() -> Result<Python> {
     let numbered = (OLDEST.1..=NEWEST).rev().map(|minor| format!("python3.{minor}"));
     let named = ["python3".to_owned(), "python".to_owned()].into_iter().chain(numbered);
@@ -295,7 +300,7 @@ fn find_python() -> Result<Python> {
     )
 }
 
-/// Runs a command to its end; `problem` and the end of its messages are the error.
+/// Runs a command to its end. If it fails, the error consists of `problem` and the end of its messages.
 pub fn finish(command: &mut Command, problem: &'static str) -> Result<()> {
     let output = command.output().context(problem)?;
     if output.status.success() {

@@ -1,4 +1,4 @@
-//! Programs whose progress is shown.
+//! Execution of programs with progress display.
 
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
@@ -9,8 +9,8 @@ use anyhow::{Context, Result, bail};
 use crate::tools::program::{FINDING, Finding};
 use crate::tools::progress::Progress;
 
-/// Runs a command, called `name`, to its end and returns what it printed. Its lines "progress <fraction> <what>" on standard error
-/// move the bar; other lines there are the error if it fails.
+/// Runs a command, called `name`, to its end and returns its standard output. Lines "progress <fraction> <what>" on
+/// standard error move the bar. Other lines there are the error if the command fails.
 pub fn follow(command: &mut Command, name: &str, progress: &Progress) -> Result<String> {
     let mut child = command
         .stdout(Stdio::piped())
@@ -46,7 +46,7 @@ pub fn follow(command: &mut Command, name: &str, progress: &Progress) -> Result<
     Ok(printed.with_context(|| format!("what {name} printed cannot be read"))?.unwrap_or_default())
 }
 
-/// A line `progress <fraction> <what>`.
+/// Parses a line `progress <fraction> <what>`.
 fn progress_in(line: &str) -> Option<(f64, &str)> {
     let (fraction, what) = line.strip_prefix("progress ")?.split_once(' ')?;
     Some((fraction.parse().ok()?, what))

@@ -1,4 +1,4 @@
-//! Marked sections of documents, which commands renew.
+//! Marked sections of documents, which commands update.
 
 use std::fs;
 use std::path::Path;
@@ -9,16 +9,16 @@ use crate::tools::files::{copy_file, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
 
-/// Whether a document has `text` between the lines `marks`.
+/// True if a document has `text` between the lines `marks`.
 pub fn is_current(document: &str, marks: [&str; 2], text: &str) -> Result<bool> {
     let file = paths::workspace().join(document);
     let old = fs::read_to_string(&file).with_context(|| format!("{document} cannot be read"))?;
     Ok(replaced(&old, marks, text).is_some_and(|renewed| renewed == old))
 }
 
-/// Puts `text` between the two lines `marks` of `document`, a path in the workspace.
+/// Replaces the text between the two lines `marks` of `document`, a path in the workspace.
 pub fn renew(document: &str, marks: [&str; 2], text: &str) -> Result<()> {
-    // another run may renew another section
+    // another run may update another section at the same time
     let _alone = Lock::of(&paths::target().join("documents"))?;
     let file = paths::workspace().join(document);
     let old = fs::read_to_string(&file).with_context(|| format!("{document} cannot be read"))?;
@@ -40,7 +40,7 @@ pub fn copy_pictures(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// `old` with `text` between the marks.
+/// Replaces the text between the marks in `old`.
 fn replaced(old: &str, marks: [&str; 2], text: &str) -> Option<String> {
     let (before, rest) = old.split_once(marks[0])?;
     let (_, after) = rest.split_once(marks[1])?;

@@ -15,16 +15,17 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 
-/// Price of all runs, in that of a reference run; and of a reference that is not certain, as little can be told.
+/// Maximum cost of all runs, in reference runs. The second value is for an uncertain reference, where more runs decide
+/// little.
 const BUDGET: f64 = 30.0;
 const BUDGET_UNCERTAIN: f64 = 15.0;
-/// Two points make a mean over time.
+/// Shortest time to judge, in communication steps: a mean over time needs two points.
 const LEAST_POINTS: f64 = 2.5;
-/// An effect with parameters at zero that changes less than this part of the accuracy is neutral: what is left is that of
-/// other steps.
-const NOTHING: f64 = 0.01;
+/// An effect whose parameters are zero has no influence if the result changes by less than this fraction of the
+/// accuracy. Such small changes come from different step sizes.
+const NEGLIGIBLE: f64 = 0.01;
 
-/// What was found.
+/// Result of the search.
 pub struct Answer {
     /// The scene with the wanted outputs.
     pub scene: Scene,
@@ -32,63 +33,64 @@ pub struct Answer {
     pub wants: Vec<Want>,
     /// Wanted accuracy, as a fraction.
     pub within: f64,
-    /// Time from which on outputs count [s].
+    /// Time after which outputs count [s].
     pub from: f64,
-    /// What runs were compared with; its errors are how far it strays.
+    /// Run that all others are compared with. Its errors are its own uncertainty.
     pub reference: Trial,
-    /// What 100 % of each quantity is.
+    /// Size of 100 % of each quantity.
     pub scales: Vec<f64>,
     /// All runs.
     pub trials: Vec<Trial>,
-    /// Number of the chosen run; none if nothing is accurate enough.
+    /// Index of the chosen run; none if nothing is accurate enough.
     pub chosen: Option<usize>,
     /// The next cheaper run, which fails.
     pub too_coarse: Option<usize>,
-    /// The next dearer run with a smaller error.
+    /// The next more expensive run with a smaller error.
     pub richer: Option<usize>,
-    /// Plainer levels and laws.
+    /// Plainer levels and laws, each with its run or the reason for its failure.
     pub gears: Vec<(Gears, Result<usize, String>)>,
-    /// Why each effect is in or out.
+    /// Role of each effect.
     pub effects: Vec<(Switch, Role)>,
-    /// Price of all runs over that of a reference run.
+    /// Cost of all runs divided by that of a reference run.
     pub spent: f64,
 }
 
-/// What an effect does to the wanted quantities.
+/// Influence of an effect on the wanted quantities.
 #[derive(Clone)]
 pub enum Role {
-    /// Without it a quantity changes by so much, and it is in the chosen setting or not.
+    /// A quantity changes without the effect.
     Acts {
         /// Largest change.
         by: f64,
-        /// Whether the chosen setting has it.
+        /// True if the chosen setting has the effect.
         chosen: bool,
     },
-    /// Its parameters are zero, or what it acts on is not there; typical values would change a quantity by so much.
+    /// Has no influence, because its parameters are zero or the part it acts on is missing. Typical values may have
+    /// one.
     Neutral {
-        /// The values that the scene leaves at zero, with typical ones.
+        /// The parameters that the scene leaves at zero, with typical values.
         typical: Vec<(&'static Variable, f64)>,
-        /// Largest change by them, if they were tried.
+        /// Largest change with typical values, if they were tried.
         by: Option<f64>,
-        /// Change by the values that the scene has.
+        /// Change with the values of the scene.
         now: f64,
     },
-    /// The plainer level that is chosen does not know it, and is accurate enough all the same.
+    /// Not part of the chosen plainer level, which is accurate enough without it.
     NotKnown,
-    /// Part of the question: what is built in, broken or driven, and not in this scene.
+    /// Part of the question, because it says what is built in, broken or driven, but not in this scene.
     NotInScene,
-    /// Set off by the scene.
+    /// Switched off by the scene.
     SetOff,
-    /// Gives outputs alone, and none of them is wanted.
+    /// Only adds outputs, none of which is wanted.
     NotAsked,
-    /// Runs without it do not come to their end, and why.
+    /// Runs without it fail, for this reason.
     Kept(String),
-    /// Does not go with the scene, and why.
+    /// Does not fit the scene, for this reason.
     Refused(String),
 }
 
 impl Answer {
-    /// Whether the reference itself is not sure to a third of the accuracy.
+    /// True if the uncertainty of the reference exceeds a third of the accuracy.
     pub fn is_uncertain(&self) -> bool {
         3.0 * self.reference.error() > self.within
     }
@@ -121,7 +123,7 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     let found = search(&mut bench, &scene, &richest, question.within);
     let roles = roles(&mut bench, &scene, &richest, &found, question.within);
     let [too_coarse, richer] = neighbours(&bench, question.within, found.chosen);
-    // runs that were stopped have failed, and mean nothing
+    // a stopped run counts as failed, so results after a stop are meaningless
     bench.progress.check_stopped()?;
     let Bench { reference, scales, trials, spent, .. } = bench;
     Ok(Answer {
@@ -141,8 +143,9 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     })
 }
 
-/// The dearest run that is cheaper than `chosen` and fails, and the cheapest that is dearer and nearer to the reference. Only runs
-/// of the same method count, because costs of different methods cannot be compared.
+/// The most expensive run that is cheaper than `chosen` but not accurate enough, and the cheapest run that is more
+/// expensive and closer to the reference. Only runs of the same method count, because costs of different methods cannot
+/// be compared.
 fn neighbours(bench: &Bench, within: f64, chosen: Option<usize>) -> [Option<usize>; 2] {
     let Some(chosen) = chosen else { return [None; 2] };
     let method = |run: &usize| bench.trials[*run].scene.parameters.solver.method;
@@ -154,7 +157,7 @@ fn neighbours(bench: &Bench, within: f64, chosen: Option<usize>) -> [Option<usiz
     [runs().filter(fails).max_by(by_cost), runs().filter(nearer).min_by(by_cost)]
 }
 
-/// Why each effect is in or out.
+/// Role of each effect.
 fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, within: f64) -> Vec<(Switch, Role)> {
     let chosen = found.chosen.map(|run| bench.trials[run].scene.parameters);
     let mut roles = Vec::new();
@@ -176,7 +179,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
                 refused.map_or_else(|| format!("not with {}", richest.gears.text()), |(_, why)| why.clone()),
             ),
         };
-        // what the plainer level does not know may have been at zero
+        // the scene may have left parameters at zero that belong to effects missing on the plainer level
         let role = match (role, found.rich) {
             (Role::NotKnown, Some(rich)) => {
                 let typical = switch.typical(&bench.trials[rich].scene);
@@ -189,26 +192,26 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
     roles
 }
 
-/// What an effect does between two runs, without it and with it.
+/// Influence of an effect, from a run without it and a run with it.
 fn acting(bench: &mut Bench, switch: &Switch, [without, with]: [usize; 2], chosen: bool, within: f64) -> Role {
     let by = change(bench, without, with);
     let typical = switch.typical(&bench.trials[with].scene);
-    // with all values at zero, what is left is that of other steps
-    let nothing = if switch.is_at_zero(&bench.trials[with].scene) { within } else { NOTHING * within };
+    // with all values at zero, only different step sizes change the result
+    let nothing = if switch.is_at_zero(&bench.trials[with].scene) { within } else { NEGLIGIBLE * within };
     if by <= nothing && !chosen && !typical.is_empty() {
-        neutral(bench, switch, with, typical, if by <= NOTHING * within { 0.0 } else { by })
+        neutral(bench, switch, with, typical, if by <= NEGLIGIBLE * within { 0.0 } else { by })
     } else {
         Role::Acts { by, chosen }
     }
 }
 
-/// Largest difference between two runs, as a part of the scales.
+/// Largest difference between two runs, as a fraction of the scales.
 fn change(bench: &Bench, run: usize, other: usize) -> f64 {
     let pairs = bench.trials[run].values.iter().zip(&bench.trials[other].values).zip(&bench.scales);
     pairs.fold(0.0, |most, ((&a, &b), &scale)| f64::max(most, Want::error(a, b, scale)))
 }
 
-/// An effect that changes nothing, or too little by `now`, with what typical values would do.
+/// Role of an effect that changes nothing, or only `now`, with the change by typical values.
 fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'static Variable, f64)>, now: f64) -> Role {
     if !bench.has_room(bench.trials[rich].cost) {
         return Role::Neutral { typical, by: None, now };

@@ -1,4 +1,5 @@
-//! Runs of variants of one scene: the errors of the wanted quantities against the reference, and the cost of each run.
+//! Runs of variants of a scene, with the errors of the wanted quantities relative to the reference and the cost of each
+//! run.
 
 use bevel_differential::model::{Method, Parameters};
 
@@ -8,11 +9,11 @@ use super::want::Want;
 use crate::progress::Progress;
 use crate::scene::Scene;
 
-/// A run may cost this many times the reference, and every run may take so many evaluations, however cheap the reference is.
-const PATIENCE: f64 = 1.5;
-const FREE: f64 = 1e4;
+/// Limits of a run: a multiple of the reference's cost, but at least this number of evaluations.
+const MOST_REFERENCE_RUNS: f64 = 1.5;
+const ALWAYS_ALLOWED: f64 = 1e4;
 
-/// A run that came to its end.
+/// A run that finished.
 #[derive(Clone)]
 pub struct Trial {
     /// The scene as it ran.
@@ -21,7 +22,7 @@ pub struct Trial {
     pub reason: String,
     /// Values of the wanted quantities.
     pub values: Vec<f64>,
-    /// Errors of the wanted quantities against the reference, as parts of their scales.
+    /// Errors of the wanted quantities relative to the reference, as fractions of their scales.
     pub errors: Vec<f64>,
     /// Steps, evaluations and time of the run.
     pub effort: Effort,
@@ -46,18 +47,18 @@ impl Trial {
 pub struct Bench<'a, 'w> {
     /// The wanted quantities.
     pub wants: &'a [Want],
-    /// Time from which on outputs count [s].
+    /// Time after which outputs count [s].
     pub from: f64,
-    /// The run that all others are compared with: the richest scene at the finest tolerance. Its errors are the changes of each
-    /// quantity when nothing but the tolerance changes.
+    /// Run that all others are compared with: the richest scene at the finest tolerance. Its errors are the changes of
+    /// each quantity when only the tolerance changes.
     pub reference: Trial,
-    /// What 100 % of each quantity is.
+    /// Size of 100 % of each quantity.
     pub scales: Vec<f64>,
-    /// Runs that came to their end.
+    /// Finished runs.
     pub trials: Vec<Trial>,
     /// Cost of all runs so far, in evaluations of plain teeth.
     pub spent: f64,
-    /// Largest cost that all runs together may have.
+    /// Maximum cost of all runs together.
     pub limit: f64,
     failed: Vec<(Parameters, String)>,
     /// Reports the runs to the caller, who may stop them.
@@ -70,7 +71,8 @@ pub fn values(wants: &[Want], record: &Record) -> Result<Vec<f64>, String> {
 }
 
 impl<'a, 'w> Bench<'a, 'w> {
-    /// A bench with a reference and its scales. The search for the reference has cost `spent`; all runs may cost `limit`.
+    /// Creates a bench with a reference and its scales. The search for the reference has cost `spent`; all runs may
+    /// cost `limit`.
     pub fn new(
         wants: &'a [Want],
         from: f64,
@@ -81,7 +83,7 @@ impl<'a, 'w> Bench<'a, 'w> {
         Self { wants, from, reference, scales, trials: Vec::new(), spent, limit, failed: Vec::new(), progress }
     }
 
-    /// Whether the limit allows one more run of this cost.
+    /// True if the limit allows one more run of this cost.
     pub fn has_room(&self, cost: f64) -> bool {
         self.spent + cost <= self.limit
     }
@@ -96,10 +98,10 @@ impl<'a, 'w> Bench<'a, 'w> {
             return Err(why.clone());
         }
         self.progress.begin_task(self.spent / self.limit, reason);
-        // fixed steps may cost more than the reference: they may take what is left
+        // fixed steps may cost more than the reference, up to the remaining limit
         let is_fixed = p.solver.method == Method::FixedStep;
-        let patience = if is_fixed { self.limit - self.spent } else { PATIENCE * self.reference.cost };
-        let most = FREE.max(price::evaluations(&p, patience));
+        let patience = if is_fixed { self.limit - self.spent } else { MOST_REFERENCE_RUNS * self.reference.cost };
+        let most = ALWAYS_ALLOWED.max(price::evaluations(&p, patience));
         let figures = Record::of(scene, self.from, most, self.progress).and_then(|record| {
             let cost = price::cost(&p, &record.effort);
             self.spent += cost;

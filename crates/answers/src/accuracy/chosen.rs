@@ -1,5 +1,5 @@
-//! The scene with the chosen setting as a file: that of the scene, with nothing changed but what the setting has otherwise, without
-//! the values that change nothing there, and with paths that lead to the same files.
+//! Scene file with the chosen setting. It is the file of the scene, changed only where the setting differs. Values that
+//! have no influence are removed, and relative paths are adapted to the new folder.
 
 use std::fs;
 use std::path::{Path, absolute};
@@ -17,14 +17,14 @@ use crate::scene::set::{Setting, SettingValue};
 use crate::scene::{Scene, former_names, load};
 use crate::text::shown;
 
-/// The scene with the chosen setting, as a file at `to`: paths in it lead to the same files.
+/// Returns the text of the scene file with the chosen setting, to be saved at `to`.
 pub fn file(answer: &Answer, to: &Path) -> Result<String> {
     let shown = shown(&answer.scene.file);
     let original = fs::read_to_string(&answer.scene.file).with_context(|| format!("{shown} cannot be read"))?;
     moved(text(answer, &original)?, &answer.scene.file, to)
 }
 
-/// The file's text, made from that of the scene.
+/// Returns the file's text, derived from the `original` file of the scene.
 pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let chosen = answer.choice().context("nothing is accurate enough, so that there is no setting to write")?;
     let mut document: DocumentMut = original.parse().context("the scene's file")?;
@@ -46,7 +46,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         if let [Some(before), Some(after)] = values
             && before.to_string() != after.to_string()
         {
-            let former = former_names::of(row.name).filter(|former| stands(set, former));
+            let former = former_names::of(row.name).filter(|former| contains(set, former));
             put(set, former.as_deref().unwrap_or(row.name), after)?;
         }
     }
@@ -59,11 +59,11 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     );
     let text = format!("{head}{document}");
     let again = load::parse(&answer.scene.name, &answer.scene.file, &text).context("the chosen scene")?;
-    ensure!(again.parameters == wanted, "the chosen scene does not come out as it was run");
+    ensure!(again.parameters == wanted, "the written scene differs from the scene that was run");
     Ok(text)
 }
 
-/// Takes the values out of a scene file that change nothing in `scene`.
+/// Removes values from a scene file that have no influence in `scene`.
 fn take_out_idle(document: &mut DocumentMut, scene: &Scene) {
     let is_idle = |name: &str, situation| named(name).is_some_and(|row| !acts(row, scene, situation));
     if let Some(set) = document.get_mut("set").and_then(Item::as_table_like_mut) {
@@ -71,14 +71,14 @@ fn take_out_idle(document: &mut DocumentMut, scene: &Scene) {
     }
     retain(document.get_mut("at"), &|at| {
         take_out(at, "", &|name| is_idle(name, Situation::RUNNING));
-        // its time is left
+        // its time remains
         at.len() > 1
     });
     let input = |table: &dyn TableLike| table.get("input").and_then(Item::as_str).map(str::to_owned);
     retain(document.get_mut("table"), &|table| !input(table).is_some_and(|name| is_idle(&name, Situation::START)));
 }
 
-/// Takes the names that are `idle` out of a table with dotted or nested keys.
+/// Removes the names that are `idle` from a table with dotted or nested keys.
 fn take_out(table: &mut dyn TableLike, prefix: &str, idle: &dyn Fn(&str) -> bool) {
     let keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
     for key in keys {
@@ -108,7 +108,7 @@ fn retain(mut list: Option<&mut Item>, keep: &dyn Fn(&mut dyn TableLike) -> bool
     }
 }
 
-/// The tables of a list.
+/// Tables of a list.
 fn tables(list: Option<&mut Item>) -> Vec<&mut dyn TableLike> {
     match list {
         Some(Item::ArrayOfTables(tables)) => tables.iter_mut().map(|table| table as _).collect(),
@@ -119,7 +119,7 @@ fn tables(list: Option<&mut Item>) -> Vec<&mut dyn TableLike> {
     }
 }
 
-/// Value of a parameter or input, as a file has it.
+/// Value of a parameter or input, in the form of a scene file.
 fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
     let setting = Setting::of(row, p, i)?;
     Some(match setting.value {
@@ -130,23 +130,23 @@ fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
     })
 }
 
-/// True if the list names this variable.
-fn stands(set: &Item, name: &str) -> bool {
+/// True if `set` contains this variable.
+fn contains(set: &Item, name: &str) -> bool {
     let has =
         |item: Option<&Item>, key| item.and_then(Item::as_table_like).is_some_and(|table| table.contains_key(key));
     has(Some(set), name) || name.split_once('.').is_some_and(|(group, last)| has(set.get(group), last))
 }
 
-/// Sets a variable where it stands, or anew.
+/// Sets a variable in its existing entry, or adds an entry.
 fn put(set: &mut Item, name: &str, value: Value) -> Result<()> {
     let inline = set.is_inline_table();
-    let mut table = set.as_table_like_mut().context("set is no table")?;
+    let mut table = set.as_table_like_mut().context("set is not a table")?;
     let mut key = name;
     if let Some((group, last)) = name.split_once('.')
         && !table.contains_key(name)
     {
         let group = table.entry(group).or_insert_with(|| dotted(inline));
-        table = group.as_table_like_mut().with_context(|| format!("{name} stands in no table"))?;
+        table = group.as_table_like_mut().with_context(|| format!("{name} is not in a table"))?;
         key = last;
     }
     let item = table.entry(key).or_insert_with(|| Item::Value(value.clone()));
@@ -157,7 +157,7 @@ fn put(set: &mut Item, name: &str, value: Value) -> Result<()> {
     Ok(())
 }
 
-/// A table for keys with dots.
+/// Creates a table for keys with dots.
 fn dotted(inline: bool) -> Item {
     if inline {
         let mut table = InlineTable::new();
@@ -169,7 +169,7 @@ fn dotted(inline: bool) -> Item {
     Item::Table(table)
 }
 
-/// The text of the scene in `from`, with paths that lead to the same files from where `to` is.
+/// Rewrites the scene in `from` for the position `to`, so that its relative paths still lead to the same files.
 pub fn moved(text: String, from: &Path, to: &Path) -> Result<String> {
     let mut document: DocumentMut = text.parse().context("the scene's file")?;
     if !document.contains_key("inputs") {
@@ -180,7 +180,7 @@ pub fn moved(text: String, from: &Path, to: &Path) -> Result<String> {
     for table in tables(document.get_mut("inputs")) {
         let Some(file) = table.get("file").and_then(|file| file.as_str()) else { continue };
         let file = old.join(file);
-        // there is no way from one drive of Windows to another
+        // Windows has no relative path from one drive to another
         let path = pathdiff::diff_paths(&file, &new).unwrap_or(file);
         table.insert("file", toml_edit::value(path.to_string_lossy().replace('\\', "/")));
     }

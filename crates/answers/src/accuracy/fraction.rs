@@ -1,11 +1,11 @@
-//! Accuracies as users write them.
+//! Accuracies in the notation of users.
 
 use crate::problem::{Problem, Problems};
 
-/// Finest accuracy that may be asked for: references are computed ten thousand times finer.
+/// Finest accuracy that users may request: references are computed ten thousand times finer.
 const FINEST: f64 = 1e-6;
 
-/// The fraction that `text` says: "1%", "1 %" or "0.01".
+/// Parses a fraction: "1%", "1 %" or "0.01".
 pub fn fraction(text: &str) -> Result<f64, Problems> {
     let problem = |what: &str| {
         Problems::from(Problem::of("within", text, format!("within {text}: {what}; write it as 1% or 0.01")))
@@ -15,9 +15,9 @@ pub fn fraction(text: &str) -> Result<f64, Problems> {
         Some(number) => (number.trim_end(), 100.0),
         None => (trimmed, 1.0),
     };
-    let value = number.parse::<f64>().map_err(|_| problem("is no number"))? / per;
+    let value = number.parse::<f64>().map_err(|_| problem("is not a number"))? / per;
     if !value.is_finite() {
-        return Err(problem("is no number"));
+        return Err(problem("is not a number"));
     }
     if value < FINEST {
         return Err(problem(if value > 0.0 {

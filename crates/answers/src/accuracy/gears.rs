@@ -1,5 +1,4 @@
-//! Levels of tooth contact and laws of a tooth pair: which of them is the richest that a scene's question admits, and which
-//! are plainer.
+//! Levels of tooth contact and laws of a tooth pair: the richest that a scene's question admits, and the plainer ones.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Parameters};
@@ -8,17 +7,17 @@ use bevel_differential::problem::Problem;
 use super::switches::{Settled, settled};
 use crate::scene::Scene;
 
-/// Parameters whose values make the law of a tooth pair the scene's own.
+/// Parameters of the contact law. A scene that sets one of them has a contact law of its own.
 const OF_THE_LAW: [&str; 3] = ["contact.stiffness", "contact.exponent", "contact.stiffness_from_hertz"];
 
-/// A level with a law, and whether gear bodies give way.
+/// A level with a law, with rigid or elastic gear bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gears {
     /// Level.
     pub level: GearContact,
-    /// Law; it counts where there are teeth.
+    /// Law; only used on the level with teeth.
     pub law: ContactLaw,
-    /// Gear bodies give way.
+    /// Gear bodies are elastic.
     pub has_bodies: bool,
 }
 
@@ -26,7 +25,7 @@ const fn gears(level: GearContact, law: ContactLaw, has_bodies: bool) -> Gears {
     Gears { level, law, has_bodies }
 }
 
-/// All of them, the plainest first. Solid teeth are a worse model of a flank, and not among them.
+/// All levels and laws, the plainest first. Solid teeth are missing because they model a flank less accurately.
 const ALL: [Gears; 7] = [
     gears(GearContact::Ideal, ContactLaw::Impact, false),
     gears(GearContact::Lumped, ContactLaw::Impact, false),
@@ -38,14 +37,14 @@ const ALL: [Gears; 7] = [
 ];
 
 impl Gears {
-    /// Those of `p`; a law that counts for nothing is that of [`ALL`].
+    /// Returns the level and law of `p`; a law that is not used is replaced by the one in [`ALL`].
     pub fn of(p: &Parameters) -> Self {
         let level = p.scene.gear_contact;
         let law = if level == GearContact::Tooth { p.contact.law } else { ContactLaw::Impact };
         Self { level, law, has_bodies: p.effects.body_compliance }
     }
 
-    /// `scene` with them; effects that they do not know go.
+    /// Returns `scene` with this level and law, without effects that they do not support.
     pub fn of_scene(self, scene: &Scene) -> Result<Settled, Vec<Problem>> {
         let mut scene = scene.clone();
         let p = &mut scene.parameters;
@@ -56,7 +55,7 @@ impl Gears {
         settled(&scene)
     }
 
-    /// In words.
+    /// Name of level and law for users.
     pub fn text(self) -> String {
         let (level, law) = (self.level.literal(), self.law.literal());
         match self.level {
@@ -66,13 +65,14 @@ impl Gears {
     }
 }
 
-/// Whether `scene` sets one of `names`.
+/// True if `scene` sets one of `names`.
 fn sets(scene: &Scene, names: &[&str]) -> bool {
     scene.settings.iter().any(|setting| names.contains(&setting.row.name))
 }
 
-/// The richest that the question of `scene` admits. A level or law that the scene sets to another than the start value, and
-/// a law with values of the scene's own, is part of the question; what is left at its start value is replaced by the richest.
+/// Returns the richest level and law that the question of `scene` admits. A level or law that the scene changes from
+/// its start value is part of the question; so is a law whose parameters the scene sets. Others are replaced by the
+/// richest.
 pub fn richest(scene: &Scene) -> Gears {
     let (own, start) = (Gears::of(&scene.parameters), Gears::of(&Parameters::default()));
     let level = match own.level {
@@ -86,7 +86,8 @@ pub fn richest(scene: &Scene) -> Gears {
     Gears { level, law, has_bodies }
 }
 
-/// What is plainer than `richest`, the plainest first; laws that are not those of the scene's own values are left out.
+/// Returns levels and laws plainer than `richest`, the plainest first. If the scene sets parameters of its law, other
+/// laws are left out.
 pub fn plainer(scene: &Scene, richest: Gears) -> Vec<Gears> {
     let own_law = sets(scene, &OF_THE_LAW);
     let known = ALL.iter().take_while(|&&gears| gears != richest).copied();

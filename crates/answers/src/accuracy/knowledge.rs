@@ -1,11 +1,11 @@
-//! What even the richest model does not know, by output: a lower bound of its own error beside which an accuracy is to be
-//! read. Figures are those of docs/inside/stiffness.md (3-D finite elements) and of the limitations in docs/inside/theory.md.
+//! Known errors of the richest model by output. They are a lower bound of its error, to which an accuracy should be
+//! compared. The values come from docs/inside/stiffness.md (3-D finite elements) and the limitations in docs/inside/theory.md.
 
 use bevel_differential::variables::Variable;
 
 use super::want::Want;
 
-/// A kind of output, by parts of its name, and what is not known of it.
+/// A kind of output, identified by parts of its name, and its known error.
 struct Bound {
     parts: &'static [&'static str],
     text: &'static str,
@@ -45,7 +45,7 @@ const BOUNDS: [Bound; 7] = [
     },
 ];
 
-/// What the richest model does not know of the wanted outputs, each once.
+/// Known errors of the richest model for the wanted outputs, each once.
 pub fn bounds(outputs: &[&Variable], wants: &[Want]) -> Vec<&'static str> {
     let mut found = Vec::new();
     for want in wants {

@@ -1,14 +1,16 @@
-//! What accuracy costs in a scene: the cheapest model that gives wanted quantities to a wanted accuracy, and why.
+//! Cost of accuracy in a scene: the cheapest model that gives wanted quantities to a wanted accuracy, with the reasons.
 //!
 //! 1. The **reference** is the richest model that the question admits, at a tolerance whose own error does not matter.
-//! 2. Every plainer level and law, and the richest model without each effect, are run against it.
-//! 3. From the plainest gears that are accurate enough, effects are left out and the tolerance is loosened step by step, as
-//!    long as the *combination* stays within the accuracy: what is chosen has itself been run against the reference.
-//! 4. A scene that asks for fixed steps keeps them: the search looks for the longest step instead of the loosest tolerance.
+//! 2. Every plainer level and law, and the richest model without each effect, is compared with the reference.
+//! 3. The search starts from the plainest gears that are accurate enough. It leaves out effects and loosens the
+//! tolerance step by
+//!    step, as long as the *combination* stays within the accuracy. The chosen setting was itself run and compared.
+//! 4. A scene with fixed steps keeps them: the search then looks for the longest step instead of the loosest tolerance.
 //!
-//! The choice depends only on counted work, so it is the same on every machine. Measured times are information.
+//! The choice depends only on counted work, so it is the same on every machine. Measured times are for information
+//! only.
 //!
-//! [`answer`] does it and returns an [`Answer`]; [`report`], [`table`] and [`chosen`] show it.
+//! [`answer`] searches and returns an [`Answer`]; [`report`], [`table`] and [`chosen`] show it.
 
 pub mod answer;
 pub mod bench;
@@ -29,7 +31,7 @@ pub mod words;
 
 pub use answer::{Answer, answer};
 
-/// What is asked of a scene.
+/// Request for the cheapest accurate model of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Wanted quantities, `OUTPUT:STATISTIC`; none = all outputs of the scene.

@@ -1,5 +1,5 @@
-//! Cost of a run, in evaluations of plain teeth: its counts times the prices that `prices --write` measured. It does not depend on
-//! the machine, so that equal questions get equal answers.
+//! Cost of a run, in evaluations of plain teeth: its counts times the prices that `prices --write` measured. It does
+//! not depend on the machine, so equal questions get equal answers.
 
 use std::sync::OnceLock;
 
@@ -9,10 +9,10 @@ use bevel_differential::model::{GearContact, Parameters};
 use super::record::Effort;
 use super::switches::effects;
 
-/// Columns: what is on; price of an evaluation of the tooth forces; price of a communication step.
+/// Columns: enabled effect or level; price of an evaluation of the tooth forces; price of a communication step.
 const MEASURED: &str = include_str!("../../data/prices.csv");
 
-/// Least price of an evaluation by which [`evaluations`] divides; [`cost`] takes lower ones as they are.
+/// Minimum price of an evaluation by which [`evaluations`] divides. [`cost`] uses lower prices unchanged.
 const LEAST: f64 = 0.01;
 
 /// A row of `MEASURED`.
@@ -23,7 +23,7 @@ struct Price {
 }
 
 impl Price {
-    /// Price of an evaluation, less its share of what a communication step costs without teeth.
+    /// Price of an evaluation, without its share of the cost that a communication step has even without teeth.
     fn evaluation_alone(&self) -> f64 {
         self.per_evaluation * (1.0 - step_without_teeth() / self.per_step).max(0.0)
     }
@@ -72,12 +72,12 @@ fn price_of_evaluation(p: &Parameters) -> f64 {
     price(base) + on.map(|switch| effect(switch.name()).max(0.0)).sum::<f64>()
 }
 
-/// How many evaluations of `p` cost `cost`.
+/// Number of evaluations of `p` that cost `cost`.
 pub fn evaluations(p: &Parameters, cost: f64) -> f64 {
     cost / price_of_evaluation(p).max(LEAST)
 }
 
-/// Cost of a run of `p` that took `effort`.
+/// Cost of a run of `p` with `effort`.
 pub fn cost(p: &Parameters, effort: &Effort) -> f64 {
     effort.points * step_without_teeth() + effort.evaluations * price_of_evaluation(p)
 }

@@ -1,4 +1,4 @@
-//! A run of a scene: its outputs at the communication points, the turns of teeth and shaft, and what it took.
+//! A run of a scene: its outputs at the communication points, the rotations of mesh and carrier, and its effort.
 
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Variable, named};
@@ -8,25 +8,25 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 
-/// Beginning of the reason for ending a run that takes too many evaluations.
+/// Start of the error of a run that was stopped because it needed too many evaluations.
 pub const GIVEN_UP: &str = "given up";
 
-/// What a run gave.
+/// Results of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// Times of the communication points [s].
     pub times: Vec<f64>,
-    /// Values there, a series for each output of the scene.
+    /// Values at these times, one series for each output of the scene.
     pub values: Vec<Vec<f64>>,
-    /// Phase of the tooth mesh, a pitch of planet 1 being 2π, and angle of the carrier [rad].
+    /// Phase of the tooth mesh, where a pitch of planet 1 is 2π, and angle of the carrier [rad].
     pub phases: [Vec<f64>; 2],
-    /// What it took.
+    /// Effort of the run.
     pub effort: Effort,
     /// Warnings since the start.
     pub warnings: Vec<String>,
 }
 
-/// What a run takes.
+/// Computational effort of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Effort {
     /// Communication steps.
@@ -35,20 +35,20 @@ pub struct Effort {
     pub evaluations: f64,
     /// Accepted steps of the integrator.
     pub steps: f64,
-    /// Time on the processor from the first step on, outputs at communication points included [s].
+    /// Processor time from the first step to the end, including outputs at communication points [s].
     pub seconds: f64,
-    /// Time on the processor of the start: stiffness of teeth and gear bodies from their geometry, equilibrium [s].
+    /// Processor time of the start: stiffness of teeth and gear bodies from their geometry, equilibrium [s].
     pub start: f64,
 }
 
-/// Angles that orders are counted by.
+/// Variables with the angles by which orders are counted.
 fn angles() -> [Option<&'static Variable>; 2] {
     ["planet[1].spin_angle", "carrier.angle"].map(named)
 }
 
 impl Record {
-    /// Runs `scene` and records it from after `from` [s] on, with at most `most` evaluations of the tooth forces; or says
-    /// why it does not come to its end.
+    /// Runs `scene` with at most `most` evaluations of the tooth forces, and records it after the time `from` [s].
+    /// Returns the reason if the run fails.
     pub fn of(scene: &Scene, from: f64, most: f64, progress: &mut Progress) -> Result<Self, String> {
         progress.check_stopped().map_err(|stopped| stopped.to_string())?;
         let begun = ThreadTime::now();
@@ -56,7 +56,7 @@ impl Record {
         let mut record = Self { values: vec![Vec::new(); scene.outputs.len()], ..Self::default() };
         record.effort.start = begun.elapsed().as_secs_f64();
         let teeth = f64::from(scene.parameters.geometry.planet_teeth);
-        // half a step, as communication points are rounded
+        // half a step, because communication points are rounded
         let from = from + 0.5 * scene.step;
         while !run.is_over() {
             progress.check_stopped().map_err(|stopped| stopped.to_string())?;
@@ -87,7 +87,7 @@ impl Record {
     }
 }
 
-/// Problems in one line.
+/// Joins problems into one line.
 pub fn in_one_line(problems: &[Problem]) -> String {
     problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("; ")
 }

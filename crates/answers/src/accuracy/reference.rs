@@ -15,30 +15,32 @@ use crate::problem::question_error;
 use crate::progress::Progress;
 use crate::scene::Scene;
 
-/// Tolerance of the first run, as a part of the accuracy, and at most.
+/// Tolerance of the first run, as a fraction of the accuracy, and its upper bound.
 const FIRST: f64 = 1e-4;
 const COARSEST: f64 = 1e-6;
-/// Each further pair of runs has these parts of the tolerance before: differences of the last three are the integrator's error.
+/// Each further pair of runs multiplies the previous tolerance by these factors. Differences of the last three runs are
+/// the integrator's error.
 const FINER: [f64; 2] = [0.3, 0.1];
-/// Runs become finer as long as they stray by more than this part of the accuracy, so often at most.
+/// Tolerances become finer while the reference is uncertain by more than this fraction of the accuracy, at most this
+/// number of times.
 const STEADY: f64 = 0.1;
 const REFINED: usize = 2;
 
-/// The richest scene, and what was refused beside the rest, with the reason.
+/// The richest scene, and effects that had to be left out.
 pub struct Richest {
     /// The scene.
     pub scene: Scene,
-    /// Effects that do not go with it.
+    /// Effects that do not fit the scene, with the reason.
     pub refused: Vec<(&'static str, String)>,
     /// Its level and law.
     pub gears: Gears,
 }
 
-/// The scene with the richest gears and all effects that it allows and the wanted outputs can tell.
+/// Returns the scene with the richest gears and all possible effects that influence the wanted outputs.
 pub fn richest(scene: &Scene) -> Result<Richest> {
     let gears = gears::richest(scene);
     let mut base = scene.clone();
-    // a method is chosen for its cost; the reference is adaptive
+    // users choose a method for its cost; the reference is adaptive
     base.parameters.solver.method = Method::Adaptive;
     for switch in effects().filter(|switch| switch.status(scene) == Status::NotAsked) {
         switch.set(&mut base.parameters, false);
@@ -64,13 +66,13 @@ pub fn richest(scene: &Scene) -> Result<Richest> {
     Ok(Richest { scene: rich, refused, gears })
 }
 
-/// Range of the relative tolerance.
+/// Bounds of the relative tolerance.
 pub fn tolerances() -> [f64; 2] {
     let row = named("solver.relative_tolerance");
     row.and_then(|row| row.range).map_or([1e-12, 1e-2], |range| [range.min, range.max])
 }
 
-/// `p` with another tolerance, within its range.
+/// Returns `p` with another tolerance, clamped to its range.
 pub fn at_tolerance(p: &Parameters, tolerance: f64) -> Parameters {
     let [least, most] = tolerances();
     let mut p = *p;
@@ -78,8 +80,8 @@ pub fn at_tolerance(p: &Parameters, tolerance: f64) -> Parameters {
     p
 }
 
-/// Runs the richest scene, finer and finer, until its integrator's error does not matter; with what 100 % of each quantity is,
-/// and what the runs cost.
+/// Runs the richest scene with finer and finer tolerances until the integrator's error does not matter. Also returns
+/// the size of 100 % of each quantity and the cost of the runs.
 pub fn run(
     richest: &Scene,
     wants: &[Want],

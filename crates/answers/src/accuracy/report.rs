@@ -1,4 +1,4 @@
-//! The answer as text for the user.
+//! Text of the answer for the user.
 
 use bevel_differential::model::{GearContact, Method};
 
@@ -14,14 +14,14 @@ use crate::text::table::labelled;
 
 /// Width of the first column.
 const INDENT: usize = 11;
-/// The text mentions a start that takes more than this part of the time of the steps.
+/// The text mentions the time of the start if it exceeds this fraction of the time of the steps.
 const LONG_START: f64 = 0.2;
-/// Errors cancel if the chosen setting is this many times nearer to the reference than its gears with all effects.
+/// Errors cancel if the chosen setting is this many times closer to the reference than the same gears with all effects.
 const CANCELLED: f64 = 2.0;
-/// Most wanted quantities that the text lists by name.
+/// Maximum number of wanted quantities that the text lists by name.
 const LISTED: usize = 6;
 
-/// The whole text.
+/// Complete text.
 pub fn text(answer: &Answer) -> String {
     let mut out = format!("{}: {}\n\n", answer.scene.name, answer.scene.description);
     for (title, line) in lines(answer) {
@@ -30,7 +30,7 @@ pub fn text(answer: &Answer) -> String {
     out
 }
 
-/// The lines of the text, each with its title.
+/// Lines of the text, each with its title.
 fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
     let mut lines = vec![("Wanted", wanted(answer))];
     match answer.choice() {
@@ -103,7 +103,7 @@ fn wanted(answer: &Answer) -> String {
     format!("{names} within {} %{from}.", units::six_digits(100.0 * answer.within))
 }
 
-/// Reason why there is no setting.
+/// Reason for the lack of an accurate setting.
 fn nothing(answer: &Answer) -> String {
     let is_fixed = |run: &&Trial| run.scene.parameters.solver.method == Method::FixedStep;
     let fixed = answer.trials.iter().filter(is_fixed).min_by(|a, b| a.error().total_cmp(&b.error()));
@@ -168,8 +168,8 @@ fn reference(answer: &Answer) -> String {
     text
 }
 
-/// A warning where the chosen setting is nearer to the reference than the same gears with all effects. The missing effects
-/// then make up for the errors of the gears, in this scene alone.
+/// Warning if the chosen setting is closer to the reference than the same gears with all effects. Then the missing
+/// effects compensate for the errors of the gears, but only in this scene.
 fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
     let own = Gears::of(&chosen.scene.parameters);
     let (_, full) = answer.gears.iter().find(|(gears, _)| *gears == own)?;
@@ -196,7 +196,7 @@ fn gears(answer: &Answer) -> String {
     format!("with all their effects: {}.", errors.join(", "))
 }
 
-/// Why each effect is in or out of the setting; effects with the same reason share a line.
+/// Role of each effect, one line for each reason.
 fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
     let names = |pick: &dyn Fn(&Switch, &Role) -> Option<String>| {
@@ -247,7 +247,7 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
                 None => "were not tried".into(),
             };
             let acts = if *now > 0.0 {
-                format!("changes {} by other steps of the integrator alone", percent(*now))
+                format!("changes {} only through other steps of the integrator", percent(*now))
             } else {
                 "changes nothing".into()
             };

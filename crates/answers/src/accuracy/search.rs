@@ -11,51 +11,53 @@ use super::switches::{Switch, effects, settled};
 use crate::scene::Scene;
 use crate::scene::set::Setting;
 
-/// Tolerance at which levels, laws and effects are compared, as a part of the accuracy; and its range.
+/// Tolerance at which levels, laws and effects are compared, as a fraction of the accuracy, and its bounds.
 const SCREEN: f64 = 1e-3;
 const SCREENS: [f64; 2] = [1e-7, 1e-4];
-/// The error of the screening itself is below this part of the accuracy.
+/// Maximum error of the comparisons themselves, as a fraction of the accuracy.
 const SCREEN_ERROR: f64 = 0.2;
-/// An effect is left out only if that saves this part.
+/// Minimum fraction of the cost that leaving out an effect must save.
 const SAVES: f64 = 0.01;
-/// Effects whose changes by themselves are together below this part of the accuracy leave at once.
+/// Effects whose individual changes add up to less than this fraction of the accuracy are left out together.
 const TOGETHER: f64 = 0.3;
-/// An effect that changes a quantity by more than this many accuracies by itself is not tried again in a combination.
+/// An effect that on its own changes a quantity by more than this multiple of the accuracy is not tried again in a
+/// combination.
 const HOPELESS: f64 = 3.0;
-/// So many of the plainest gears that will do are followed to the end; richer gears must be cheaper than this part.
+/// Number of the plainest accurate gears that are optimised. The result with richer gears must cost less than this
+/// fraction.
 const STARTS: usize = 2;
 const CHEAPER: f64 = 0.5;
-/// Loosened tolerances: factors of the one before.
+/// Factor from one tolerance to the next looser one, and the loosest tolerance.
 const LOOSER: f64 = 10.0;
 const LOOSEST: f64 = 1e-2;
-/// Parameter with the size of fixed steps.
+/// Parameter of the fixed step size.
 const STEP: &str = "solver.fixed_step";
 
-/// What a level or law does by itself, or a model without an effect.
+/// A run with one level or law, or without one effect.
 #[derive(Clone)]
 pub struct Single<T> {
-    /// Which.
+    /// The level and law, or the effect.
     pub of: T,
-    /// Number of its run, or why there is none.
+    /// Index of the run, or the reason for its failure.
     pub run: Result<usize, String>,
 }
 
-/// What the search found.
+/// Results of the search.
 pub struct Found {
-    /// The richest model at the tolerance of the comparisons.
+    /// Run of the richest model at the tolerance of the comparisons.
     pub rich: Option<usize>,
-    /// Plainer levels and laws with all effects that they know, the plainest first.
+    /// Plainer levels and laws with all effects that they support, the plainest first.
     pub gears: Vec<Single<Gears>>,
-    /// The plainest gears that are accurate enough, with all effects that they know.
+    /// Run of the plainest accurate gears with all effects that they support.
     pub base: Option<usize>,
-    /// The same without each of its effects.
+    /// Runs of the plainest accurate gears without each of their effects.
     pub effects: Vec<Single<Switch>>,
-    /// The chosen combination; none if no run comes to its end, or no fixed step is accurate enough.
+    /// Run of the chosen combination; none if all runs fail or no fixed step is accurate enough.
     pub chosen: Option<usize>,
 }
 
-/// Whether run `i` is accurate enough: within the accuracy with what the reference itself may stray; where that is more than
-/// can be told, within twice the stray.
+/// True if run `i` is accurate enough: its error plus the reference's uncertainty is within the accuracy. If the
+/// reference is uncertain, an error up to the accuracy or up to twice the uncertainty is allowed.
 pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
     let errors = bench.trials[i].errors.iter().zip(&bench.reference.errors);
     errors.into_iter().all(|(&error, &stray)| {
@@ -64,8 +66,8 @@ pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
     })
 }
 
-/// Searches below the richest scene. The adaptive method compares levels, laws and effects, also for a scene that asks for fixed
-/// steps.
+/// Searches for combinations plainer than the richest scene. The adaptive method compares levels, laws and effects even
+/// if the scene requests fixed steps.
 pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) -> Found {
     let (screen, rich) = screening(bench, &richest.scene, within);
     let rich_scene = Scene { parameters: at_tolerance(&richest.scene.parameters, screen), ..richest.scene.clone() };
@@ -80,11 +82,11 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) 
     let effects = base.map_or(Vec::new(), |base| without_each(bench, base));
     let is_fixed = scene.parameters.solver.method == Method::FixedStep;
     let mut chosen: Option<usize> = None;
-    // the two plainest gears that will do: the richer of both may be cheaper, as its teeth are softer
+    // the two plainest accurate gears: the richer of the two may be cheaper because its teeth are softer
     for &start in starts.iter().take(STARTS) {
         let reduced = leave_out(bench, start, &effects, scene, within);
         let reduced = if is_fixed {
-            // richer gears cost more in each of the steps, so they would not get further
+            // richer gears cost more per step, so they would not allow shorter steps
             let Some(stepped) = in_fixed_steps(bench, reduced, scene, within) else { break };
             stepped
         } else {
@@ -94,7 +96,7 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) 
             chosen = Some(reduced);
         }
     }
-    // nothing plainer will do: the richest model, at the reference's own tolerance or in fixed steps
+    // nothing plainer is accurate enough: the richest model, at the reference's own tolerance or in fixed steps
     let chosen = chosen.or_else(|| {
         if is_fixed {
             let rich = rich.filter(|_| starts.is_empty())?;
@@ -107,13 +109,13 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) 
     Found { rich, gears, base, effects, chosen }
 }
 
-/// The run of `scene` on other gears, without the effects that they do not know.
+/// Runs `scene` with other gears, without the effects that they do not support.
 fn on_gears(bench: &mut Bench, gears: Gears, scene: &Scene, what: &str) -> Result<usize, String> {
     let found = gears.of_scene(scene).map_err(|found| super::record::in_one_line(&found))?;
     bench.run(&found.scene, &format!("{what} on gears {}", gears.text()))
 }
 
-/// Run `base` without each of its effects.
+/// Repeats run `base` without each of its effects.
 fn without_each(bench: &mut Bench, base: usize) -> Vec<Single<Switch>> {
     let scene = bench.trials[base].scene.clone();
     let on = effects().filter(|switch| switch.is_on(&scene.parameters));
@@ -124,8 +126,8 @@ fn without_each(bench: &mut Bench, base: usize) -> Vec<Single<Switch>> {
     .collect()
 }
 
-/// Tries whether the chosen setting can do without any one of its parts, again and again until it cannot: its runs are cheap,
-/// and those that fail show what is next.
+/// Removes parts of the chosen setting one by one until every remaining part is needed. These runs are cheap, and the
+/// failed ones show the next coarser settings.
 fn minimal(bench: &mut Bench, mut chosen: usize, plainer: &[Gears], written: &Scene, within: f64) -> usize {
     loop {
         let scene = bench.trials[chosen].scene.clone();
@@ -148,7 +150,7 @@ fn minimal(bench: &mut Bench, mut chosen: usize, plainer: &[Gears], written: &Sc
     }
 }
 
-/// The loosest tolerance at which the richest model is so accurate that others can be judged by it, and its run.
+/// Returns the loosest tolerance at which the richest model is accurate enough to compare others with it, and its run.
 fn screening(bench: &mut Bench, richest: &Scene, within: f64) -> (f64, Option<usize>) {
     let mut screen = (SCREEN * within).clamp(SCREENS[0], SCREENS[1]);
     let finest = bench.reference.scene.parameters.solver.relative_tolerance;
@@ -164,9 +166,9 @@ fn screening(bench: &mut Bench, richest: &Scene, within: f64) -> (f64, Option<us
     }
 }
 
-/// Leaves effects out of run `start`, those of the least change first, while what remains is accurate enough and cheaper;
-/// effects that are off in the scene as `written` leave even where that is dearer: what a scene does not have is not put in to
-/// save time.
+/// Leaves effects out of run `start`, those with the smallest change first, while the result stays accurate enough and
+/// becomes cheaper. Effects that the scene as `written` does not have are left out even if that is more expensive,
+/// because they must not be added only to save time.
 fn leave_out(bench: &mut Bench, start: usize, singles: &[Single<Switch>], written: &Scene, within: f64) -> usize {
     let size = |bench: &Bench, single: &Single<Switch>| {
         single.run.as_ref().map_or(f64::INFINITY, |&run| bench.trials[run].error())
@@ -175,7 +177,7 @@ fn leave_out(bench: &mut Bench, start: usize, singles: &[Single<Switch>], writte
         singles.iter().filter(|single| single.of.is_on(&bench.trials[start].scene.parameters)).collect();
     left.sort_by(|a, b| size(bench, a).total_cmp(&size(bench, b)));
     let mut current = start;
-    // most effects do not matter: all of them at once
+    // most effects do not matter: all of them together
     let mut sum = 0.0;
     let base = bench.trials[start].error();
     let few = left.iter().take_while(|single| {
@@ -205,7 +207,7 @@ fn leave_out(bench: &mut Bench, start: usize, singles: &[Single<Switch>], writte
     current
 }
 
-/// The run of `scene` if it is accurate enough, and `plainer` or cheaper than run `current`.
+/// Returns the run of `scene` if it is accurate enough, and `plainer` or cheaper than run `current`.
 fn attempt(bench: &mut Bench, current: usize, scene: &Scene, what: &str, plainer: bool, within: f64) -> Option<usize> {
     if !bench.has_room(bench.trials[current].cost) {
         return None;
@@ -216,7 +218,7 @@ fn attempt(bench: &mut Bench, current: usize, scene: &Scene, what: &str, plainer
     ((plainer || cheaper) && is_within(bench, within, run)).then_some(run)
 }
 
-/// Loosens the tolerance of run `current` while it stays accurate enough and becomes cheaper.
+/// Loosens the tolerance of run `current` while the result stays accurate enough and becomes cheaper.
 fn loosen(bench: &mut Bench, current: usize, within: f64) -> usize {
     let mut best = current;
     let mut tolerance = bench.trials[current].scene.parameters.solver.relative_tolerance;
@@ -232,8 +234,8 @@ fn loosen(bench: &mut Bench, current: usize, within: f64) -> usize {
     best
 }
 
-/// Returns the run of `current` in the longest fixed steps that are accurate enough. Steps count only if the next shorter ones are
-/// accurate enough, too: errors of steps that are too long may cancel by chance.
+/// Returns the run of `current` with the longest fixed steps that are accurate enough. A step size counts only if the
+/// next shorter one is accurate too, because errors of long steps may cancel by chance.
 fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f64) -> Option<usize> {
     let mut scene = bench.trials[current].scene.clone();
     let mut longest: Option<usize> = None;
@@ -244,7 +246,7 @@ fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f6
             break;
         }
         scene.parameters.solver = SolverSpec { fixed_step: step, ..written.parameters.solver };
-        // the setting names its step, even if that is the start value
+        // the setting contains its step, even if that is the start value
         scene.settings.retain(|setting| setting.row.name != STEP);
         scene.settings.extend(named(STEP).and_then(|row| Setting::of(row, &scene.parameters, &scene.inputs)));
         let run = bench.run(&scene, &format!("fixed steps of {step:e} s"));
@@ -262,8 +264,8 @@ fn in_fixed_steps(bench: &mut Bench, current: usize, written: &Scene, within: f6
     longest
 }
 
-/// Sizes of fixed steps to try [s]: 1, 2 and 5 in each decade of their range. The first is the shortest that leads from one
-/// communication point to the next in one step.
+/// Fixed step sizes to try [s]: 1, 2 and 5 in each decade of their range. The first one is the shortest that spans a
+/// whole communication step.
 fn fixed_steps(communication_step: f64) -> Vec<f64> {
     let range = named(STEP).and_then(|row| row.range).map_or([1e-7, 1e-2], |range| [range.min, range.max]);
     let decades = (-12..=0).rev();
@@ -279,7 +281,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_fixed_step_is_one_from_one_communication_point_to_the_next() {
+    fn the_first_fixed_step_spans_a_communication_step() {
         for (communication_step, first) in
             [(1e-3, [1e-3, 5e-4, 2e-4]), (3e-4, [5e-4, 2e-4, 1e-4]), (1.0, [1e-2, 5e-3, 2e-3])]
         {

@@ -1,11 +1,11 @@
-//! Figures that a series over time is judged by.
+//! Statistics of a series over time.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
 use super::record::Record;
 
-/// A figure of a series.
+/// A statistic of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statistic {
     /// Mean over time.
@@ -22,26 +22,26 @@ pub enum Statistic {
     Final,
     /// Time at which the magnitude is largest [s].
     TimeOfPeak,
-    /// Amplitude of an order: `number` periods per period of a rotation.
+    /// Amplitude of an order: `number` oscillations per period of a rotation.
     Order {
-        /// Periods per period.
+        /// Oscillations per period.
         number: u32,
-        /// Of what.
+        /// Rotation whose periods are counted.
         of: Rotation,
     },
 }
 
-/// What an order is counted by.
+/// Rotation by which an order is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rotation {
-    /// Meshing teeth: a period is a pitch of planet 1.
+    /// Meshing teeth: a period is one pitch of planet 1.
     Mesh,
-    /// The shaft of the carrier: a period is a turn.
+    /// Carrier shaft: a period is one turn.
     Shaft,
 }
 
 impl Rotation {
-    /// Its word.
+    /// Name in the notation of users.
     pub fn word(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
@@ -50,9 +50,9 @@ impl Rotation {
     }
 }
 
-/// What is asked for where no statistic is named.
+/// Statistics of an output for which none is named.
 pub const USUAL: [Statistic; 4] = [Statistic::Mean, Statistic::Rms, Statistic::Min, Statistic::Max];
-/// Words of the others.
+/// Names of statistics other than orders.
 const WORDS: [(&str, Statistic); 7] = [
     ("mean", Statistic::Mean),
     ("rms", Statistic::Rms),
@@ -62,10 +62,10 @@ const WORDS: [(&str, Statistic); 7] = [
     ("final", Statistic::Final),
     ("time_of_peak", Statistic::TimeOfPeak),
 ];
-/// All words, for messages.
+/// All names, for messages.
 pub const KNOWN: &str =
     "mean, rms, min, max, peak_to_peak, final, time_of_peak, mesh_order_1 (any whole number), shaft_order_1";
-/// Part of a period between two communication points at most, so that an amplitude can be told: four points.
+/// Maximum phase between two communication points [rad]: an amplitude needs four points per period.
 const COARSEST: f64 = 0.5 * PI;
 
 impl fmt::Display for Statistic {
@@ -78,7 +78,7 @@ impl fmt::Display for Statistic {
 }
 
 impl Statistic {
-    /// The statistic that `text` names: a word, or an order such as `mesh_order_1` or `order 1 of mesh`.
+    /// Parses a statistic: a name, or an order such as `mesh_order_1` or `order 1 of mesh`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let text = text.trim().to_lowercase();
         let plain = text.replace([' ', '-'], "_");
@@ -100,12 +100,12 @@ impl Statistic {
         Err(format!("there is no statistic \"{text}\"{hint} Known: {KNOWN}").replace("\" Known", "\"; known"))
     }
 
-    /// True if the figure is a difference between values: a temperature of it has no zero point.
+    /// True if the statistic is a difference between values, so that a temperature has no zero offset.
     pub fn is_difference(self) -> bool {
         matches!(self, Self::PeakToPeak | Self::Order { .. })
     }
 
-    /// The figure of output `i` of `record`, or why it makes no sense there.
+    /// Computes the statistic of output `i` of `record`, or returns the reason why it is undefined.
     pub fn of(self, record: &Record, i: usize) -> Result<f64, String> {
         let (times, values) = (&record.times, &record.values[i]);
         let extreme = |pick: fn(f64, f64) -> f64| values.iter().copied().reduce(pick).unwrap_or(0.0);
@@ -125,7 +125,7 @@ impl Statistic {
     }
 }
 
-/// Mean over time of `of` the values, straight from point to point.
+/// Mean over time of `of` applied to the values, by the trapezoidal rule.
 fn over_time(times: &[f64], values: &[f64], of: fn(f64) -> f64) -> f64 {
     let span = times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0);
     if span <= 0.0 {
@@ -135,7 +135,7 @@ fn over_time(times: &[f64], values: &[f64], of: fn(f64) -> f64) -> f64 {
     pieces.map(|(t, v)| 0.5 * (t[1] - t[0]) * (of(v[0]) + of(v[1]))).sum::<f64>() / span
 }
 
-/// Time of the largest magnitude, by a parabola through it and its neighbours [s].
+/// Time of the largest magnitude [s], interpolated by a parabola through it and its neighbours.
 fn time_of_peak(times: &[f64], values: &[f64]) -> f64 {
     let Some(k) = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs())) else { return 0.0 };
     if k == 0 || k + 1 == values.len() {
@@ -147,11 +147,12 @@ fn time_of_peak(times: &[f64], values: &[f64]) -> f64 {
     if left - right <= 0.0 {
         return times[k];
     }
-    // where the slope of the parabola, left at the middle of the first piece and right at that of the second, is zero
+    // zero of the parabola's slope, interpolated between the midpoints of the left and the right interval
     (times[k] - 0.5 * down) + 0.5 * (down + up) * left / (left - right)
 }
 
-/// Amplitude of order `number` of `phase` in `values`, over the last whole periods; or why there is none.
+/// Amplitude of order `number` of `phase` in `values`, over the last whole periods. Returns the reason if it is
+/// undefined.
 fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> {
     let rotation = || "the rotation that it is counted by";
     let (Some(&first), Some(&last)) = (phase.first(), phase.last()) else { return Err("nothing is recorded".into()) };
@@ -198,7 +199,7 @@ fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> 
 mod tests {
     use super::*;
 
-    /// 3 + 2 cos(φ + 0.3) + 0.5 sin 3φ over φ = 40 t, one second.
+    /// Series 3 + 2 cos(φ + 0.3) + 0.5 sin 3φ over φ = 40 t for one second.
     fn waves(points: usize) -> Record {
         let times: Vec<f64> = (0..=points).map(|i| i as f64 / points as f64).collect();
         let phase: Vec<f64> = times.iter().map(|t| 40.0 * t).collect();
@@ -207,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn amplitudes_of_orders_are_those_of_the_waves() {
+    fn orders_have_the_amplitudes_of_the_waves() {
         let record = waves(4000);
         let order = |number| Statistic::Order { number, of: Rotation::Mesh }.of(&record, 0).expect("an order");
         for (number, wanted) in [(1, 2.0), (2, 0.0), (3, 0.5)] {
@@ -216,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_that_cannot_be_told_say_why() {
+    fn undefined_orders_state_the_reason() {
         let shaft = Statistic::Order { number: 1, of: Rotation::Shaft };
         assert!(shaft.of(&waves(4000), 0).expect_err("a sixth of a turn").contains("one period"));
         let fine = Statistic::Order { number: 3, of: Rotation::Mesh };
@@ -237,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_read_as_they_are_written() {
+    fn parsing_a_printed_statistic_returns_it() {
         let order = Statistic::Order { number: 2, of: Rotation::Shaft };
         for statistic in USUAL.into_iter().chain([Statistic::PeakToPeak, Statistic::TimeOfPeak, order]) {
             assert_eq!(Statistic::parse(&statistic.to_string()), Ok(statistic));

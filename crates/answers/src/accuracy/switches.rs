@@ -1,4 +1,4 @@
-//! Effects that a scene may switch, and how it stands to each.
+//! Effects that a scene may switch, and the status of each in the scene.
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::problem::Problem;
@@ -7,32 +7,31 @@ use bevel_differential::variables::{Access, Variable, named, table, value_of};
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 
-/// Beginning of the names of all switches.
+/// Common prefix of all switches.
 const PREFIX: &str = "effects.";
 
-/// Effects that say what is built in, broken or driven, and not how closely it is looked at: whether a differential has
-/// clutch packs or a broken tooth, and how it is excited, is part of the question. They are not put into a scene that
-/// does not have them.
+/// Effects that say what is built in, broken or driven, rather than how accurately it is modelled. Clutch packs, a
+/// broken tooth and the excitation are part of the question, so these effects are not added to a scene without them.
 const PART_OF_THE_QUESTION: [&str; 4] =
     ["effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake"];
 
-/// Effects that change no motion and only give outputs, with parts of the names of those. Zero is an answer of
-/// theirs, such as a damage of 0, and differs from not asking.
+/// Effects that change no motion and only add outputs, with parts of the names of these outputs. A scene can ask for
+/// such an output even if it is zero, such as a damage of 0.
 const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 2] =
     [("effects.strength", &["stress.", "damage.", "safety."]), ("effects.mesh_history", &["_peak_to_peak"])];
 
-/// How a scene stands to an effect.
+/// Status of an effect in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// On.
     On,
-    /// Off, as it is unless switched on.
+    /// Off because nothing switches it on.
     Off,
-    /// Set off by the scene: its author says that it is not there.
+    /// Switched off by the scene: its author says that it is not there.
     SetOff,
     /// Off, and part of the question.
     NotInScene,
-    /// Only gives outputs, and none of them is wanted.
+    /// Only adds outputs, none of which is wanted.
     NotAsked,
 }
 
@@ -42,12 +41,12 @@ pub struct Switch {
     row: &'static Variable,
 }
 
-/// A scene, and the effects that had to go as they do not go with the rest.
+/// A scene without the effects that do not fit it.
 #[derive(Clone)]
 pub struct Settled {
     /// The scene.
     pub scene: Scene,
-    /// Effects that went.
+    /// Effects that were left out.
     pub without: Vec<&'static str>,
 }
 
@@ -64,12 +63,12 @@ impl Switch {
         self.row.name.strip_prefix(PREFIX).unwrap_or(self.row.name)
     }
 
-    /// Whether it is that of gear bodies, which go with a law.
+    /// True for the elastic gear bodies, which are part of a level ([`super::gears`]).
     pub fn is_bodies(&self) -> bool {
         self.name() == "body_compliance"
     }
 
-    /// Whether the effect is on in `p`.
+    /// True if the effect is on in `p`.
     pub fn is_on(&self, p: &Parameters) -> bool {
         value_of(self.row, p, &Inputs::ZERO) == Some(1.0)
     }
@@ -81,7 +80,7 @@ impl Switch {
         }
     }
 
-    /// How `scene` stands to it.
+    /// Status of the effect in `scene`.
     pub fn status(&self, scene: &Scene) -> Status {
         if self.only_gives_outputs() && !self.is_asked_for(&scene.outputs) {
             Status::NotAsked
@@ -100,53 +99,53 @@ impl Switch {
         ONLY_GIVE_OUTPUTS.iter().any(|(name, _)| *name == self.row.name)
     }
 
-    /// Whether it only gives outputs, and `outputs` have one of them.
+    /// True if the effect only adds outputs and `outputs` contains one of them.
     pub fn is_asked_for(&self, outputs: &[&Variable]) -> bool {
         let own = ONLY_GIVE_OUTPUTS.iter().filter(|(name, _)| *name == self.row.name).flat_map(|(_, own)| own.iter());
         own.into_iter().any(|own| outputs.iter().any(|output| output.name.contains(own)))
     }
 
-    /// `scene` with this effect on or off.
+    /// Returns `scene` with this effect on or off.
     pub fn turned(&self, scene: &Scene, on: bool) -> Scene {
         let mut scene = scene.clone();
         self.set(&mut scene.parameters, on);
         scene
     }
 
-    /// Values by which the effect would show, with their variables: those that the scene leaves or sets at zero.
+    /// Typical values through which the effect would act, with their variables, for those that are zero in the scene.
     pub fn typical(&self, scene: &Scene) -> Vec<(&'static Variable, f64)> {
         let is_shown = |&(row, value): &(&Variable, f64)| is_zero(row, scene) && value != 0.0;
         self.showing(scene).into_iter().filter(is_shown).collect()
     }
 
-    /// Whether all values by which the effect would show are zero in the scene.
+    /// True if all values through which the effect would act are zero in the scene.
     pub fn is_at_zero(&self, scene: &Scene) -> bool {
         let showing = self.showing(scene);
         !showing.is_empty() && showing.iter().all(|(row, _)| is_zero(row, scene))
     }
 
-    /// Values by which the effect would show, with their variables.
+    /// Values through which the effect acts, with their variables.
     fn showing(&self, scene: &Scene) -> Vec<(&'static Variable, f64)> {
-        // bodies give way without bores, too
+        // gear bodies are elastic without bores, too
         if self.is_bodies() {
             return Vec::new();
         }
         let declared = EFFECTS.iter().filter(|effect| effect.switch == Some(self.row.name));
         let examples =
             declared.flat_map(|effect| effect.example).filter_map(|&(name, value)| Some((named(name)?, value)));
-        // an own parameter that the scene sets to zero has its start value for a typical one
+        // for a parameter of the effect that the scene sets to zero, the start value is the typical one
         let own = scene.settings.iter().map(|setting| setting.row).filter(|row| group(row.name) == self.name());
         let starts = own.filter_map(|row| Some((row, number(row, &Parameters::default(), &Inputs::default())?)));
         examples.chain(starts).collect()
     }
 }
 
-/// Whether a scene leaves or sets a value at zero.
+/// True if the value is zero in the scene.
 fn is_zero(row: &Variable, scene: &Scene) -> bool {
     number(row, &scene.parameters, &scene.inputs) == Some(0.0)
 }
 
-/// The part of a name before its first dot.
+/// Part of a name before its first dot.
 fn group(name: &str) -> &str {
     name.split('.').next().unwrap_or(name)
 }
@@ -157,7 +156,7 @@ fn number(row: &Variable, p: &Parameters, i: &Inputs) -> Option<f64> {
     value_of(row, p, i).filter(|_| is_number)
 }
 
-/// `scene` without the effects that are refused by name beside the rest; or what else is refused.
+/// Returns `scene` without the effects that are refused by name, or the other problems of the scene.
 pub fn settled(scene: &Scene) -> Result<Settled, Vec<Problem>> {
     let mut settled = Settled { scene: scene.clone(), without: Vec::new() };
     loop {

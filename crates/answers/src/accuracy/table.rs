@@ -16,7 +16,7 @@ pub struct Row {
     pub place: &'static str,
     /// Level, law, effects, solver.
     pub setting: String,
-    /// Largest error of a wanted quantity, as a fraction; for the reference its largest change with the tolerance.
+    /// Largest error of a wanted quantity, as a fraction; for the reference, its largest change with the tolerance.
     pub error: f64,
     /// Wanted quantity with the largest error.
     pub worst: String,
@@ -33,7 +33,7 @@ pub struct Row {
     pub errors: Vec<f64>,
 }
 
-/// All runs, the reference last.
+/// Returns all runs, with the reference last.
 pub fn rows(answer: &Answer) -> Vec<Row> {
     let places = [(answer.chosen, "chosen"), (answer.too_coarse, "cheaper"), (answer.richer, "richer")];
     let place = |i: usize| places.into_iter().find(|(run, _)| *run == Some(i)).map_or("", |(_, place)| place);
@@ -57,7 +57,7 @@ fn row(answer: &Answer, place: &'static str, trial: &Trial) -> Row {
     }
 }
 
-/// The rows as CSV, with a column for the error of each wanted quantity.
+/// Formats the rows as CSV, with a column for the error of each wanted quantity.
 pub fn csv(answer: &Answer) -> Result<String> {
     let mut file = csv::Writer::from_writer(Vec::new());
     let head = ["tried", "place", "setting", "error", "worst", "evaluations", "steps", "price", "seconds"];

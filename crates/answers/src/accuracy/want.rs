@@ -1,4 +1,4 @@
-//! What is wanted: outputs of a scene, each by a statistic, and how large 100 % of it is.
+//! Wanted quantities: outputs of a scene, each with a statistic and the size of 100 %.
 
 use bevel_differential::variables::Variable;
 
@@ -7,24 +7,24 @@ use super::statistic::{Statistic, USUAL};
 use crate::scene::Scene;
 use crate::scene::set::output;
 
-/// Units of what balances or adds up within its kind.
+/// Units of quantities that balance or add up within their kind.
 const SHARED: [&str; 6] = ["rad", "rad/s", "rad/s2", "N.m", "N", "m"];
-/// A swing below this part of the values themselves is rounding.
+/// Swings smaller than this fraction of the values are rounding errors.
 const ROUNDING: f64 = 1e-10;
 
-/// A quantity that is wanted.
+/// A wanted quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Want {
-    /// Number of its output in the scene.
+    /// Index of its output in the scene.
     pub output: usize,
-    /// The figure.
+    /// Statistic of the output.
     pub statistic: Statistic,
-    /// Whether it is measured by the largest of its kind among the outputs, and not by itself.
+    /// True if errors are relative to the largest output of the same kind instead of the output itself.
     pub among_its_kind: bool,
 }
 
-/// The scene with the wanted outputs alone, and what is wanted of them: `OUTPUT:STATISTIC` each, or nothing for all outputs
-/// of the scene.
+/// Returns the scene with only the wanted outputs, and the wanted quantities. Each text is `OUTPUT:STATISTIC`; no texts
+/// mean all outputs of the scene.
 pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), String> {
     let mut scene = scene.clone();
     if texts.is_empty() {
@@ -54,19 +54,19 @@ pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), Stri
     Ok((scene, wants))
 }
 
-/// The name of the output in `OUTPUT:STATISTIC`.
+/// Name of the output in `OUTPUT:STATISTIC`.
 pub fn name(text: &str) -> &str {
     text.split_once(':').map_or(text, |(name, _)| name).trim()
 }
 
 impl Want {
-    /// Output and statistic, as the command line takes them.
+    /// Returns output and statistic in the notation of the command line.
     pub fn text(&self, scene: &Scene) -> String {
         format!("{}:{}", scene.outputs[self.output].name, self.statistic)
     }
 
-    /// What 100 % of it is in the reference: for means and effective values the effective value, for values and extremes the
-    /// largest magnitude, for swings, orders and times the figure itself.
+    /// Size of 100 % in the reference: the rms value for means and rms values, the largest magnitude for values and
+    /// extremes, and the statistic itself for swings, orders and times.
     pub fn scale(&self, scene: &Scene, reference: &Record) -> Result<f64, String> {
         let size = |output: usize| {
             let of = |statistic: Statistic| statistic.of(reference, output);
@@ -93,27 +93,28 @@ impl Want {
             .try_fold(own, |scale, other: Result<f64, String>| Ok(scale.max(other?)))
     }
 
-    /// Error of `value` where the reference has `wanted`, as a part of `scale`.
+    /// Error of `value` relative to `wanted` in the reference, as a fraction of `scale`.
     pub fn error(value: f64, wanted: f64, scale: f64) -> f64 {
         let by = (value - wanted).abs();
         match () {
             () if by == 0.0 => 0.0,
             () if !by.is_finite() => f64::INFINITY,
-            // what is no more than nothing differs wholly
+            // any change from zero is an error of 100 %
             () if scale == 0.0 => 1.0,
             () => by / scale,
         }
     }
 }
 
-/// Part of the size of output `j` that counts for the scale of output `i`: speeds, torques, forces and ways of one kind
-/// balance each other, so that a planet that hardly spins is not off by 100 % for a hundredth of the carrier's speed.
+/// Factor by which the size of output `j` counts for the scale of output `i`. Speeds, torques, forces and displacements
+/// of one kind balance each other. A planet that hardly spins is therefore not wrong by 100 % if its error is 1 % of
+/// the carrier's speed.
 fn share(i: usize, j: usize, outputs: &[&Variable]) -> Option<f64> {
     let unit = |k: usize| outputs[k].unit.map_or("", |unit| unit.name);
     let word = |k: usize| outputs[k].name.rsplit(['.', '_']).next();
     match () {
         () if i == j || SHARED.contains(&unit(i)) && unit(i) == unit(j) && word(i) == word(j) => Some(1.0),
-        // frequencies of teeth come from speeds: a tooth or more for each turn
+        // tooth frequencies are proportional to speeds: at least one tooth per turn
         () if unit(i) == "Hz" && unit(j) == "rad/s" => Some(1.0 / std::f64::consts::TAU),
         () => None,
     }

@@ -1,14 +1,14 @@
-//! Names and numbers as sentences show them.
+//! Names and numbers for sentences.
 
 use bevel_differential::model::{Method, Parameters};
 
 use super::gears::Gears;
 use super::switches::effects;
 
-/// Changes of this many times the whole and more are given as multiples.
+/// Changes from this ratio on are shown as multiples.
 const MANY: f64 = 10.0;
 
-/// A fraction in percent with two significant digits.
+/// Formats a fraction as a percentage with two significant digits.
 pub fn percent(fraction: f64) -> String {
     let percent = fraction * 100.0;
     if percent == 0.0 {
@@ -24,7 +24,7 @@ pub fn percent(fraction: f64) -> String {
     if decimals > 5 { format!("{percent:.0e} %") } else { format!("{percent:.decimals$} %") }
 }
 
-/// A number with about three digits.
+/// Formats a number with about three digits.
 pub fn three_digits(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.2e}");
@@ -34,24 +34,24 @@ pub fn three_digits(value: f64) -> String {
     if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
 }
 
-/// A ratio with two digits.
+/// Formats a ratio with two digits.
 pub fn two_digits(value: f64) -> String {
     crate::text::numbers::significant(value, 2)
 }
 
-/// Effects that are on, gear bodies aside.
+/// Names of effects that are on, except elastic gear bodies.
 pub fn effects_on(p: &Parameters) -> Vec<&'static str> {
     effects().filter(|switch| switch.is_on(p) && !switch.is_bodies()).map(|switch| switch.name()).collect()
 }
 
-/// A setting: level, law, effects, tolerance or fixed steps.
+/// Describes a setting: level, law, effects, tolerance or fixed steps.
 pub fn setting(p: &Parameters) -> String {
     let on = effects_on(p);
     let effects = if on.is_empty() { "no effect".into() } else { on.join(", ") };
     format!("{} with {effects}; {}", Gears::of(p).text(), solver(p))
 }
 
-/// Tolerance, or size of fixed steps.
+/// Describes the tolerance, or the size of fixed steps.
 pub fn solver(p: &Parameters) -> String {
     match p.solver.method {
         Method::FixedStep => format!("fixed steps of {} s", power(p.solver.fixed_step)),
@@ -59,7 +59,7 @@ pub fn solver(p: &Parameters) -> String {
     }
 }
 
-/// What `other` has otherwise than `p`.
+/// Describes the settings of `other` that differ from `p`.
 pub fn difference(p: &Parameters, other: &Parameters) -> String {
     let mut parts = Vec::new();
     let [here, there] = [p, other].map(|p| Gears::of(p).text());

@@ -20,7 +20,7 @@ use crate::progress::Progress;
 use crate::scene::acting::acting;
 use crate::scene::{former_names, script, ssv};
 
-/// Asks for the cheapest model of a scene that gives the wanted quantities within an accuracy.
+/// Request for the cheapest model of a scene that gives the wanted quantities within an accuracy.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyQuestion {
@@ -38,7 +38,8 @@ pub struct AccuracyQuestion {
     file: Option<PathBuf>,
 }
 
-/// Asks for statistics of series over time. The numbers come beside the question: all times, then one series after another.
+/// Request for statistics of series over time. The numbers are passed next to the question: all times, then one series
+/// after another.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticsQuestion {
@@ -58,7 +59,7 @@ struct FigureQuestion {
     phase: Option<usize>,
 }
 
-/// Asks for the canonical name of a statistic and for the angle by which an order is counted.
+/// Request for the canonical name of a statistic and for the angle by which an order is counted.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticNameQuestion {
@@ -122,7 +123,7 @@ impl AccuracyQuestion {
     }
 }
 
-/// Role of an effect in the answer, as JSON for programs.
+/// Role of an effect in the answer, as JSON.
 fn role_json(answer: &Answer, switch: &Switch, role: &Role) -> Value {
     let (word, by, why) = match role {
         Role::Acts { by, chosen: true } if *by > answer.within => ("needed", Some(*by), None),

@@ -1,4 +1,4 @@
-//! The questions from C and from whatever calls C: `bd_ask` and `bd_free`. No panic leaves them.
+//! C interface of the questions: `bd_ask` and `bd_free`. No panic crosses it.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,21 +9,22 @@ use serde_json::json;
 use super::{Refusal, ask};
 use crate::progress::Progress;
 
-/// Told the part of the work that is done, from 0 to 1, and what is being done; `context` is what the caller of `bd_ask` gave.
-/// Another value than 0 stops the work.
+/// Callback that receives the completed fraction of the work, from 0 to 1, and the name of the present task. `context`
+/// is the pointer passed to `bd_ask`. Any result other than 0 stops the work.
 #[allow(non_camel_case_types)]
 pub type bd_progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64, what: *const c_char) -> c_int>;
 
 /// Answers a question.
 ///
-/// `question` is an object of JSON in UTF-8 that ends with a zero byte; `numbers` are the numbers that belong to it, `count` of
-/// them. `progress` may be null. The reply is JSON that ends with a zero byte, to be freed by `bd_free`: `{"answer": ...}`, or
-/// `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both have `"warnings": [...]`, texts about the scene or
-/// its gears, each once. It is null only where there is no memory.
+/// `question` is a JSON object in UTF-8 that ends with a zero byte; `numbers` are `count` numbers that belong to it.
+/// `progress` may be null. The reply is JSON that ends with a zero byte, and `bd_free` must free it. The reply is
+/// `{"answer": ...}`, or `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. Both contain
+/// `"warnings": [...]`, texts about the scene or its gears without repetitions. The reply is null only if there is not
+/// enough memory.
 ///
 /// # Safety
-/// `question` is null or points to a text with a zero byte at its end, `numbers` to `count` numbers or is null with a count of 0;
-/// both stay as they are until this returns. Any thread may call, several at a time.
+/// `question` is null or points to a text with a zero byte at its end. `numbers` points to `count` numbers, or is null
+/// with a count of 0. Both stay unchanged until the function returns. Several threads may call at the same time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bd_ask(
     question: *const c_char,
@@ -37,14 +38,14 @@ pub unsafe extern "C" fn bd_ask(
             return reply(Err(Refusal::unreadable("there is no question: the pointer is null")), &[]);
         }
         if numbers.is_null() && count > 0 {
-            return reply(Err(Refusal::unreadable(format!("{count} numbers are said to be at null"))), &[]);
+            return reply(Err(Refusal::unreadable(format!("the pointer to {count} numbers is null"))), &[]);
         }
         // SAFETY: the caller's promise
         let question = unsafe { CStr::from_ptr(question) };
         let numbers = if numbers.is_null() { &[] } else { unsafe { slice::from_raw_parts(numbers, count) } };
         let mut reports = Progress::new(|done, what| {
             let (Some(progress), Ok(what)) = (progress, CString::new(what)) else { return true };
-            // SAFETY: a function of the caller's, with its own context
+            // SAFETY: the caller's function, with the caller's context
             unsafe { progress(context, done, what.as_ptr()) == 0 }
         });
         let answer = answer(question, numbers, &mut reports);
@@ -53,10 +54,10 @@ pub unsafe extern "C" fn bd_ask(
     replied.unwrap_or_else(|_| reply(Err(internal("a fault of this library")), &[]))
 }
 
-/// Frees a reply; null is nothing to free.
+/// Frees a reply; null is ignored.
 ///
 /// # Safety
-/// `reply` is what `bd_ask` gave, and is not used again.
+/// `reply` was returned by `bd_ask` and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bd_free(reply: *mut c_char) {
     if !reply.is_null() {
@@ -65,7 +66,7 @@ pub unsafe extern "C" fn bd_free(reply: *mut c_char) {
     }
 }
 
-/// The reply to `question` as a caller in C gets it, for checks; `go_on` is asked from time to time.
+/// Returns the reply to `question` that a caller in C gets, for tests. `go_on` is called from time to time.
 pub fn as_in_c(question: &CStr, numbers: &[f64], mut go_on: impl FnMut() -> bool) -> String {
     unsafe extern "C" fn on_progress<F: FnMut() -> bool>(context: *mut c_void, _: f64, _: *const c_char) -> c_int {
         // SAFETY: the context is the closure below, which outlives the call
@@ -90,7 +91,7 @@ fn answer(question: &CStr, numbers: &[f64], progress: &mut Progress) -> Result<s
     let text = question.to_str().map_err(|why| Refusal::unreadable(format!("the question is not UTF-8: {why}")))?;
     let question =
         serde_json::from_str(text).map_err(|why| Refusal::unreadable(format!("the question cannot be read: {why}")))?;
-    // what has panicked is gone with its question
+    // after a panic, no data of the question is used again
     match catch_unwind(AssertUnwindSafe(|| ask(&question, numbers, progress))) {
         Ok(answer) => answer.map_err(Refusal::from),
         Err(panic) => {
@@ -109,7 +110,7 @@ fn reply(answer: Result<serde_json::Value, Refusal>, warnings: &[String]) -> *mu
         Ok(answer) => json!({"answer": answer, "warnings": warnings}),
         Err(Refusal { kind, problems }) => json!({"kind": kind, "problems": problems, "warnings": warnings}),
     };
-    // zero bytes are escaped in JSON, so that there are none
+    // JSON escapes zero bytes, so the text contains none
     CString::new(value.to_string()).map_or(ptr::null_mut(), CString::into_raw)
 }
 
@@ -131,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_a_problem() {
+    fn an_unreadable_question_is_a_problem() {
         for (question, part) in [
             (c"", "EOF"),
             (c"{\"ask\": \"geometry\"", "EOF"),
@@ -167,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_waits_can_stop_the_work() {
+    fn the_caller_can_stop_the_work() {
         unsafe extern "C" fn stop(_: *mut c_void, _: f64, _: *const c_char) -> c_int {
             1
         }

@@ -1,4 +1,4 @@
-//! Questions about gears alone.
+//! Questions about gears without a scene.
 
 use anyhow::{Result, anyhow};
 use serde::Deserialize;
@@ -12,25 +12,26 @@ use crate::problem::{Problem, Problems};
 use crate::progress::Progress;
 use crate::scene::set::{real, value, variable};
 
-/// Fewest and most pieces of a flank's curve: one shows no involute, more no CAD program wants.
+/// Minimum and maximum number of pieces of a flank's curve. One piece shows no involute; CAD programs need no more than
+/// the maximum.
 const FACETS: [usize; 2] = [2, 1000];
-/// Most facets of a flank in surfaces, which are hundreds of megabytes beyond.
+/// Maximum number of facets of a flank in surfaces: more would take hundreds of megabytes.
 const MOST_OF_SURFACES: usize = 200;
 
-/// Dimensions, interference and curves of gears.
+/// Request for dimensions, interference and curves of gears.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GeometryQuestion {
     /// Parameters, each `name=value`.
     #[serde(default)]
     set: Vec<String>,
-    /// Pieces of a flank's curve and of faceted surfaces.
+    /// Number of pieces of a flank's curve, and of facets of surfaces.
     #[serde(default = "usual")]
     facets: usize,
-    /// Answer with the gears as data for CAD, too.
+    /// Also return the gears as data for CAD.
     #[serde(default)]
     solids: bool,
-    /// Look for interference with teeth thicker by this length.
+    /// Check interference with teeth thicker by this length.
     #[serde(default)]
     thicken: Option<String>,
 }
@@ -44,7 +45,7 @@ impl GeometryQuestion {
         let (design, thicken) = self.checked()?;
         progress.begin_task(0.0, "turning the gears through a tooth pitch");
         let check = InterferenceCheck::with_progress(&design, thicken, progress)?;
-        // the caller shows the warnings of the reply, and files have their own
+        // the reply contains the warnings, and files contain them separately
         let (dimensions, found) = (text::dimensions(&design), check.text());
         progress.warn(&design.warnings);
         let mut files = Map::new();
@@ -65,7 +66,7 @@ impl GeometryQuestion {
         Ok(answer)
     }
 
-    /// The gears, and by how much teeth are thicker [m]; or all that is wrong.
+    /// Returns the gears and the extra tooth thickness [m], or all problems.
     fn checked(&self) -> Result<(Design, f64), Problems> {
         let mut problems = Problems::default();
         let design = Design::new(&self.set).map_err(|found| problems.extend(found.0));

@@ -1,4 +1,4 @@
-//! One function that answers all questions: a question is a value of JSON, and so is the answer.
+//! Function that answers all questions. Questions and answers are JSON values.
 //!
 //! ```
 //! use answers::{ask::ask, progress::Progress};
@@ -22,7 +22,7 @@ use serde_json::Value;
 use crate::problem::{Problem, Problems};
 use crate::progress::{Progress, Stopped};
 
-/// What is asked. Every question is one object of JSON, whose `ask` says which.
+/// A question. Every question is a JSON object whose `ask` names its kind.
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Question {
@@ -30,37 +30,38 @@ pub enum Question {
     Scenes(scenes::ScenesQuestion),
     /// The former names of variables.
     FormerNames,
-    /// A scene as values: what it sets, later and over time, and its outputs.
+    /// Values of a scene: settings at the start, later and over time, and outputs.
     Scene(scenes::SceneQuestion),
-    /// The variables that act in a scene.
+    /// Variables that have an influence in a scene.
     Acting(scenes::SceneQuestion),
-    /// What a scene will simulate, in words.
+    /// Description of what a scene will simulate.
     Plan(scenes::SceneQuestion),
-    /// A run of a scene by this library itself, recorded in a file.
+    /// Run of a scene by this library, recorded in a file.
     Run(scenes::RunQuestion),
-    /// A scene as a file for others: `ssv`, a parameter set of SSP, or `python`, a script.
+    /// Export of a scene: `ssv`, a parameter set of SSP, or `python`, a script.
     Export(scenes::ExportQuestion),
     /// The force on each loaded tooth pair, written to a file.
     Loads(scenes::LoadsQuestion),
     /// The cheapest model that is accurate enough.
     Accuracy(accuracy_and_statistics::AccuracyQuestion),
-    /// Where flanks carry.
+    /// Contact patterns: areas of the flanks that bear.
     Pattern(scenes::PatternQuestion),
     /// Dimensions, interference and curves of gears.
     Geometry(gears::GeometryQuestion),
-    /// What a word for a statistic means.
+    /// Meaning of the name of a statistic.
     Word(accuracy_and_statistics::StatisticNameQuestion),
-    /// Figures of series over time.
+    /// Statistics of series over time.
     Statistics(accuracy_and_statistics::StatisticsQuestion),
     /// The cells of a CSV file.
     Table(text::TableQuestion),
-    /// Names that a wrong one may mean.
+    /// Correct names similar to a wrong one.
     Near(text::NearQuestion),
-    /// Units that a user prefers, each by the SI unit of its dimension.
+    /// Units that a user prefers, listed by the SI unit of each dimension.
     DisplayUnits(text::DisplayUnitsQuestion),
 }
 
-/// Answers a question, with the `numbers` that come beside it. `progress` reports to the caller, who may stop the work.
+/// Answers a question. `numbers` are the numbers that belong to it. `progress` reports to the caller, who may stop the
+/// work.
 pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Result<Value> {
     let answer = match question {
         Question::Scenes(question) => question.answer(),
@@ -80,17 +81,17 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Near(question) => Ok(question.answer()),
         Question::DisplayUnits(question) => question.answer(),
     };
-    // what fails because it was stopped tells nothing else
+    // after a stop, other errors have no meaning
     answer.map_err(|why| progress.check_stopped().err().map_or(why, Into::into))
 }
 
-/// Why there is no answer.
+/// Reason for the lack of an answer.
 #[derive(Debug)]
 pub struct Refusal {
-    /// `use`: the question makes no sense; `failed`: it does, and the work came to no end; `stopped`: by whoever waited;
-    /// `internal`: a fault of this library.
+    /// `use`: the question makes no sense; `failed`: the question is valid, but the work failed; `stopped`: the caller
+    /// stopped the work; `internal`: a fault of this library.
     pub kind: &'static str,
-    /// What is wrong.
+    /// Problems that were found.
     pub problems: Vec<Problem>,
 }
 
@@ -108,7 +109,7 @@ impl From<anyhow::Error> for Refusal {
         }
         match error.downcast_ref::<Problems>() {
             Some(found) => {
-                // what the problems are about, such as a file
+                // context of the problems, such as a file
                 let about: String = error
                     .chain()
                     .take_while(|cause| !cause.is::<Problems>())

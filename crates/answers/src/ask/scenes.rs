@@ -18,21 +18,21 @@ use crate::scene::set::changed_values;
 use crate::scene::{self, InputTable, Scene, acting, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
-/// All scenes of a folder.
+/// Request for all scenes of a folder.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScenesQuestion {
     scenes: PathBuf,
 }
 
-/// A scene.
+/// Request about one scene.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneQuestion {
     of: Source,
 }
 
-/// A scene as a file for others.
+/// Request to export a scene.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExportQuestion {
@@ -47,7 +47,7 @@ enum Format {
     Python,
 }
 
-/// A run.
+/// Request to run a scene.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunQuestion {
@@ -56,23 +56,23 @@ pub struct RunQuestion {
     out: PathBuf,
 }
 
-/// Loads of tooth pairs.
+/// Request for the loads of tooth pairs.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadsQuestion {
     of: Source,
     /// The file to write.
     out: PathBuf,
-    /// Time between records; the scene's communication step where there is none.
+    /// Time between records; by default the scene's communication step.
     #[serde(default)]
     every: Option<String>,
 }
 
-/// Contact patterns.
+/// Request for contact patterns.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PatternQuestion {
-    /// The scenes; without any the cases of the documentation.
+    /// The scenes; by default the cases of the documentation.
     #[serde(default)]
     of: Vec<Source>,
     /// A coarser answer: longer steps, and fewer of the cases of the documentation.
@@ -80,7 +80,7 @@ pub struct PatternQuestion {
     quick: bool,
 }
 
-/// Factor of the steps of a quick contact pattern.
+/// Factor by which a quick contact pattern lengthens the steps.
 const COARSER: f64 = 4.0;
 
 impl ScenesQuestion {
@@ -153,7 +153,7 @@ impl RunQuestion {
     }
 }
 
-/// Lets `write` create the file `path`, and returns its result.
+/// Calls `write` to create the file `path`, and returns its result.
 fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     let failed = || format!("{} cannot be written", shown(path));
     whole_file::write(path, |part| {
@@ -188,7 +188,7 @@ impl PatternQuestion {
     }
 }
 
-/// Former names of variables, each with the present name and with the message to a user who writes the former one.
+/// Former names of variables, each with the present name and the message for users of the former name.
 pub(super) fn former_names() -> Value {
     let names = former_names::all().map(|(once, now)| {
         let says = former_names::note(&once);
@@ -202,7 +202,7 @@ fn values(settings: &[Setting]) -> Map<String, Value> {
     settings.iter().map(|setting| (setting.row.name.to_owned(), setting.json())).collect()
 }
 
-/// All that `scene` has otherwise than the FMU, and all that it names.
+/// Values of `scene` that differ from the FMU, and all values that the scene sets explicitly.
 pub(super) fn changed(scene: &Scene) -> Map<String, Value> {
     values(&changed_values(scene))
 }

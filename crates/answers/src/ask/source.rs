@@ -1,4 +1,4 @@
-//! The scene that a question is about: by name, by file, or as values.
+//! Scene of a question, given by name, by file, or as values.
 
 use std::path::{Path, PathBuf};
 
@@ -10,14 +10,14 @@ use crate::progress::Progress;
 use crate::scene::display_units::DisplayUnits;
 use crate::scene::{Scene, assignments, find, load};
 
-/// More communication points than this are a slip, and would not fit into memory.
+/// Maximum number of communication points. More would be a mistake, and would not fit into memory.
 const MOST_POINTS: f64 = 1e8;
 
-/// A scene and what is changed in it.
+/// A scene and changes to it.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// A file, or the name of a scene in `scenes`; with `given` the name that the scene is to have.
+    /// A file, or the name of a scene in the folder `scenes`. With `given`, it is the name that the scene gets.
     name: String,
     /// The contents of a scene file.
     #[serde(default)]
@@ -25,16 +25,16 @@ pub struct Source {
     /// Changes, each `name=value`.
     #[serde(default)]
     set: Vec<String>,
-    /// Units to show values in, before those of the scene.
+    /// Units for displayed values; they take precedence over those of the scene.
     #[serde(default)]
     display_units: Vec<String>,
-    /// Folder of the scenes that have names.
+    /// Folder of the named scenes.
     #[serde(default)]
     scenes: PathBuf,
 }
 
 impl Source {
-    /// The scene. Warns of former names of variables.
+    /// Returns the scene. Warns about former names of variables.
     pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
         let mut scene = match &self.given {
             Some(file) => load::given(&self.name, Path::new(&self.name), file)?,
@@ -54,7 +54,7 @@ impl Source {
     }
 }
 
-/// Seconds of a time that is left out, or written as a number or with its unit; `name` says which in the error.
+/// Parses an optional time with or without a unit [s]. The error names it `name`.
 pub fn seconds(name: &str, text: Option<&str>) -> Result<Option<f64>> {
     let read = text.map(crate::scene::units::seconds).transpose();
     read.map_err(|problem| question_error(format!("{name}: {problem}")))

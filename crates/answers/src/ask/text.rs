@@ -1,4 +1,4 @@
-//! Questions about what users write: CSV files, units, and names with slips.
+//! Questions about texts of users: CSV files, units, and misspelt names.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -14,28 +14,28 @@ use crate::scene::set::how_to_find;
 use crate::text::csv_input;
 use crate::text::near::near;
 
-/// A CSV file.
+/// Request to read a CSV file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableQuestion {
     file: PathBuf,
-    /// Name of the file in problems.
+    /// Name of the file in messages.
     shown: String,
-    /// Names of columns that hold words.
+    /// Names of columns that contain words.
     #[serde(default)]
     texts: Vec<String>,
 }
 
-/// A wrong name.
+/// Request about a wrong name.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NearQuestion {
     word: String,
-    /// The right names.
+    /// Valid names.
     known: Vec<String>,
 }
 
-/// Display units.
+/// Request about display units.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DisplayUnitsQuestion {
@@ -54,7 +54,7 @@ impl TableQuestion {
 }
 
 impl NearQuestion {
-    /// The nearest names, how to find a variable that is none of them, and advice on a choice that was removed.
+    /// Returns the most similar names, a hint on how to find an unknown variable, and advice on a removed choice.
     pub(super) fn answer(&self) -> Value {
         let known = || self.known.iter().map(String::as_str);
         let removed = removed_method(&self.word, known());

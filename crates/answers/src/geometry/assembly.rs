@@ -1,10 +1,10 @@
-//! Where the gears of the assembled differential stand: rotations about the common apex, the origin.
+//! Orientation of the gears in the assembled differential: rotations about the common apex, which is the origin.
 //!
 //! x̂ is the carrier's axis. From apex to heel the left side gear points along +x̂, the right one along −x̂, and planet i
 //! along r̂_i, which is ŷ turned about x̂ by 2πi/N and by the carrier's angle. Angles of carrier and side gears are positive
 //! about x̂. A positive spin turns a planet about −r̂_i, so that it speeds the left side up: ω_L,R = ω_c ± (z_p/z_s) ψ̇.
-//! At zero the left side gear has a gap at ŷ, with the tooth of planet 0 in its middle. All other planets, and the right
-//! side gear, stand as `geometry::assembly::phases` says: at the tooth in the middle of the gap, or half a pitch on.
+//! At zero the left side gear has a gap at ŷ, with the tooth of planet 0 in its middle. All other planets and the right
+//! side gear follow `geometry::assembly::phases`: they have a tooth in the middle of the gap, or half a pitch from it.
 
 use bevel_differential::geometry::GearSpec;
 use bevel_differential::geometry::assembly::{azimuth, phases};
@@ -12,7 +12,7 @@ use bevel_differential::numeric::{PI, TAU, cos, sin};
 use bevel_differential::problem::Problem;
 use serde::Serialize;
 
-/// Rotation matrix by rows: turns vectors from a gear's own frame into that of the assembly.
+/// Rotation matrix by rows: turns vectors from a gear's own frame into the frame of the assembly.
 pub type Rotation = [[f64; 3]; 3];
 
 /// Positions of the rotating parts [rad].
@@ -29,7 +29,7 @@ pub struct Position {
 }
 
 impl Position {
-    /// Side gears where carrier and planets roll them to, teeth in the middle of their gaps.
+    /// Side gears rolled along by carrier and planets, with teeth in the middle of their gaps.
     pub fn rolling(spec: &GearSpec, carrier: f64, spin: f64) -> Self {
         let rolled = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth) * spin;
         Self { carrier, left: carrier + rolled, right: carrier - rolled, spin }
@@ -41,17 +41,17 @@ impl Position {
 pub struct Body {
     /// Its name: `side_gear_left`, `side_gear_right`, `planet_1` and so on.
     pub name: String,
-    /// Which gear of the pair it is: 0 planet, 1 side gear.
+    /// Type of the gear: 0 planet, 1 side gear.
     pub gear: usize,
-    /// How it stands.
+    /// Orientation of the gear.
     pub rotation: Rotation,
 }
 
-/// Both side gears and all planets at `position`, or why they do not assemble.
+/// Returns both side gears and all planets at `position`. Fails if they cannot be assembled.
 pub fn bodies(spec: &GearSpec, position: &Position) -> Result<Vec<Body>, Problem> {
     let phases = phases(spec)?;
     let half_side = PI / f64::from(spec.side_teeth);
-    // the tooth of planet 0 that faces the left has a tooth behind it only if their number is even
+    // the tooth of planet 0 that faces left has a tooth opposite it only if its number of teeth is even
     let right_gap = if phases[0][1] == 0.0 { half_side } else { 0.0 };
     // axes of the gears' own frames in the assembly at zero: columns x, y, z
     let left = product(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &about_z(half_side));
@@ -70,12 +70,12 @@ pub fn bodies(spec: &GearSpec, position: &Position) -> Result<Vec<Body>, Problem
     Ok(bodies)
 }
 
-/// `rotation` applied to `v`.
+/// Applies `rotation` to `v`.
 pub fn turned(rotation: &Rotation, v: [f64; 3]) -> [f64; 3] {
     rotation.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// No rotation.
+/// Identity rotation.
 pub const IDENTITY: Rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 fn about_x(angle: f64) -> Rotation {
@@ -125,7 +125,7 @@ mod tests {
         a.polar + (b.polar - a.polar) * u.clamp(0.0, 1.0)
     }
 
-    /// Depth of the deepest node of one body within the other [rad], and the least distance of their flanks [rad].
+    /// Depth of the deepest node of one body within the other [rad], and the minimum distance of their flanks [rad].
     fn clearance(
         pair: &Pair,
         outlines: &[Vec<bevel_differential::geometry::solid::Node>; 2],
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn teeth_stand_in_the_middle_of_gaps_at_every_spin_angle() {
+    fn teeth_are_in_the_middle_of_gaps_at_every_spin_angle() {
         let mut seen = 0;
         for spec in scenes() {
             let pair = Pair::new(&spec);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn side_gears_that_do_not_follow_run_into_the_planets() {
+    fn side_gears_that_do_not_follow_penetrate_the_planets() {
         let spec = GearSpec::default();
         let pair = Pair::new(&spec);
         let outlines = [0, 1].map(|i| Outline::new(&pair.gears[i], 0.02, 200).nodes);

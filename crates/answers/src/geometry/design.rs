@@ -1,4 +1,4 @@
-//! The gears that are asked for: settings by name and unit as in scenes, checked as the FMU checks them.
+//! Requested gears: settings by name and unit as in scenes, with the checks of the FMU.
 
 use bevel_differential::geometry::{GearSpec, Pair, Tredgold, assembly, checks};
 use bevel_differential::model::{Inputs, Parameters};
@@ -8,9 +8,9 @@ use bevel_differential::variables::{Causality, Variable, table};
 use crate::problem::{self, Problems};
 use crate::scene::set::{Setting, value};
 
-/// What may be set in addition to `geometry.*`: it removes the backlash.
+/// Parameter that may be set in addition to `geometry.*`: it removes the backlash.
 const PLAY: &str = "effects.backlash";
-/// Parameters that one value of [`SYSTEM`] reads and the others do not.
+/// Parameters that act only with the value `explicit` of [`SYSTEM`].
 const COEFFICIENTS: [&str; 4] =
     ["geometry.planet_addendum", "geometry.side_addendum", "geometry.planet_dedendum", "geometry.side_dedendum"];
 const SYSTEM: &str = "geometry.addendum_system";
@@ -18,15 +18,15 @@ const SYSTEM: &str = "geometry.addendum_system";
 /// Gears that can be built.
 #[derive(Clone)]
 pub struct Design {
-    /// All parameters, of which the geometry counts.
+    /// All parameters. Only the geometry is used.
     pub parameters: Parameters,
-    /// What was set, in the order it was set.
+    /// Parameters set by the user, in the given order.
     pub settings: Vec<Setting>,
-    /// The gears as they mesh.
+    /// Specification of the gears, with the backlash that they mesh with.
     pub spec: GearSpec,
-    /// Their geometry.
+    /// Geometry of the gears.
     pub pair: Pair,
-    /// Their planar approximation.
+    /// Planar approximation of the gears.
     pub planar: Tredgold,
     /// Properties that a gear engineer would question.
     pub warnings: Vec<Problem>,
@@ -35,7 +35,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// The start values changed by `assignments`, each `name=value`; or all that is wrong with them.
+    /// Changes the start values by `assignments`, each `name=value`. Fails with all their problems.
     pub fn new<T: AsRef<str>>(assignments: &[T]) -> Result<Self, Problems> {
         let settings = settings(assignments)?;
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
@@ -59,7 +59,7 @@ impl Design {
     }
 }
 
-/// Parameters that the geometry follows from.
+/// Parameters that determine the geometry.
 pub fn parameters() -> impl Iterator<Item = &'static Variable> {
     table().rows.iter().filter(|row| row.causality == Causality::Parameter && counts(row.name))
 }

@@ -1,13 +1,13 @@
-//! A row of the table of dimensions, and how rows are declared.
+//! Row of the table of dimensions, and the macro that declares rows.
 
 use super::design::Design;
 
-/// Where terms of bevel gears come from.
+/// Standard of the terms of bevel gears.
 pub const ISO_23509: Option<&str> = Some("ISO 23509");
-/// Where terms of virtual cylindrical gears come from.
+/// Standard of the terms of virtual cylindrical gears.
 pub const ISO_10300: Option<&str> = Some("ISO 10300-1");
 
-/// Greek letters of the symbols, and how keys spell them.
+/// Greek letters of the symbols, with their spelling in keys.
 const GREEK: [(&str, &str); 11] = [
     ("α", "alpha"),
     ("γ", "gamma"),
@@ -22,7 +22,7 @@ const GREEK: [(&str, &str); 11] = [
     ("ψ", "psi"),
 ];
 
-/// What kind of number it is.
+/// Kind of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum QuantityKind {
     /// A length [m], shown in mm.
@@ -36,7 +36,7 @@ pub enum QuantityKind {
 }
 
 impl QuantityKind {
-    /// Unit that values are shown in.
+    /// Unit of displayed values.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Length => "mm",
@@ -45,7 +45,7 @@ impl QuantityKind {
         }
     }
 
-    /// An SI value in that unit.
+    /// Converts an SI value to that unit.
     pub fn shown(self, value: f64) -> f64 {
         match self {
             Self::Length => value * 1e3,
@@ -54,7 +54,7 @@ impl QuantityKind {
         }
     }
 
-    /// A value in that unit, as text.
+    /// Formats a value in that unit.
     pub fn text(self, shown: f64) -> String {
         let text = if self == Self::Count { format!("{shown:.0}") } else { format!("{shown:.4}") };
         // no "-0.0000"
@@ -62,12 +62,12 @@ impl QuantityKind {
     }
 }
 
-/// Whose quantity it is, and its SI value.
+/// Function for the SI value of a dimension.
 #[derive(Clone, Copy)]
 pub enum DimensionValue {
-    /// Of a gear: planet (0) or side gear (1).
+    /// Value of one gear: planet (0) or side gear (1).
     Gear(fn(&Design, usize) -> f64),
-    /// Of the pair.
+    /// Value of the pair.
     Pair(fn(&Design) -> f64),
 }
 
@@ -76,27 +76,27 @@ pub enum DimensionValue {
 pub struct Dimension {
     /// Term and symbol in snake case.
     pub key: &'static str,
-    /// Symbol; empty where there is none.
+    /// Symbol, or an empty text.
     pub symbol: &'static str,
-    /// Kind of its number.
+    /// Kind of the number.
     pub kind: QuantityKind,
     /// Standard that has the term.
     pub standard: Option<&'static str>,
-    /// What it means, in a line.
+    /// Short description.
     pub meaning: &'static str,
-    /// Its value.
+    /// Value.
     pub of: DimensionValue,
 }
 
 impl Dimension {
-    /// The term in words.
+    /// Term with spaces instead of underscores.
     pub fn term(&self) -> String {
         let symbol = GREEK.iter().fold(self.symbol.to_owned(), |text, (letter, name)| text.replace(letter, name));
         let term = if symbol.is_empty() { None } else { self.key.strip_suffix(&format!("_{symbol}")) };
         term.unwrap_or(self.key).replace('_', " ")
     }
 
-    /// Value for gear `i` in the unit it is shown in; for the pair `i` does not matter.
+    /// Value for gear `i` in the displayed unit. For the pair, `i` does not matter.
     pub fn shown(&self, design: &Design, i: usize) -> f64 {
         self.kind.shown(match self.of {
             DimensionValue::Gear(value) => value(design, i),
@@ -107,7 +107,7 @@ impl Dimension {
 
 /// Rows that belong together.
 pub struct DimensionGroup {
-    /// What they are about.
+    /// Heading of the group.
     pub title: &'static str,
     /// The rows.
     pub rows: Vec<Dimension>,

@@ -1,20 +1,20 @@
-//! All derived dimensions as one table: text, JSON and documentation are made of its rows.
+//! Table of all derived dimensions. Text, JSON and documentation are generated from its rows.
 //!
-//! Terms and symbols are those of ISO 23509:2016 where it has the quantity, and of ISO 10300-1 for virtual cylindrical
-//! gears; a row says which. In the standard's terms these are straight bevel gears (β = 0) without offset, whose tip,
-//! pitch and root cones meet in one apex, which is the crossing point of the axes.
+//! Terms and symbols come from ISO 23509:2016 if it has the quantity, or from ISO 10300-1 for virtual cylindrical
+//! gears; each row names its source. In the standard's terms, these are straight bevel gears (β = 0) without offset.
+//! Their tip, pitch and root cones meet in one apex, which is the crossing point of the axes.
 
 pub use super::dimension::{Dimension, DimensionGroup, QuantityKind};
 use super::{gear_rows, pair_rows, tooth_rows};
 
-/// Dimensions that planet and side gear have each.
+/// Dimensions of each gear.
 pub fn of_gears() -> Vec<DimensionGroup> {
     let mut groups = gear_rows::groups();
     groups.extend(tooth_rows::groups());
     groups
 }
 
-/// Dimensions that the pair has once.
+/// Dimensions of the pair.
 pub fn of_pair() -> Vec<DimensionGroup> {
     pair_rows::groups()
 }

@@ -5,12 +5,12 @@ use bevel_differential::numeric::{cos, sin};
 use super::design::Design;
 use super::dimension::{DimensionGroup, DimensionValue, ISO_23509, dimensions};
 
-/// Mean over outer cone distance.
+/// Mean cone distance divided by outer cone distance.
 pub fn mean_ratio(d: &Design) -> f64 {
     d.pair.mean_cone / d.pair.outer_cone
 }
 
-/// Inner over outer cone distance.
+/// Inner cone distance divided by outer cone distance.
 pub fn toe_ratio(d: &Design) -> f64 {
     d.pair.inner_cone / d.pair.outer_cone
 }
@@ -31,7 +31,7 @@ fn crown(d: &Design, i: usize) -> f64 {
     d.pair.outer_cone * cos(gear.pitch) - gear.addendum * sin(gear.pitch)
 }
 
-/// The rows.
+/// Groups of rows, in the order of the table.
 pub fn groups() -> Vec<DimensionGroup> {
     vec![
         dimensions!("cones", DimensionValue::Gear,

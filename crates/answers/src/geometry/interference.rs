@@ -1,8 +1,8 @@
-//! Whether the gears turn freely, in words and in JSON: the result of the library's check of the teeth, and whether
-//! neighbouring gears strike each other.
+//! Interference of the gears, as text and JSON: the result of the library's check of the teeth, and a check for
+//! collisions of neighbouring gears.
 //!
-//! Depth, gap and resolution are those of `bevel_differential::geometry::solid::interference`, in millimetres at the heel
-//! and at the toe. Teeth may be checked thicker than they are made: the backlash is smaller by as much.
+//! Depth, gap and resolution come from `bevel_differential::geometry::solid::interference`, in millimetres at the heel
+//! and at the toe. Teeth can be checked with extra thickness, which reduces the backlash by the same amount.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,16 +20,16 @@ use crate::text::table::wrapped;
 const MM: f64 = 1e3;
 const INTERFERENCE: &str = "INTERFERENCE";
 const GEARS: [&str; 2] = ["planet", "side gear"];
-/// Approaches farther than this share of the module are left out of the JSON.
+/// Approaches farther than this fraction of the module are left out of the JSON.
 const NEAR: f64 = 0.25;
 
-/// The check of a design.
+/// Interference check of a design.
 pub struct InterferenceCheck {
     pair: Pair,
     spec: GearSpec,
     /// Added thickness of the teeth [m], of both gears together, at the outer pitch circle.
     thicken: f64,
-    /// With the teeth in the middle of their gaps, and with all backlash taken up on one side.
+    /// Results with the teeth in the middle of their gaps, and with all backlash taken up on one side.
     stances: [Interference; 2],
 }
 
@@ -39,14 +39,14 @@ impl InterferenceCheck {
         Self::with_progress(design, thicken, &mut Progress::silent())
     }
 
-    /// The same for a caller who may stop the check through `progress`.
+    /// Checks `design` with teeth thicker by `thicken` [m]. The caller may stop the check through `progress`.
     pub fn with_progress(design: &Design, thicken: f64, progress: &mut Progress) -> Result<Self> {
         let spec = GearSpec { backlash: design.spec.backlash - thicken, ..design.spec };
         let pair = Pair::new(&spec);
         let stopped = AtomicBool::new(false);
         let look = |stance, go_on: &mut dyn FnMut() -> bool| {
             let found = Interference::stoppable(&pair, &spec, stance, go_on);
-            found.context("the gears have no surface to look at")
+            found.context("the gears have no surface to check")
         };
         let (middle, driving) = std::thread::scope(|scope| {
             let driving = scope.spawn(|| look(Stance::Driving, &mut || !stopped.load(Ordering::Relaxed)));
@@ -57,16 +57,16 @@ impl InterferenceCheck {
             (middle, driving.join())
         });
         progress.check_stopped()?;
-        let driving = driving.map_err(|_| anyhow::anyhow!("the check of interference broke off"))??;
+        let driving = driving.map_err(|_| anyhow::anyhow!("the interference check stopped"))??;
         Ok(Self { stances: [middle?, driving], pair, spec, thicken })
     }
 
-    /// Whether teeth or neighbours overlap.
+    /// True if teeth or neighbouring gears overlap.
     pub fn any(&self) -> bool {
         self.stances.iter().any(Interference::any)
     }
 
-    /// In words.
+    /// Description of the results.
     pub fn text(&self) -> String {
         let mut out = String::from("interference while the gears turn, apexes in one point\n");
         if self.thicken > 0.0 {
@@ -82,15 +82,15 @@ impl InterferenceCheck {
             out += &wrapped(&format!("{number}. {heading}: {finding}."));
         }
         out += &wrapped(&format!(
-            "Looked at: {POSITIONS} positions of a tooth pitch of the planet, and more about the worst; outlines of {FACETS} \
-             facets per flank; right to {:.4} mm at the heel. {}",
+            "Checked: {POSITIONS} positions over a tooth pitch of the planet, and more around the worst; outlines of {FACETS} \
+             facets per flank; accurate to {:.4} mm at the heel. {}",
             self.heel(self.stances[0].resolution),
             self.meshes()
         ));
         out
     }
 
-    /// The result of the check in a line.
+    /// Summary of the result in one line.
     pub fn verdict(&self) -> String {
         if !self.any() {
             return "verdict: no interference, the gears turn freely".into();
@@ -100,7 +100,7 @@ impl InterferenceCheck {
         format!("verdict: {INTERFERENCE}, the gears do not turn freely: see {} above", struck.join(" and "))
     }
 
-    /// The findings of the text, in its order.
+    /// Findings of the text, in its order.
     fn findings(&self) -> [String; 3] {
         let [middle, driving] = &self.stances;
         [self.middle(middle), self.driving(driving), self.neighbours()]
@@ -132,7 +132,7 @@ impl InterferenceCheck {
         }
     }
 
-    /// Which parts penetrate which, the deepest first.
+    /// Parts that penetrate each other, the deepest first.
     fn entered(&self, found: &Interference) -> String {
         let mut entering = found.approaches.iter().filter(|a| found.verdict(a.gap) == Verdict::Interfering);
         let Some(worst) = entering.next() else { return String::new() };
@@ -168,9 +168,9 @@ impl InterferenceCheck {
         format!("no interference; the tip cones of {who} are {:.4} deg apart", least.to_degrees())
     }
 
-    /// Which meshes are in step.
+    /// Meshes that are in phase.
     fn meshes(&self) -> String {
-        // a design has been checked to assemble
+        // a design has been checked for assembly
         let phases = phases(&self.spec).unwrap_or_default();
         let named = |wanted: f64| -> Vec<String> {
             let all = phases.iter().enumerate().flat_map(|(i, phase)| {
@@ -179,19 +179,19 @@ impl InterferenceCheck {
             all.map(|(i, side, _)| format!("planet {} {side}", i + 1)).collect()
         };
         let (first, second) = (named(0.0), named(0.5));
-        let same = "All meshes pass through the same positions, so one stands for all";
+        let same = "All meshes pass through the same positions, so one represents all";
         if second.is_empty() {
             return format!("{same}; they are in step.");
         }
         format!("{same}; in step are {}, and half a pitch later {}.", first.join(", "), second.join(", "))
     }
 
-    /// A length at the heel [mm] from one per cone distance.
+    /// Converts a length per cone distance into a length at the heel [mm].
     fn heel(&self, per_cone_distance: f64) -> f64 {
         per_cone_distance * self.pair.outer_cone * MM
     }
 
-    /// For a program: lengths in mm, angles in degrees.
+    /// Results for programs: lengths in mm, angles in degrees.
     pub fn report(&self) -> Ordered {
         let [middle, driving] = &self.stances;
         let [planets, sides] = middle.between_tips.map(f64::to_degrees);
@@ -252,18 +252,18 @@ fn parts(a: &Approach) -> String {
     format!("the planet's {} and the side gear's {}", part(a.parts[0]), part(a.parts[1]))
 }
 
-/// Which part penetrates which.
+/// Sentence about the penetrating part.
 fn sentence(a: &Approach) -> String {
     if a.parts[0] == a.parts[1] {
         return format!("the {}s of planet and side gear overlap", part(a.parts[0]));
     }
-    // a tip penetrates; without one, the gear whose ray lies within the other
+    // a tip penetrates; without a tip, the gear whose ray is within the other
     let own = a.parts.iter().position(|&part| part == Part::Tip).unwrap_or(a.ray);
     let mate = 1 - own;
     format!("the {}'s {} enters the {}'s {}", GEARS[own], part(a.parts[own]), GEARS[mate], part(a.parts[mate]))
 }
 
-/// Where the approach is.
+/// Position of the approach.
 fn place(a: &Approach) -> String {
     format!(
         "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both axes, \

@@ -1,4 +1,4 @@
-//! The dimensions for a program: the rows of the table by key, in the table's order.
+//! JSON of the dimensions: the rows of the table by key, in the table's order.
 
 use anyhow::Result;
 use bevel_differential::model::Inputs;
@@ -13,7 +13,7 @@ use super::tredgold::{TredgoldComparison, comparisons};
 use crate::scene::set::Setting;
 use crate::text::ordered::Ordered;
 
-/// All of it, with what the check of interference found if it was made.
+/// Complete JSON text, with the findings of the interference check if there is one.
 pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String> {
     let parameter = |row: &'static Variable| (row.name, parameter(design, row));
     let comparison = |found: &TredgoldComparison| (found.key, comparison(found));
@@ -58,9 +58,9 @@ fn comparison(found: &TredgoldComparison) -> Ordered {
     ])
 }
 
-/// A parameter as the FMU has it.
+/// A parameter with the FMU's unit and range.
 fn parameter(design: &Design, row: &'static Variable) -> Ordered {
-    // what shapes the gears are parameters
+    // all variables of the geometry are parameters
     let setting = Setting::of(row, &design.parameters, &Inputs::default());
     let mut entries = vec![("value", setting.map_or(Value::Null, |setting| setting.json()).into())];
     if matches!(row.access, Access::Real(_) | Access::Integer(_)) {

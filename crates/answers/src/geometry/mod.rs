@@ -1,4 +1,4 @@
-//! The gears for drawings and CAD: dimensions in the terms of ISO 23509, curves, solids, interference.
+//! Gears for drawings and CAD: dimensions in the terms of ISO 23509, curves, solids, interference.
 
 pub mod assembly;
 pub mod design;

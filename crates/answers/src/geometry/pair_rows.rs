@@ -3,7 +3,7 @@
 use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
 use super::gear_rows::{mean_ratio, toe_ratio};
 
-/// The rows.
+/// Groups of rows, in the order of the table.
 pub fn groups() -> Vec<DimensionGroup> {
     vec![
         dimensions!("pair", DimensionValue::Pair,
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn normal_backlash_is_the_transverse_one_by_the_cosine() -> anyhow::Result<()> {
+    fn normal_backlash_is_transverse_backlash_times_the_cosine() -> anyhow::Result<()> {
         let design = Design::new(&["geometry.backlash=0.2 mm"])?;
         let rows: Vec<_> = groups().into_iter().flat_map(|group| group.rows).collect();
         let of = |key: &str| rows.iter().find(|row| row.key == key).map_or(f64::NAN, |row| row.shown(&design, 0));

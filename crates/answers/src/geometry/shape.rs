@@ -1,9 +1,9 @@
-//! The gears as data for programs that make solids, meshes and drawings of them: curves on the unit sphere, the blanks, faceted
-//! surfaces, what they weigh, and where each gear stands in the assembly. Metres and radians.
+//! Gears as data for programs that create solids, meshes and drawings: curves on the unit sphere, blanks, faceted
+//! surfaces, masses, and the orientation of each gear in the assembly. Units are metres and radians.
 //!
-//! All faces of teeth are cones with their apex in the pitch apex, so a curve on the unit sphere stands for a face. Ends, as
-//! those of `geometry::solid::manifold`: at each azimuth a straight line from the outline on the sphere down to the root
-//! circle, and the plane of the root circle from there to the bore.
+//! All faces of teeth are cones with their apex in the pitch apex, so a curve on the unit sphere describes a face. The
+//! ends are those of `geometry::solid::manifold`. At each azimuth, they are a straight line from the outline on the
+//! sphere down to the root circle, followed by the plane of the root circle to the bore.
 
 use bevel_differential::geometry::involute::direction;
 use bevel_differential::geometry::solid::mass::gear_mass;
@@ -16,14 +16,14 @@ use serde_json::{Value, json};
 use super::assembly::{Body, Position, bodies, turned};
 use super::xyz::NAMES;
 
-/// Facets per flank whose nodes splines go through: they are then within a hundredth of a micrometre, at modules up to 10 mm.
+/// Facets per flank for the nodes of splines. The splines are then accurate to 0.01 µm at modules up to 10 mm.
 const NODES: usize = 48;
 
 /// A vector in the frame of a gear: z along its axis from apex to heel, tooth 0 centred on azimuth 0.
 type Point = [f64; 3];
 
-/// Both gears of `pair`, made from `spec`, of the density `density` [kg/m³], and their assembly; or why they do not assemble.
-/// Faceted surfaces have `facets` per flank.
+/// Returns both gears of `pair`, built from `spec` with `density` [kg/m³], and their assembly. Fails if they cannot be
+/// assembled. Faceted surfaces have `facets` per flank.
 pub fn shape(pair: &Pair, spec: &GearSpec, density: f64, facets: usize) -> Result<Value, Problem> {
     let bodies = bodies(spec, &Position::default())?;
     let gears = [0, 1].map(|i| gear(pair, spec, i, density, facets));
@@ -35,12 +35,12 @@ pub fn shape(pair: &Pair, spec: &GearSpec, density: f64, facets: usize) -> Resul
         "gears": gears,
         // the planets' pins, if planets have bores
         "pins": (spec.planet_bore > 0.0).then(|| pins(pair, spec, &bodies)),
-        // the gears of the assembly where they stand
+        // oriented gears of the assembly
         "bodies": bodies,
     }))
 }
 
-/// The planets' pins in the frame of the assembly.
+/// Pins of the planets in the frame of the assembly.
 fn pins(pair: &Pair, spec: &GearSpec, bodies: &[Body]) -> Value {
     let length = pair.outer_cone * cos(pair.gears[0].root);
     let opposite = spec.planet_count % 2 == 0;
@@ -48,9 +48,10 @@ fn pins(pair: &Pair, spec: &GearSpec, bodies: &[Body]) -> Value {
     let arms = bodies.iter().filter(|body| body.gear == 0).map(|body| turned(&body.rotation, [0.0, 0.0, length]));
     let rods = arms.take(count).map(|end| [end.map(|x| if opposite { -x } else { 0.0 }), end]);
     json!({
-        // that of the bores [m]
+        // radius of the bores [m]
         "radius": spec.planet_bore / 2.0,
-        // both ends of each [m]: at the heel faces of opposite planets, or at that of one planet and the apex
+        // both ends of each pin [m]: at the heel faces of opposite planets, or at the heel face of one planet and the
+        // apex
         "rods": rods.collect::<Vec<[Point; 2]>>(),
     })
 }
@@ -80,14 +81,15 @@ fn gear(pair: &Pair, spec: &GearSpec, i: usize, density: f64, facets: usize) -> 
         "root": gear.root,
         // diameter of the bore, 0 without one [m]
         "bore": bores[i],
-        // foot and flank of a tooth on the unit sphere, on the side of positive azimuth; the other side mirrors them. Where the
-        // foot does not end where the flank begins, a meridian lies between. The foot is one point if it has no fillet.
+        // foot and flank of a tooth on the unit sphere, on the side of positive azimuth; the other side mirrors them.
+        // If the foot ends below the start of the flank, a meridian connects them. Without a fillet, the foot is one
+        // point.
         "foot": foot,
         "flank": flank,
-        // direction of the axis of the cone that the fillet is a part of, and half its angle [rad]
+        // direction of the axis of the fillet's cone, and half its angle [rad]
         "fillet_axis": Point::from(direction(f.floor + f.radius, f.centre)),
         "fillet": f.radius,
-        // what the simulation takes the gear for
+        // mass properties in the simulation
         "mass": {
             // [kg/m³]
             "density": density,
@@ -95,11 +97,12 @@ fn gear(pair: &Pair, spec: &GearSpec, i: usize, density: f64, facets: usize) -> 
             "mass": mass.mass,
             // distance of the centre of mass from the apex [m]
             "centre": mass.centre,
-            // moments of inertia about the axis, and about any axis through the apex across it [kg·m²]
+            // moments of inertia about the axis, and about any transverse axis through the apex [kg·m²]
             "axial": mass.axial,
             "transverse_at_apex": mass.transverse_at_apex,
         },
-        // a closed surface: vertices [m], and triangles by their numbers, counter-clockwise from outside
+        // a closed surface: vertices [m], and triangles by the indices of their vertices, counter-clockwise from
+        // outside
         "mesh": {
             "vertices": solid.vertices.iter().map(|&v| v.into()).collect::<Vec<Point>>(),
             "triangles": solid.triangles,

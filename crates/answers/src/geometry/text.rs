@@ -1,4 +1,4 @@
-//! Dimensions of a design as text for a reader: aligned tables, Tredgold's planar approximation, warnings and remarks.
+//! Dimensions of a design as text: aligned tables, Tredgold's planar approximation, warnings and remarks.
 
 use bevel_differential::problem::Problem;
 
@@ -43,7 +43,7 @@ fn set(design: &Design) -> String {
     format!("Set: {}. All others have the FMU's start values.", set.join(", "))
 }
 
-/// Rows of all groups in the same columns, each group under its title.
+/// Rows of all groups in common columns, each group under its title.
 fn grouped(head: &[&str], groups: &[DimensionGroup], values: impl Fn(&Dimension) -> Vec<String>) -> String {
     let last = head.len() - 1;
     let mut table = Table::new(head.iter().copied()).left([0, last - 2, last - 1, last]);

@@ -16,7 +16,7 @@ fn clearance(d: &Design, i: usize) -> f64 {
     d.pair.gears[i].dedendum - d.pair.gears[1 - i].addendum
 }
 
-/// Arc of a tooth on the outer pitch circle, less half of the backlash.
+/// Arc of a tooth on the outer pitch circle, reduced by half of the backlash.
 fn thickness(d: &Design, i: usize) -> f64 {
     d.pair.gears[i].half_pitch * d.pair.outer_pitch_diameter(i)
 }
@@ -43,7 +43,7 @@ fn shift(d: &Design, i: usize) -> f64 {
 }
 
 /// Arc along the line of action from this gear's tangent point to the start of the active profile, where the mate's tip
-/// touches. The arc is negative where the mate's tip passes below the base circle.
+/// touches. The arc is negative if the mate's tip passes below the base circle.
 fn start_arc(d: &Design, i: usize) -> f64 {
     d.pair.line_of_action() - d.pair.tip_arc[1 - i]
 }
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn chord_and_height_are_those_of_the_points_on_the_flanks() -> anyhow::Result<()> {
+    fn chord_and_height_agree_with_the_points_on_the_flanks() -> anyhow::Result<()> {
         let design = Design::new::<&str>(&[])?;
         let rows: Vec<_> = groups().into_iter().flat_map(|group| group.rows).collect();
         let of = |key: &str, i| rows.iter().find(|row| row.key == key).map_or(f64::NAN, |row| row.shown(&design, i));
@@ -171,7 +171,8 @@ mod tests {
             let [left, right] =
                 [1.0, -1.0].map(|side| gear.flank_point(gear.pitch, side) * design.pair.outer_cone * 1e3);
             assert!((of("outer_chordal_tooth_thickness_s_ec", i) - (left - right).norm()).abs() < 1e-12);
-            // the tip lies at the distance h_ae from the pitch circle, along the back cone through the middle of the tooth
+            // the tip is at the distance h_ae from the pitch circle, along the back cone through the middle of the
+            // tooth
             let (s, c) = (sin(gear.pitch), cos(gear.pitch));
             let (x, z) = (design.pair.outer_cone * s * 1e3, design.pair.outer_cone * c * 1e3);
             let tip = [x + of("outer_addendum_h_ae", i) * c, z - of("outer_addendum_h_ae", i) * s];

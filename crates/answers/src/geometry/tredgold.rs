@@ -1,4 +1,4 @@
-//! The planar approximation compared with the exact geometry: the errors of a drawing made of virtual spur gears.
+//! Comparison of the planar approximation with the exact geometry: the errors of a drawing based on virtual spur gears.
 //!
 //! On the back cones, developed into the plane, the line of action is straight: with r_b = r cos α and legs
 //! √(r_a² − r_b²), it has the length a sin α between both base circles. Lengths are at the heel.
@@ -10,21 +10,21 @@ use super::design::Design;
 use super::dimension::QuantityKind;
 use super::tooth_rows::land;
 
-/// A quantity both ways.
+/// A quantity with its exact and its approximate value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TredgoldComparison {
     /// Term in snake case.
     pub key: &'static str,
-    /// Kind of its number.
+    /// Kind of the number.
     pub kind: QuantityKind,
-    /// Exact, on the sphere [SI].
+    /// Exact value, on the sphere [SI].
     pub exact: f64,
-    /// By Tredgold's virtual gears [SI].
+    /// Value of Tredgold's virtual gears [SI].
     pub planar: f64,
 }
 
 impl TredgoldComparison {
-    /// Relative error of the approximation; none where there is nothing to compare with.
+    /// Relative error of the approximation; none if the exact value is zero.
     pub fn error(&self) -> Option<f64> {
         (self.exact.abs() > f64::EPSILON).then(|| self.planar / self.exact - 1.0)
     }
@@ -34,9 +34,9 @@ impl TredgoldComparison {
 struct Plane {
     radius: [f64; 2],
     base: [f64; 2],
-    /// From each tangent point to the gear's own tip [m].
+    /// Distances from each tangent point to the gear's own tip [m].
     leg: [f64; 2],
-    /// From each tangent point to the pitch point [m].
+    /// Distances from each tangent point to the pitch point [m].
     pitch: [f64; 2],
 }
 
@@ -52,7 +52,7 @@ impl Plane {
         self.pitch[0] + self.pitch[1]
     }
 
-    /// From the tangent point of gear `i` to where the mate's tip touches [m].
+    /// Distance from the tangent point of gear `i` to the point where the mate's tip touches [m].
     fn start(&self, i: usize) -> f64 {
         self.line() - self.leg[1 - i]
     }
@@ -75,7 +75,7 @@ impl Plane {
     }
 }
 
-/// Both ways of all that the approximation is used for.
+/// Comparisons of all quantities for which the approximation is used.
 pub fn comparisons(design: &Design) -> Vec<TredgoldComparison> {
     let (pair, alpha) = (&design.pair, design.pair.pressure_angle);
     let plane = Plane::new(&design.planar, alpha);

@@ -1,8 +1,8 @@
 //! Curves of the teeth as texts for a CAD program's "curve through XYZ points": a line per point, x y z in millimetres.
 //!
-//! They stand in the gear's own frame, apex at the origin, z along the axis from apex to heel, the tooth centred on the
-//! x-z plane. A straight bevel tooth is the loft from its curve at the heel (R_e) to that at the toe (R_i) along straight
-//! lines through the apex; both curves have their points at the same polar angles.
+//! Curves are in the gear's own frame: apex at the origin, z along the axis from apex to heel, the tooth centred on the
+//! x-z plane. A straight bevel tooth is the loft from its curve at the heel (R_e) to its curve at the toe (R_i), along
+//! straight lines through the apex. Both curves have points at the same polar angles.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use bevel_differential::geometry::involute::{Gear, direction};
 use bevel_differential::geometry::solid::Outline;
 use bevel_differential::geometry::{GearSpec, Pair};
 
-/// Default of points of a flank's curve.
+/// Default number of points of a flank's curve.
 pub const POINTS: usize = 101;
 
 /// Names of the gears of a pair in files.
@@ -26,7 +26,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The text: three columns in millimetres, no header, twelve decimals.
+    /// Text of the curve: three columns in millimetres, no header, twelve decimals.
     pub fn text(&self) -> String {
         let mut text = String::with_capacity(64 * self.points.len());
         for point in &self.points {
@@ -38,8 +38,9 @@ impl Curve {
     }
 }
 
-/// All curves of both gears: the two flanks and the outline with its fillets, each at heel and toe. Flanks have `points` ≥ 2
-/// equally spaced in the arc by which the great circle rolls, from the base circle, or the root if that is larger, to the tip.
+/// Returns all curves of both gears: the two flanks and the outline with its fillets, each at heel and toe. Flanks have
+/// `points` ≥ 2 points, equally spaced in the arc by which the great circle rolls. They run from the base circle, or
+/// the root if that is larger, to the tip.
 pub fn curves(pair: &Pair, spec: &GearSpec, points: usize) -> Vec<Curve> {
     let fillet = spec.root_fillet * pair.module / pair.outer_cone;
     let mut curves = Vec::with_capacity(12);
@@ -57,7 +58,8 @@ pub fn curves(pair: &Pair, spec: &GearSpec, points: usize) -> Vec<Curve> {
     curves
 }
 
-/// Points of a flank on the unit sphere, `sign` +1 for the left one, at positive azimuth, −1 for the right one.
+/// Points of a flank on the unit sphere. `sign` is +1 for the left flank, at positive azimuth, and −1 for the right
+/// one.
 fn flank(gear: &Gear, sign: f64, points: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
     let start = gear.action_arc(gear.root.max(gear.base));
     let length = gear.action_arc(gear.tip) - start;
@@ -86,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn points_read_back_lie_on_the_rolled_great_circle_within_a_nanometre() {
+    fn points_in_files_are_on_the_rolled_great_circle_within_a_nanometre() {
         for (planet_teeth, side_teeth) in [(10, 16), (9, 14), (12, 40)] {
             let spec = GearSpec { planet_teeth, side_teeth, ..GearSpec::default() };
             let pair = Pair::new(&spec);
@@ -102,8 +104,8 @@ mod tests {
                 let base_azimuth = gear.half_angle(gear.base);
                 for [x, y, z] in points {
                     assert!((x.hypot(y).hypot(z) - cone).abs() < 1e-9, "{}", curve.name);
-                    // the string unwound: from the tangent point on the base circle, at the azimuth rolled to, along the
-                    // great circle tangent there, by the arc that was rolled
+                    // the unwound string: it starts at the tangent point on the base circle, at the rolled azimuth, and
+                    // follows the tangent great circle by the rolled arc
                     let (sb, cb) = gear.base.sin_cos();
                     let psi = ((x * x + y * y) / (cone * cone) - sb * sb).max(0.0).sqrt().atan2(z / cone);
                     let rolled = sign * (base_azimuth - psi / sb);

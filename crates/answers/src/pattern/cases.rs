@@ -1,4 +1,4 @@
-//! Scenes of the pattern: the study's turn with solid teeth, aligned and with one thing out of place at a time.
+//! Scenes of the contact pattern: the study's turn with solid teeth, aligned and with one deviation at a time.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use bevel_differential::contact::errors::ToothErrorSpec;
 
 use crate::scene::{Scene, load};
 
-/// The turn of the study; the tolerance is enough for motion that is all but static.
+/// The turn of the study. The tolerance is sufficient because the motion is almost static.
 const TURN: &str = r#"
 description = "the study's turn with solid teeth"
 stop_time = 0.7
@@ -25,19 +25,19 @@ scene.gear_contact = "solid"
 solver.relative_tolerance = 1e-4
 "#;
 
-/// Offsets shown [m].
+/// Offset in the figure [m].
 pub const OFFSET: f64 = 1e-4;
-/// Offset of the pins that leaves every planet its share of the load [m].
+/// Offset of the pins at which every planet keeps its share of the load [m].
 pub const SMALL: f64 = 3e-5;
-/// Error of the shaft angle shown [rad].
+/// Error of the shaft angle in the figure [rad].
 pub const ANGLE: f64 = 0.2 * std::f64::consts::PI / 180.0;
-/// Crowning shown [m].
+/// Crowning in the figure [m].
 pub const CROWNING: f64 = 20e-6;
 
-/// Cases of a quick answer: aligned, and one of each kind of deviation.
+/// Cases of a quick answer: aligned, and one for each kind of deviation.
 pub const QUICK: [&str; 4] = ["aligned", "crowned", "angle_wide", "planet_out"];
 
-/// A scene with its place in the figure.
+/// A scene with its names in files and figures.
 #[derive(Clone)]
 pub struct PatternCase {
     /// Name in files.
@@ -49,13 +49,13 @@ pub struct PatternCase {
 }
 
 impl PatternCase {
-    /// A user's own scene.
+    /// Case of a user's scene.
     pub fn of(scene: Scene) -> Self {
         Self { name: scene.name.clone(), title: scene.name.clone(), scene }
     }
 }
 
-/// The turn with these errors.
+/// Scene of the turn with the given errors.
 pub fn turn(errors: &ToothErrorSpec) -> Result<Scene> {
     let mut scene = load::parse("turn", Path::new("turn.toml"), TURN)?;
     scene.parameters.effects.tooth_errors = *errors != ToothErrorSpec::default();

@@ -1,7 +1,7 @@
-//! The largest pressure that each spot of the planet's flank sees in one engagement.
+//! Largest pressure on each spot of the planet's flank during one engagement.
 //!
-//! A section's strip of contact has Hertz's ellipse of pressure p √(1 − (d/b)²) across it. Between sections load and place
-//! are taken as straight lines.
+//! Across the contact strip of a section, the pressure follows Hertz's ellipse p √(1 − (d/b)²). Load and position are
+//! interpolated linearly between sections.
 
 use anyhow::Result;
 use bevel_differential::geometry::Pair;
@@ -11,7 +11,7 @@ use crate::text::csv_file::CsvFile;
 use super::sample::Engagement;
 use super::sections::LoadedSection;
 
-/// Spots along the face and along the profile.
+/// Number of spots along the face and along the profile.
 const SPOTS: [usize; 2] = [61, 161];
 
 /// The pattern of a planet's flank.
@@ -53,7 +53,7 @@ impl Envelope {
         Self { cones, polars, pressure, pitch: gear.pitch }
     }
 
-    /// The file of patterns, without rows.
+    /// Creates the file of patterns, without rows.
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "largest Hertz pressure that each spot of the planet's flank sees while one pair goes through mesh",
@@ -63,7 +63,7 @@ impl Envelope {
         CsvFile::new("case,cone,height,pressure", &comments)
     }
 
-    /// Adds its spots to the file.
+    /// Adds the spots to the file.
     pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
         for (cone, column) in self.cones.iter().zip(&self.pressure) {
             for (polar, pressure) in self.polars.iter().zip(column) {
@@ -76,11 +76,11 @@ impl Envelope {
     }
 }
 
-/// Polar angle on the planet, pressure and half-width at `cone` of a line of contact whose sections lie within `face`;
-/// none where it does not reach.
+/// Polar angle on the planet, pressure and half-width of a contact line at `cone`. Sections of the line are within
+/// `face`. Returns none if the line does not reach `cone`.
 fn between(line: &[&LoadedSection], cone: f64, face: [f64; 2]) -> Option<[f64; 3]> {
     let (first, last) = (line.first()?, line.last()?);
-    // within the face a line ends where the next section would have no load left
+    // within the face, a line ends where the load of the next section would be zero
     let (end, beyond, is_edge) = if cone < first.cone {
         (first, first.cone - cone, first.cone <= face[0])
     } else {
@@ -98,7 +98,7 @@ fn between(line: &[&LoadedSection], cone: f64, face: [f64; 2]) -> Option<[f64; 3
     (values[1] > 0.0 && values[2] > 0.0).then_some(values)
 }
 
-/// The file of outlines, without rows.
+/// Creates the file of outlines, without rows.
 pub fn outline_file() -> Result<CsvFile> {
     let comments = [
         "heights on the planet's flank from the pitch circle; start: where contact of aligned rigid teeth begins",
@@ -107,7 +107,7 @@ pub fn outline_file() -> Result<CsvFile> {
     CsvFile::new("case,mark,toe_cone,toe_height,heel_cone,heel_height", &comments)
 }
 
-/// Adds the flank's outline to that file: heights of its marks at toe and heel.
+/// Adds the flank's outline to the file: heights of its marks at toe and heel.
 pub fn outline(pair: &Pair, case: &str, out: &mut CsvFile) -> Result<()> {
     let gear = &pair.gears[0];
     let start = gear.polar_at(pair.pitch_arc[0] + pair.path.low);

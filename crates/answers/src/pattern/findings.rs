@@ -1,4 +1,4 @@
-//! What a pattern shows, in numbers.
+//! Results of a contact pattern in numbers.
 
 use anyhow::{Context, Result};
 use bevel_differential::model::GearContact;
@@ -11,36 +11,36 @@ use super::cases::PatternCase;
 use super::sample::Engagement;
 use super::sections::LoadedSection;
 
-/// Numbers of one case, at the instant at which the pair is at the pitch point unless they say otherwise.
+/// Results of one case. Unless noted otherwise, they are for the instant at which the pair is at the pitch point.
 #[derive(Clone, Debug)]
 pub struct PatternFindings {
     /// Name and title of the case.
     pub case: [String; 2],
-    /// Load's centroid from the middle of the face, toward the heel [m].
+    /// Distance of the load's centroid from the middle of the face, toward the heel [m].
     pub centroid: f64,
     /// Line load of the sections nearest to toe and heel [N/m].
     pub ends: [f64; 2],
-    /// Part of the face under load.
+    /// Fraction of the face under load.
     pub bearing: f64,
-    /// Greatest pressure [Pa].
+    /// Maximum pressure [Pa].
     pub pitch_pressure: f64,
-    /// Whether it is the drive flank that bears.
+    /// True if the drive flank is loaded.
     pub is_drive: bool,
     /// Force of the pair [N].
     pub force: f64,
-    /// Greatest pressure at or above the pitch line over the engagement [Pa], and at which cone distance [m]. Further
-    /// down the flank ends at its base circle, where it has no radius.
+    /// Maximum pressure at or above the pitch line over the engagement [Pa], and its cone distance [m]. Further down,
+    /// the flank ends at its base circle, where its radius of curvature is zero.
     pub peak: [f64; 2],
-    /// Greatest line load over the engagement, corners included [N/m].
+    /// Maximum line load over the engagement, including corners [N/m].
     pub most: f64,
-    /// Heights on the planet at the middle of the face between which the pair carries [m].
+    /// Lowest and highest loaded height on the planet, at the middle of the face [m].
     pub heights: [f64; 2],
     /// Kind of teeth: `solid`, or the contact law.
     pub teeth: &'static str,
 }
 
 impl PatternFindings {
-    /// Of `case`, whose engagement is `record`.
+    /// Results of `case`, whose engagement is `record`.
     pub fn new(case: &PatternCase, record: &Engagement) -> Result<Self> {
         let pitch = record.at_pitch_point();
         let (first, last) = (pitch.first(), pitch.last());
@@ -51,7 +51,7 @@ impl PatternFindings {
         let above = record.engagement().filter(|c| !c.is_corner && c.polar[0] >= gear.pitch);
         let peak = above.max_by(|a, b| a.pressure.total_cmp(&b.pressure));
         let face = record.pair.outer_cone - record.pair.inner_cone;
-        // a face of which one end is bare has its sections at the other
+        // without contact at one end of the face, the first or last section is not at that end
         let reaches = |c: &LoadedSection, end: f64| (c.cone - end).abs() <= c.width;
         let end = |c: &LoadedSection, end: f64| if reaches(c, end) { c.line_load } else { 0.0 };
         let mean = record.pair.mean_cone;
@@ -102,7 +102,7 @@ pub fn centroid(line: &[LoadedSection]) -> f64 {
     line.iter().map(|c| c.force() * c.cone).sum::<f64>() / force
 }
 
-/// Columns of the table, and of that in the document.
+/// Number of columns of the table, and of the table in the document.
 const CELLS: usize = 9;
 const IN_DOCUMENT: usize = 7;
 const HEAD: [&str; CELLS] = [
@@ -117,19 +117,19 @@ const HEAD: [&str; CELLS] = [
     "carries at heights, mm",
 ];
 
-/// The table of all cases.
+/// Table of all cases.
 pub fn table(found: &[PatternFindings]) -> Table {
     columns(found, CELLS)
 }
 
-/// The first `count` columns of the table.
+/// First `count` columns of the table.
 fn columns(found: &[PatternFindings], count: usize) -> Table {
     let mut table = Table::new(HEAD.into_iter().take(count)).all_left();
     found.iter().for_each(|f| table.push(f.cells().into_iter().take(count)));
     table
 }
 
-/// The table for the document.
+/// Table for the document.
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
         "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure \
@@ -143,7 +143,7 @@ pub fn markdown(found: &[PatternFindings]) -> String {
 const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
                        lowest,highest,teeth";
 
-/// The numbers as a file.
+/// CSV file of the results.
 pub fn csv(found: &[PatternFindings]) -> Result<String> {
     let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm,-"])?;
     for f in found {

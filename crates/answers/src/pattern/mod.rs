@@ -1,9 +1,10 @@
-//! The contact pattern: the largest pressure on each spot of a flank while a pair of teeth goes through mesh.
+//! Contact pattern: the largest pressure on each spot of a flank while a pair of teeth goes through mesh.
 //!
-//! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here the tooth pairs of a scene
-//! (`scene.gear_contact = tooth` or `solid`) are divided over the face into sections ([`sections`]). Every loaded section of
-//! planet 1's left mesh is followed over one whole engagement ([`sample`]), placed on the flank and given its Hertz pressure;
-//! the largest on each spot is the pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] the results in numbers.
+//! An assembler blues the teeth, turns the gears under load and looks at the areas without ink. Here, the tooth pairs
+//! of a scene (`scene.gear_contact = tooth` or `solid`) are divided over the face into sections ([`sections`]). Every
+//! loaded section of planet 1's left mesh is followed over one whole engagement ([`sample`]), and its position on the
+//! flank and Hertz pressure are computed. The largest pressure on each spot is the pattern ([`envelope`]). [`cases`]
+//! contains the scenes, [`findings`] the results in numbers.
 
 pub mod cases;
 pub mod envelope;
@@ -20,7 +21,7 @@ use envelope::Envelope;
 use findings::PatternFindings;
 use sample::Engagement;
 
-/// Patterns of some cases.
+/// Contact patterns of several cases.
 pub struct Patterns {
     /// Names and texts of CSV files: pressures, contacts, findings, and outlines of the flanks.
     pub files: [(&'static str, String); 4],
@@ -50,7 +51,7 @@ impl Patterns {
         Ok(Self { files, findings })
     }
 
-    /// The findings as a table.
+    /// Findings as a table.
     pub fn table(&self) -> Table {
         findings::table(&self.findings)
     }

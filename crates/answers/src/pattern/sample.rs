@@ -1,11 +1,11 @@
-//! One engagement of a pair of teeth, section by section and instant by instant.
+//! One engagement of a pair of teeth, by section and instant.
 //!
-//! The followed pair is the first one of planet 1's left mesh that comes into contact after the start and parts again. Teeth
-//! under a law may lift off and touch again in between. Their pair therefore counts only if it was loaded over a base pitch,
-//! which each pair is where the mesh never parts. If no pair gets through, as on a straight road, the pair with the largest
-//! force is followed instead, and a warning says so.
+//! The followed pair is the first pair of planet 1's left mesh that comes into contact after the start and separates
+//! again. Teeth with a contact law may lift off and touch again in between. Their pair therefore counts only if it was
+//! loaded over a base pitch; every pair is, if the mesh never separates. If no pair completes its engagement, as on a
+//! straight road, the most loaded pair is followed instead and a warning is given.
 //!
-//! The steps are those of the scene, or shorter if a pair would pass in fewer than `INSTANTS` of them.
+//! The steps are those of the scene. They are shorter if a pair would pass in fewer than `INSTANTS` of them.
 
 use std::collections::HashMap;
 
@@ -21,16 +21,16 @@ use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 use crate::text::csv_file::CsvFile;
 
-/// Least number of instants for one tooth pitch of teeth under a law.
+/// Minimum number of instants per tooth pitch for teeth with a contact law.
 const INSTANTS: f64 = 200.0;
-/// Tooth pitches after which the speed is known well enough for the steps.
+/// Tooth pitches after which the speed is known well enough to choose the steps.
 const PITCHES: f64 = 3.0;
-/// Part of a base pitch over which a pair under a law was loaded after it got through.
+/// Fraction of a base pitch over which a pair with a contact law must be loaded for a complete engagement.
 const THROUGH: f64 = 0.9;
-/// Instants between which teeth under a law move by less than this part of a base pitch, and their force changes by less than
-/// this part, are the same.
+/// Relative tolerance for equal instants of teeth with a contact law: they move by less than this fraction of a base
+/// pitch, and their forces change by less than this fraction.
 const SAME: f64 = 1e-3;
-/// Angle of planet 1 against the carrier.
+/// Angle of planet 1 relative to the carrier.
 const ANGLE: &str = "planet[1].spin_angle";
 
 /// Loaded sections of the mesh until the engagement of one pair is complete.
@@ -38,21 +38,22 @@ const ANGLE: &str = "planet[1].spin_angle";
 pub struct Engagement {
     /// The gears.
     pub pair: Pair,
-    /// Loaded sections of all pairs by time; those of an instant in the order of the simulation.
+    /// Loaded sections of all pairs by time. Sections of one instant are in the order of the simulation.
     pub contacts: Vec<LoadedSection>,
-    /// The pair with the complete engagement.
+    /// Pair with the complete engagement.
     pub followed: PairName,
-    /// Cone distances beyond which there is only the outermost section of the face [m]; none for solid teeth, whose sections move.
+    /// Cone distances beyond which only the outermost section of the face remains [m]; none for solid teeth, whose
+    /// sections move.
     pub ends: Option<[f64; 2]>,
 }
 
 impl Engagement {
-    /// Runs `scene` until a pair that came into contact after the start has parted.
+    /// Runs `scene` until a pair that came into contact after the start has separated.
     pub fn new(scene: &Scene, progress: &mut Progress) -> Result<Self> {
         Self::coarser(scene, 1.0, progress)
     }
 
-    /// Runs `scene` in the same way in steps that are longer by the factor `coarser`.
+    /// Runs `scene` as [`Self::new`] does, in steps that are longer by the factor `coarser`.
     pub fn coarser(scene: &Scene, coarser: f64, progress: &mut Progress) -> Result<Self> {
         let p = &scene.parameters;
         let solid = match p.scene.gear_contact {
@@ -82,7 +83,8 @@ impl Engagement {
         let pair = flanks.pair;
         let ends = (!solid).then(|| [pair.inner_cone + flanks.width(), pair.outer_cone - flanks.width()]);
         let mut contacts: Vec<LoadedSection> = Vec::new();
-        // pairs in contact: whether each of them came into contact after the start, and its first and last place [rad]
+        // pairs in contact: true if the pair came into contact after the start, and its smallest and largest position
+        // [rad]
         let mut seen: HashMap<PairName, (bool, [f64; 2])> = HashMap::new();
         let (mut first, mut last) = (true, Vec::new());
         while !run.is_over() {
@@ -132,13 +134,13 @@ impl Engagement {
         self.contacts.iter().filter(|c| c.name == self.followed)
     }
 
-    /// Sections of the followed pair at the instant of least distance from the pitch point.
+    /// Sections of the followed pair at the instant closest to the pitch point.
     pub fn at_pitch_point(&self) -> Vec<LoadedSection> {
         let nearest = self.engagement().min_by(|a, b| a.s.abs().total_cmp(&b.s.abs()));
         nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
     }
 
-    /// A CSV file for loaded sections, without rows.
+    /// Creates a CSV file for loaded sections, without rows.
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
@@ -193,7 +195,7 @@ fn step(scene: &Scene, progress: &mut Progress) -> Result<f64> {
     Ok(scene.step / (INSTANTS * fastest).max(1.0))
 }
 
-/// True if two instants have the same pairs, at nearly the same places and under nearly the same forces.
+/// True if two instants have the same pairs at nearly equal positions under nearly equal forces.
 fn is_same(last: &[LoadedSection], now: &[LoadedSection], base_pitch: f64) -> bool {
     let close = |a: &LoadedSection, b: &LoadedSection| {
         a.name == b.name

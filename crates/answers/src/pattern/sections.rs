@@ -1,14 +1,14 @@
 //! Loaded sections of planet 1's left mesh at an instant.
 //!
-//! A section of solid teeth lies where the solids touch, at the polar angle φ about the axis of each gear. Teeth of a law
-//! touch where the aligned flanks do: on the path of contact, or at a tip corner; errors and displacements move the load
-//! along the face. On the unit sphere a flank has the radius of curvature tan ψ(φ). The relative radius at the cone
-//! distance R is
+//! A section of solid teeth is where the solids touch, at the polar angle φ about the axis of each gear. Teeth with a
+//! contact law touch where the aligned flanks do: on the path of contact, or at a tip corner. Errors and displacements
+//! move their load along the face. On the unit sphere, a flank has the radius of curvature tan ψ(φ). The relative
+//! radius at the cone distance R is
 //!
 //!   ρ = R / (cot ψ_p + cot ψ_s)
 //!
-//! A tip corner is no cylinder. Its pressure is calculated with the radii of the flanks at the end of the path, and so is less
-//! than the real pressure at the edge.
+//! A tip corner is not a cylinder. Its pressure is calculated with the radii of the flanks at the end of the path. It
+//! is therefore lower than the real pressure at the edge.
 //!
 //! The load per width w(R) of `line` and `line_weber` follows from the law at each cone distance. For aligned teeth that is
 //! w = 2FR/(R_e² − R_i²). `impact` has one resultant, which is spread evenly: w = F/b.
@@ -19,14 +19,14 @@ use bevel_differential::geometry::action::LineOfAction;
 use bevel_differential::model::{Simulation, ToothLoad};
 use bevel_differential::strength::LineContact;
 
-/// Sections into which a section of the whole face is divided for solid teeth.
+/// Number of sections into which solid teeth in contact over the whole face are divided.
 const SECTIONS_OF_SOLIDS: usize = 8;
-/// Sections of the face under a law.
+/// Number of sections of the face for teeth with a contact law.
 const SECTIONS: usize = 32;
-/// A load with more than this share of the face stands for the whole face.
+/// A load over more than this fraction of the face counts as a load over the whole face.
 const WHOLE: f64 = 1.0 - 1e-9;
 
-/// A tooth pair: true if the drive flanks touch, and the numbers of the planet's and the side gear's tooth.
+/// A tooth pair: true if the drive flanks touch, and the indices of the planet's and the side gear's tooth.
 pub type PairName = (bool, [usize; 2]);
 
 /// A loaded section of a tooth pair at an instant.
@@ -38,11 +38,11 @@ pub struct LoadedSection {
     pub name: PairName,
     /// True if the section touches at a tip corner.
     pub is_corner: bool,
-    /// Place on the path of contact, as it follows from the planet's rotation [rad].
+    /// Position on the path of contact from the planet's rotation [rad].
     pub s: f64,
     /// Cone distance [m].
     pub cone: f64,
-    /// Width of the face that the section stands for [m].
+    /// Width of the section along the face [m].
     pub width: f64,
     /// Polar angles on planet and side gear [rad].
     pub polar: [f64; 2],
@@ -52,7 +52,7 @@ pub struct LoadedSection {
     pub radius: f64,
     /// Hertz pressure [Pa].
     pub pressure: f64,
-    /// Half-width of the strip of contact [m].
+    /// Half-width of the contact strip [m].
     pub half_width: f64,
 }
 
@@ -63,7 +63,7 @@ impl LoadedSection {
     }
 }
 
-/// Gears of a scene, with what their sections need.
+/// Gears of a scene, with data for their sections.
 pub struct Flanks {
     /// The gears.
     pub pair: Pair,
@@ -74,8 +74,8 @@ pub struct Flanks {
 }
 
 impl Flanks {
-    /// The gears of `simulation`, both of the same modulus [Pa] and Poisson's ratio. `grows`: the load of an aligned pair grows
-    /// with the cone distance.
+    /// Gears of `simulation`, both with the same Young's modulus [Pa] and Poisson's ratio. `grows` is true if the load
+    /// of an aligned pair grows with the cone distance.
     pub fn new(simulation: &Simulation, young_modulus: f64, poisson_ratio: f64, grows: bool) -> Self {
         let pair = *simulation.pair();
         let (action, contact) = (LineOfAction::new(&pair), LineContact::new(&pair, young_modulus, poisson_ratio));
@@ -85,7 +85,7 @@ impl Flanks {
     /// Loaded sections of planet 1's left mesh at the present time of `simulation`.
     pub fn instant(&self, simulation: &Simulation) -> Vec<LoadedSection> {
         let (mut all, time): (Vec<LoadedSection>, f64) = (Vec::new(), simulation.time());
-        // slices of a pair come one after the other, and the first one gives the load of all
+        // slices of a pair are consecutive, and the first one provides the load of all
         let mut last = None;
         simulation.loads_over_the_face(|load, line_load| {
             let name = (load.flank == Flank::Drive, load.teeth);
@@ -98,7 +98,7 @@ impl Flanks {
         all
     }
 
-    /// Width of a section of teeth under a law [m].
+    /// Width of a section of teeth with a contact law [m].
     pub fn width(&self) -> f64 {
         (self.pair.outer_cone - self.pair.inner_cone) / SECTIONS as f64
     }
@@ -123,7 +123,7 @@ impl Flanks {
         loads.into_iter().map(move |[cone, line_load]| self.section(time, load, polar, [cone, width], line_load))
     }
 
-    /// Several sections for a load of the whole face, one otherwise.
+    /// Returns several sections for a load over the whole face, otherwise one.
     fn of_solids(&self, time: f64, load: &ToothLoad) -> impl Iterator<Item = LoadedSection> {
         let (face, loaded) = (self.pair.outer_cone - self.pair.inner_cone, load.normal / load.line_load);
         let whole = loaded > WHOLE * face;
@@ -150,7 +150,8 @@ impl Flanks {
         line_load: f64,
     ) -> LoadedSection {
         let pair = &self.pair;
-        // a tip corner lies past the end of the path: arcs from the base circles are not taken below those at its ends
+        // a tip corner is past the end of the path, so arcs from the base circles are limited to those at the path's
+        // ends
         let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
         let cot = |i: usize| 1.0 / pair.gears[i].action_arc(polar[i]).max(least[i]).tan();
         let radius = cone / (cot(0) + cot(1));

@@ -1,4 +1,4 @@
-//! Variables that act in a scene, and the scene without the values that change nothing in it.
+//! Variables that have an influence in a scene, and the scene reduced to them.
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::variables::felt::{self, Situation};
@@ -6,12 +6,12 @@ use bevel_differential::variables::{Variable, assign, index_of, table, value_of}
 
 use super::Scene;
 
-/// `scene` with start values in place of those that change nothing in it, and without naming them.
+/// Returns `scene` without values that change nothing: they have their start values and are not set explicitly.
 pub fn acting(scene: &Scene) -> Scene {
     let mut found = scene.clone();
     for row in table().rows.iter().filter(|row| !acts(row, scene, Situation::START)) {
         if let Some(start) = value_of(row, &Parameters::default(), &Inputs::default()) {
-            // a start value is within its range
+            // start values are within their ranges
             let fits = assign(row, start, &mut found.parameters, &mut found.inputs);
             debug_assert_eq!(fits, Ok(()));
         }
@@ -25,7 +25,7 @@ pub fn acting(scene: &Scene) -> Scene {
     found
 }
 
-/// Names of the variables whose values take effect in `scene`, and of the outputs that are not those of an absent effect.
+/// Names of the variables whose values take effect in `scene`, and of outputs other than those of inactive effects.
 pub fn names(scene: &Scene) -> Vec<&'static str> {
     let mut parameters = scene.parameters;
     let mut acts = |index: usize| felt::acts(index, &mut parameters, Situation::START);
@@ -34,7 +34,7 @@ pub fn names(scene: &Scene) -> Vec<&'static str> {
     rows.map(|(_, row)| row.name).collect()
 }
 
-/// True if all effects that have this output are off in `scene`, so that it is 0.
+/// True if all effects with this output are off in `scene`, so that the output is 0.
 fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
     let owners = EFFECTS.iter().filter(|effect| {
         effect.heat.is_some_and(|heat| heat.output == output)
@@ -45,8 +45,8 @@ fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
     switches.peek().is_some() && switches.all(|switch| switch.is_some_and(|switch| !may_act(switch)))
 }
 
-/// True if something in `scene` depends on the value of `row`. A value that is only repeated by outputs acts if an output of the scene
-/// has its unit.
+/// True if something in `scene` depends on the value of `row`. A value that outputs only repeat has an influence if the
+/// scene has an output of the same unit.
 pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
     let Some(index) = index_of(row.name) else { return true };
     let mut parameters = scene.parameters;

@@ -1,4 +1,4 @@
-//! Changes of a scene on the command line, each `name=value`: checked as the values in a file are.
+//! Changes of a scene on the command line, each `name=value`, with the same checks as the values in a file.
 
 use super::set::{Setting, value, variable};
 use super::times::{check_step, duration, span};
@@ -6,10 +6,10 @@ use super::{Scene, former_names};
 use crate::problem::{Problem, Problems};
 use crate::text::near;
 
-/// What can be set besides the variables of the FMU.
+/// Names that can be set in addition to the variables of the FMU.
 const TIMES: [&str; 2] = ["stop_time", "step"];
 
-/// Changes `scene` by `assignments`, or tells all that is wrong with them.
+/// Changes `scene` by `assignments`. Fails with all problems of the assignments.
 pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), Problems> {
     let mut problems = Problems::default();
     let mut named: Vec<&str> = Vec::new();
@@ -33,7 +33,7 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
         problems.extend(check_step(scene.step, scene.stop_time).err());
     }
     Problems(problems.0.into_iter().map(|problem| problem.prefixed("--set: ")).collect()).or(())?;
-    // a run that ends earlier does not come to what is set later
+    // a run that ends earlier does not reach later changes
     let stop_time = scene.stop_time;
     scene.events.retain(|event| event.time <= stop_time);
     Ok(())

@@ -1,4 +1,4 @@
-//! Units that a scene or its user prefers, each in place of the usual display unit of all variables of its dimension.
+//! Units that a scene or its user prefers. Each replaces the usual display unit of all variables of its dimension.
 
 use bevel_differential::variables::Variable;
 use bevel_differential::variables::units::{ALL, DisplayUnit, Unit};
@@ -10,7 +10,7 @@ use super::units::spelled;
 pub struct DisplayUnits(Vec<(Unit, Option<DisplayUnit>)>);
 
 impl DisplayUnits {
-    /// The units `names`, such as "rpm" and "kN"; otherwise all that is wrong with them.
+    /// Finds the units `names`, such as "rpm" and "kN". Fails with all wrong names.
     pub fn of<T: AsRef<str>>(names: &[T]) -> Result<Self, Vec<String>> {
         let (mut found, mut problems) = (Self::default(), Vec::new());
         for name in names.iter().map(AsRef::as_ref) {
@@ -46,12 +46,12 @@ impl DisplayUnits {
         self.0.iter().map(|&unit| label(unit))
     }
 
-    /// Names of the units by those of their SI units.
+    /// Names of the SI units, each with the name of the preferred unit.
     pub fn by_si_unit(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
         self.0.iter().map(|&unit| (unit.0.name, label(unit)))
     }
 
-    /// The preferred unit of `row`, if there is one. Differences are never shown in a unit with an offset: 5 K, not 5 degC.
+    /// Preferred unit of `row`, if there is one. Differences are never shown in a unit with an offset: 5 K, not 5 degC.
     fn preferred(&self, row: &Variable) -> Option<(Unit, Option<DisplayUnit>)> {
         let unit = row.unit?;
         let is_offset = |shown: Option<DisplayUnit>| shown.is_some_and(|shown| shown.offset != 0.0);
@@ -60,12 +60,12 @@ impl DisplayUnits {
         found.copied()
     }
 
-    /// The variable `row` with its preferred display unit.
+    /// Returns the variable `row` with its preferred display unit.
     pub fn row(&self, row: &Variable) -> Variable {
         Variable { display: self.preferred(row).map_or(row.display, |(_, shown)| shown), ..*row }
     }
 
-    /// The variable `row` with the unit that files have for it: SI, unless another unit is preferred.
+    /// Returns the variable `row` with its unit in files: SI, unless another unit is preferred.
     pub fn row_in_files(&self, row: &Variable) -> Variable {
         Variable { display: self.preferred(row).and_then(|(_, shown)| shown), ..*row }
     }
@@ -76,7 +76,7 @@ fn label((unit, shown): (Unit, Option<DisplayUnit>)) -> &'static str {
     shown.map_or(unit.name, |shown| shown.name)
 }
 
-/// The SI unit of `name`, and the display unit if it is one.
+/// Finds the SI unit of `name`, and the display unit if `name` is one.
 fn known(name: &str) -> Result<(Unit, Option<DisplayUnit>), String> {
     let all = || {
         let units = ALL.iter().filter(|unit| unit.name != "1");
@@ -92,7 +92,8 @@ fn known(name: &str) -> Result<(Unit, Option<DisplayUnit>), String> {
     })
 }
 
-/// The unit nearest to `name` in any case of letters, if half of its letters are right. Two that are swapped count as one that is wrong.
+/// Returns the unit most similar to `name`, ignoring case, if at least half of the letters agree. Two swapped letters
+/// count as one error.
 fn near<'a>(name: &str, units: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();
     let nearest =
@@ -111,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_is_that_of_all_variables_of_its_dimension() {
+    fn a_unit_applies_to_all_variables_of_its_dimension() {
         let speed = std::f64::consts::TAU;
         assert_eq!(shown(&[], "left.speed", speed), "360 deg/s");
         assert_eq!(shown(&["rpm"], "left.speed", speed), "60 rpm");

@@ -1,9 +1,9 @@
-//! Former names of variables. They still find their variables in scenes, on command lines and in the Python package, where a message
-//! gives the present names. The FMU itself accepts only present names.
+//! Former names of variables. Scenes, command lines and the Python package still accept them, with a message that gives
+//! the present names. The FMU itself accepts only present names.
 
 use bevel_differential::variables::{Variable, table};
 
-/// Former beginnings of names, with the present ones.
+/// Former prefixes of names, with the present ones.
 const BEGINNINGS: [[&str; 2]; 2] = [["planet.spin_", "spin."], ["planet[1].left_pair[", "mesh.pair["]];
 
 /// All former names, with their variables.
@@ -16,7 +16,7 @@ pub fn of(name: &str) -> Option<String> {
     BEGINNINGS.iter().find_map(|[once, now]| Some(format!("{once}{}", name.strip_prefix(now)?)))
 }
 
-/// The present name of the variable that `name` names or once named; other names as they are.
+/// Present name of the variable with the present or former name `name`. Other names are returned unchanged.
 pub fn present(name: &str) -> &str {
     let renamed = BEGINNINGS.iter().find_map(|[once, now]| {
         let rest = name.strip_prefix(once)?;
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn former_names_lead_to_their_variables_and_others_stay() {
+    fn former_names_find_their_variables_and_other_names_are_unchanged() {
         let wanted = [
             ("planet.spin_command", "spin.command"),
             ("planet.spin_torque", "spin.torque"),

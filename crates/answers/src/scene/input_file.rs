@@ -1,5 +1,5 @@
-//! Inputs over time from a CSV file: a column of times and a column for each input, with their units in the header.
-//! `text::csv_input` says how the file may be written.
+//! Inputs over time from a CSV file: a column of times and a column for each input, with units in the header.
+//! `text::csv_input` describes the accepted formats.
 //!
 //! ```csv
 //! # anything after a hash is a comment
@@ -23,21 +23,21 @@ use crate::text::csv_input::{self, CsvInput};
 /// Name of the column of times.
 const TIME: &str = "time";
 
-/// A column of an input.
+/// Column of an input.
 struct Column {
-    /// Its place in the file, and its header as written.
+    /// Index of the column, and its header as written.
     place: usize,
     header_cell: String,
     row: &'static Variable,
     unit: String,
     values: Vec<f64>,
-    /// What is wrong with values: the first, and how many.
+    /// First problem of the values, and the number of problems.
     wrong: Option<String>,
     wrong_count: usize,
 }
 
-/// Inputs in `file`, all repeated after `period` [s] if there is one, and messages about former names in the file. Fails with all
-/// problems of the file.
+/// Returns the inputs in `file`, all repeated after `period` [s] if there is one, and messages about former names.
+/// Fails with all problems of the file.
 pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let shown = text::shown(file);
     let found = match csv_input::read(file, &[]) {
@@ -48,7 +48,7 @@ pub fn read(file: &Path, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<St
     found.map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
 }
 
-/// Inputs in a file, and messages about former names. Problems begin with their place in the file.
+/// Returns the inputs in a file, and messages about former names. Problems begin with their position in the file.
 fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let header = found.header;
     let (time_place, time_unit, mut columns) = columns(&header)?;
@@ -60,7 +60,7 @@ fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<
             Err(problem) => {
                 let (header_cell, cell) = (&header[time_place], &record[time_place]);
                 problems.push(format!(", line {line}, column {header_cell}, value \"{cell}\": {problem}"));
-                // later times cannot be compared with this one
+                // later times cannot be compared with this invalid one
                 break;
             }
         }
@@ -78,7 +78,7 @@ fn tables(found: CsvInput, period: Option<f64>) -> Result<(Vec<InputTable>, Vec<
     Ok((columns.into_iter().map(of).collect(), notes))
 }
 
-/// Place and unit of the column of times, and the columns of inputs.
+/// Index and unit of the column of times, and the columns of inputs.
 fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<String>> {
     let mut columns: Vec<Column> = Vec::new();
     let mut time = None;
@@ -92,8 +92,7 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
         }
         match input(name, unit) {
             Ok(row) if columns.iter().any(|column| column.row.name == row.name) => {
-                problems
-                    .push(format!(", column {header_cell}: the input stands here twice; remove one of the columns"));
+                problems.push(format!(", column {header_cell}: the input is here twice; remove one of the columns"));
             }
             Ok(row) => columns.push(Column {
                 place,
@@ -127,14 +126,14 @@ fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<St
 }
 
 fn wrong_time_unit(header_cell: &str, unit: &str) -> String {
-    format!(", column {header_cell}: {unit} is no unit of time; write one of {}", units::times().join(", "))
+    format!(", column {header_cell}: {unit} is not a unit of time; write one of {}", units::times().join(", "))
 }
 
-/// The input `name`, if it may be given in `unit`.
+/// Finds the input `name` if it may be given in `unit`.
 fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
     let row = variable(name)?;
     if !matches!(row.access, Access::Input(_)) {
-        return Err(format!("{name} is not an input; parameters stand in [set]"));
+        return Err(format!("{name} is not an input; parameters belong in [set]"));
     }
     if !unit.is_empty() {
         units::check(row, unit)?;
@@ -142,7 +141,7 @@ fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
     Ok(row)
 }
 
-/// Name and unit of `name [unit]`; the unit is empty if there is none.
+/// Splits `name [unit]`. The unit is empty if it is missing.
 fn split_header_cell(header_cell: &str) -> (&str, &str) {
     let parts = header_cell.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
     parts.map_or((header_cell, ""), |(name, unit)| (name.trim(), unit.trim()))
@@ -167,7 +166,7 @@ fn not_a_number() -> String {
 }
 
 impl Column {
-    /// Takes the value in a cell.
+    /// Adds the value in a cell.
     fn take(&mut self, line: u64, cell: &str) {
         match self.value(cell) {
             Ok(value) => self.values.push(value),
@@ -179,7 +178,7 @@ impl Column {
         }
     }
 
-    /// The value of a cell in the variable's own unit.
+    /// Parses a cell into the variable's own unit.
     fn value(&self, cell: &str) -> Result<f64, String> {
         let number: f64 = cell.parse().map_err(|_| not_a_number())?;
         let value =

@@ -1,12 +1,12 @@
-//! Reads a scene from its TOML file. All errors are reported at once, each with key, value, unit and range.
+//! Reads a scene from its TOML file. All errors are reported together, each with key, value, unit and range.
 //!
 //! ```toml
 //! description = "what it shows"
 //! stop_time = 0.5                        # in s, or with a unit: "500 ms"
 //! step = 1e-3                            # communication step
 //! outputs = ["left.speed"]
-//! input_slopes = false                   # hold the values of tables within a step; otherwise tables continue straight
-//! display_units = ["rpm", "kN"]          # units to show values in, in place of the usual ones
+//! input_slopes = false                   # hold the values of tables within a step; otherwise interpolate linearly
+//! display_units = ["rpm", "kN"]          # units for displayed values, instead of the usual ones
 //!
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
@@ -99,7 +99,7 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
     given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?)
 }
 
-/// Makes the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
+/// Creates the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
 pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let mut problems = Problems::default();
     let (stop_time, step) = times(entry, &mut problems);
@@ -167,7 +167,7 @@ fn notes(entry: &File) -> Vec<String> {
     former_names::notes(set.chain(others.map(String::as_str)))
 }
 
-/// Stop time and communication step [s]; NaN for one that is not valid.
+/// Stop time and communication step [s]; NaN for an invalid one.
 fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     let mut checked = |length: Result<f64, String>| length.map_err(|problem| problems.push(problem));
     let stop_time = checked(duration("stop_time", &entry.stop_time));
@@ -178,7 +178,7 @@ fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
 }
 
-/// True if tables continue straight within steps, as they do unless the file holds their values.
+/// True if tables are interpolated within steps. This is the default.
 fn input_slopes(entry: &File, problems: &mut Problems) -> bool {
     match &entry.input_slopes {
         None => true,
@@ -235,7 +235,7 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
     Some(Event { time, settings })
 }
 
-/// Reports changes of inputs that also follow a table: the table would override them.
+/// Reports changes of inputs that also follow a table, because the table would override them.
 fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Problems) {
     for event in events {
         for name in event.settings.iter().map(|setting| setting.row.name) {
@@ -282,8 +282,8 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     (complete && rising).then_some(InputTable { row, table: schedule::Table::straight(times, values, period) })
 }
 
-/// Adds the tables of a CSV file. The path of that file is relative to the folder of the scene file `scene`. Returns messages about
-/// former names in the file.
+/// Adds the tables of a CSV file, whose path is relative to the folder of the scene file `scene`. Returns messages
+/// about former names in the file.
 fn add_input_file(
     entry: &InputFileEntry,
     scene: &Path,

@@ -1,4 +1,4 @@
-//! Mesh forces over time for FEA: one line per loaded tooth pair, or slice of one, in the frames of both gears.
+//! Mesh forces over time for FEA in the frames of both gears: one line per loaded tooth pair or slice.
 
 use std::f64::consts::PI;
 use std::io::Write;
@@ -14,27 +14,27 @@ use super::run::SceneRun;
 use crate::problem::question_error;
 use crate::progress::Progress;
 
-/// Times that differ by less than this part of an interval are the same.
+/// Times that differ by less than this fraction of an interval are equal.
 const SAME: f64 = 1e-6;
 
-/// Columns: of the load, then of its place and direction on each gear.
+/// Columns of the load. Columns of its position and direction on each gear follow.
 const LOAD: &str = "time,planet,side,flank,spot,planet_tooth,side_tooth,share,s,cone,normal,friction";
 const LOAD_UNITS: &str = "s,-,-,-,-,-,-,1,rad,m,N,N";
 const VECTORS: [&str; 9] = ["x", "y", "z", "nx", "ny", "nz", "Fx", "Fy", "Fz"];
 const VECTOR_UNITS: &str = "m,m,m,1,1,1,N,N,N";
 
-/// Force of a pair on one gear, in the gear's own frame.
+/// Force of a tooth pair on one gear, in the gear's own frame.
 #[derive(Clone, Copy, Debug)]
 pub struct OnGear {
     /// Point [m].
     pub point: [f64; 3],
     /// Unit normal, into the gear's material.
     pub normal: [f64; 3],
-    /// Normal force and friction together [N].
+    /// Sum of normal force and friction [N].
     pub force: [f64; 3],
 }
 
-/// Force of `load` on the planet and on the side gear.
+/// Forces of `load` on the planet and on the side gear.
 pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear; 2] {
     let (contact, turn) = (load.contact(action), load.turn());
     [0, 1].map(|i| {
@@ -47,8 +47,8 @@ pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear
     })
 }
 
-/// Writes the history of `scene` to `out`, a record every `every` seconds (by default its communication step);
-/// returns the number of lines.
+/// Writes the history of `scene` to `out`, with a record every `every` seconds (by default the communication step).
+/// Returns the number of lines.
 pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<u64> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
         return Err(question_error(format!(
@@ -57,7 +57,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         )));
     }
     let every = every.unwrap_or(scene.step);
-    // a scene without any duration has a record of its start
+    // a scene of zero duration has one record, at its start
     if !(every > 0.0 && (every <= scene.stop_time || scene.stop_time == 0.0)) {
         return Err(question_error(format!(
             "--every {every} s: must be above 0 and at most the scene's {} s",
@@ -118,10 +118,7 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
     let (plan, pair) = (run.simulation.plan(), run.simulation.pair());
     writeln!(out, "# mesh forces of scene {}: {}", scene.name, scene.description)?;
     writeln!(out, "# {}", run.simulation.describe())?;
-    writeln!(
-        out,
-        "# one line per loaded tooth pair (per slice of it where loads differ over the face) every {every} s"
-    )?;
+    writeln!(out, "# one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s")?;
     for group in plan.groups() {
         let planets: Vec<String> = (0..plan.planets)
             .filter(|&i| plan.groups()[plan.group_of[i]] == *group)
@@ -130,7 +127,7 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
         if planets.len() > 1 {
             writeln!(
                 out,
-                "# planet {} stands for planets {}, whose loads are alike",
+                "# planet {} stands for planets {}, whose loads are equal",
                 group.planet + 1,
                 planets.join(", ")
             )?;
@@ -139,17 +136,17 @@ fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std
     let degrees = |i: usize| pair.gears[i].tooth_pitch() * 180.0 / PI;
     let text = format!(
         "\
-# share: part of the face that the line stands for; s: place on the path of contact, an arc from the pitch point toward
+# share: fraction of the face that the line covers; s: position on the path of contact, an arc from the pitch point toward
 #   the planet's tip; cone: distance of the point from the apex; spot: on the path, or a tip corner on the mate's flank
 # normal: normal force; friction: along the flank, positive toward the planet's root on the planet
 # frames: right-handed, apex at the origin, z along the gear's own axis from apex to heel, x along the middle of its tooth 0;
 #   they turn with the gears
-# planet tooth k stands at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
+# planet tooth k is at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
 #   (planet teeth count with positive spin, side gear teeth with forward rotation)
-# x, y, z: point on the undeformed flank (a tip corner where it is one); nx, ny, nz: unit normal into the gear's material;
+# x, y, z: point on the undeformed flank (or a tip corner); nx, ny, nz: unit normal into the gear's material;
 #   Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
-# sums of r x F about z are the tooth torques; with contact.law line and line_weber stiffness that varies along the path adds
-#   a torque on the planet that no force at the flank carries, and friction of tip corners has the arms of the prolonged path
+# sums of r x F about z are the tooth torques; with contact.law line and line_weber, stiffness that varies along the path adds
+#   a torque on the planet without a force on the flank, and friction of tip corners has the lever arms of the extended path
 ",
         degrees(0),
         degrees(1)

@@ -1,4 +1,4 @@
-//! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
+//! Scenes: settings, inputs over time and recorded outputs. They are TOML files and run with the library itself.
 
 pub mod acting;
 pub mod assignments;
@@ -32,11 +32,11 @@ use set::Setting;
 /// A scene, ready to start.
 #[derive(Clone)]
 pub struct Scene {
-    /// Name: that of its file without the ending.
+    /// Name: file name without extension.
     pub name: String,
-    /// Its file.
+    /// File of the scene.
     pub file: PathBuf,
-    /// What it shows.
+    /// Description.
     pub description: String,
     /// Simulated time [s].
     pub stop_time: f64,
@@ -46,19 +46,19 @@ pub struct Scene {
     pub parameters: Parameters,
     /// Inputs at the start.
     pub inputs: Inputs,
-    /// What the file sets at the start.
+    /// Values that the file sets at the start.
     pub settings: Vec<Setting>,
-    /// What it sets later, by time.
+    /// Later changes, by time.
     pub events: Vec<Event>,
-    /// Inputs that follow a table.
+    /// Inputs that follow tables.
     pub input_tables: Vec<InputTable>,
-    /// True if tables continue straight within communication steps; otherwise their values are held.
+    /// True if tables are interpolated within communication steps; otherwise their values are held.
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
     /// Messages about former names in the scene.
     pub notes: Vec<String>,
-    /// Units to show values in, in place of the usual ones.
+    /// Units for displayed values, instead of the usual ones.
     pub display_units: DisplayUnits,
 }
 
@@ -67,20 +67,20 @@ pub struct Scene {
 pub struct InputTable {
     /// The input.
     pub row: &'static Variable,
-    /// Its values over time, in the unit of the interface.
+    /// Values over time, in the unit of the interface.
     pub table: Table,
 }
 
 /// Values set at a time.
 #[derive(Clone)]
 pub struct Event {
-    /// When [s].
+    /// Time [s].
     pub time: f64,
-    /// What.
+    /// Values.
     pub settings: Vec<Setting>,
 }
 
-/// The scene in the file `what`, or the one of that name in `folder`.
+/// Finds the scene in the file `what`, or the one with that name in `folder`.
 pub fn find(what: &str, folder: &Path) -> Result<Scene> {
     let file = Path::new(what);
     if file.is_file() {
@@ -101,7 +101,7 @@ pub fn find(what: &str, folder: &Path) -> Result<Scene> {
     Err(Problems::from(Problem { hint, ..Problem::of("scene", what, message) }).into())
 }
 
-/// Files of all scenes in `folder`, by name.
+/// Files of all scenes in `folder`, sorted by name.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let unreadable = || format!("{} cannot be read", shown(folder));
     let mut files = Vec::new();
@@ -115,7 +115,7 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// All scenes in `folder`, by name.
+/// All scenes in `folder`, sorted by name.
 pub fn all(folder: &Path) -> Result<Vec<Scene>> {
     files(folder)?.iter().map(|file| load::load(file)).collect()
 }

@@ -1,4 +1,4 @@
-//! The plan of a scene: what it will simulate, from its parameters before the first step.
+//! Plan of a scene: a description of what it will simulate, from its parameters before the first step.
 
 use std::fmt::Write as _;
 
@@ -12,26 +12,26 @@ use super::warnings::set_values;
 use super::{InputTable, Scene, units};
 use crate::text::{numbers, shown};
 
-/// What each class of cost means.
+/// Description of a cost class.
 fn meaning(cost: CostClass) -> &'static str {
     match cost {
-        CostClass::ClosedForm => "closed form: no teeth, a step is a formula, whatever its length",
+        CostClass::ClosedForm => "closed form: no teeth, a step of any length is a formula",
         CostClass::Ideal => "effects without teeth: integrated, with no motion faster than the effects' own",
-        CostClass::Teeth => "plain teeth: stiff, integrated step by step; nothing is evaluated but the tooth pairs",
+        CostClass::Teeth => "plain teeth: stiff, integrated step by step; only the tooth pairs are evaluated",
         CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
         CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",
     }
 }
 
-/// Time for a piece of the scene from which its cost is expected [s].
+/// Processor time of the first piece of the scene, from which its cost is extrapolated [s].
 const PIECE: f64 = 0.05;
 
-/// What the scene is expected to cost on this machine, from its first piece; none if that fails.
+/// Expected cost of the scene on this machine, extrapolated from its first piece; none if that fails.
 fn cost(scene: &Scene) -> Option<String> {
     let begun = ThreadTime::now();
     let mut run = SceneRun::start(scene, scene.step).ok()?;
     let started = begun.elapsed();
-    // a scene without any duration shows no cost
+    // a scene of zero duration has no cost
     if run.is_over() {
         return None;
     }
@@ -42,12 +42,12 @@ fn cost(scene: &Scene) -> Option<String> {
     let ratio = numbers::significant(simulated / taken, 2);
     let all = numbers::significant(scene.stop_time * taken / simulated, 2);
     Some(format!(
-        "{ratio} x real time on this machine, {all} s for all, as the first {} s take",
+        "{ratio} x real time on this machine, {all} s for the whole scene, extrapolated from the first {} s",
         units::six_digits(simulated)
     ))
 }
 
-/// The plan of `scene`, whose simulation is about to start.
+/// Plan of `scene`, whose simulation is about to start.
 pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     let plan = simulation.plan();
     let mut out = format!("{}: {}\n", scene.name, scene.description);
@@ -116,13 +116,13 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     out
 }
 
-/// Literal and meaning of an enumeration in `scene`.
+/// Value of an enumeration in `scene`, with its meaning.
 fn choice(scene: &Scene, name: &str) -> String {
     let known = named(name).and_then(|row| literal(row, value_of(row, &scene.parameters, &scene.inputs)? as i32));
     known.map_or(String::new(), |(literal, meaning)| format!("{literal}: {meaning}"))
 }
 
-/// How each shaft is driven, with the values at the start.
+/// Drive of each shaft, with the values at the start.
 fn drives(scene: &Scene) -> Vec<String> {
     let value = |name: &str| {
         let value = named(name).and_then(|row| Some((row, value_of(row, &scene.parameters, &scene.inputs)?)));
@@ -145,10 +145,10 @@ fn drives(scene: &Scene) -> Vec<String> {
     drives
 }
 
-/// The effect of a switch.
+/// Description of the effect of a switch.
 fn description(name: &str) -> String {
     let text = named(name).filter(|row| row.causality == Causality::Parameter).map_or("", |row| row.description);
-    // the text after the semicolon says what happens without it
+    // the text after the semicolon describes the model without the effect
     let on = text.split(';').next().unwrap_or(text);
     let start = named(name).and_then(|row| value_of(row, &Parameters::default(), &Inputs::ZERO));
     if start == Some(1.0) { format!("{on} (on unless switched off)") } else { on.to_owned() }

@@ -17,7 +17,7 @@ use crate::problem::Problems;
 use crate::progress::Progress;
 use crate::text::table::Table;
 
-/// A scene that runs: it executes the schedule of its communication steps.
+/// Running scene: it executes the schedule of its communication steps.
 pub struct SceneRun<'a> {
     scene: &'a Scene,
     parameters: Parameters,
@@ -38,7 +38,7 @@ impl<'a> SceneRun<'a> {
             .with_context(|| refused(scene))
     }
 
-    /// The same; contradictions are returned by variable.
+    /// Starts `scene` as [`Self::start`] does. Contradictions are returned by variable.
     pub fn attempt(scene: &'a Scene, step: f64) -> Result<Self, Vec<Problem>> {
         let out_of_range = check_ranges(&scene.parameters);
         if !out_of_range.is_empty() {
@@ -57,12 +57,12 @@ impl<'a> SceneRun<'a> {
         self.simulation.time()
     }
 
-    /// Whether the scene is over.
+    /// True if the scene is finished.
     pub fn is_over(&self) -> bool {
         self.schedule.is_over()
     }
 
-    /// One step to the next communication point, or to the next change of inputs before it.
+    /// Advances to the next communication point, or to an earlier change of inputs.
     pub fn advance(&mut self) -> Result<()> {
         let Some(step) = self.schedule.next() else { return Ok(()) };
         let ramp = self.feed(&step);
@@ -75,18 +75,19 @@ impl<'a> SceneRun<'a> {
         Ok(())
     }
 
-    /// Warnings about the scene, and about its run up to now.
+    /// Warnings about the scene and its run so far.
     pub fn warnings(&self) -> Vec<String> {
         let found = self.found.iter().map(Problem::to_string);
         at_start(self.scene, &self.simulation).into_iter().chain(found).collect()
     }
 
-    /// Warnings about the run up to now.
+    /// Warnings about the run so far.
     pub fn warnings_since_start(&self) -> &[Problem] {
         &self.found
     }
 
-    /// Sets what is due before `step`, and what tables do over it. Returns the inputs if those that jump ramp over the step.
+    /// Sets values that are due before `step`, and inputs that follow tables. Returns the inputs if jumping ones ramp
+    /// over the step.
     fn feed(&mut self, step: &Step) -> Option<HostInputs> {
         let mut tuned = false;
         for setting in self.scene.events[step.changes.clone()].iter().flat_map(|event| &event.settings) {
@@ -94,7 +95,7 @@ impl<'a> SceneRun<'a> {
             tuned |= !matches!(setting.row.access, Access::Input(_));
         }
         let (mut derivatives, mut follow) = (InputDerivatives::ZERO, Inputs::ZERO);
-        // the last one wins where two tables name one input
+        // if two tables name one input, the last one applies
         for InputTable { row, table } in &self.scene.input_tables {
             if let Access::Input(access) = row.access {
                 [*access(&mut self.inputs), *access(&mut derivatives.rates[0])] = step.follow(table);
@@ -132,37 +133,38 @@ fn refused(scene: &Scene) -> String {
     format!("scene {}", scene.name)
 }
 
-/// What an output did over time.
+/// Statistics of an output over time.
 #[derive(Clone, Copy)]
 pub struct Summary {
     /// The output.
     pub row: &'static Variable,
     /// Smallest value at a communication point.
     pub min: f64,
-    /// Largest.
+    /// Largest value at a communication point.
     pub max: f64,
-    /// Mean over time, straight between communication points.
+    /// Mean over time, interpolated linearly between communication points.
     pub mean: f64,
-    /// Value at the end.
+    /// Final value.
     pub end: f64,
 }
 
 /// Result of a run.
 #[derive(Clone)]
 pub struct SceneResult {
-    /// One for each output of the scene.
+    /// Summary of each output of the scene.
     pub outputs: Vec<Summary>,
-    /// Steps and evaluations of the solver, in words.
+    /// Text about steps and evaluations of the solver.
     pub account: String,
-    /// Energy balance at the end [J].
+    /// Residual of the energy balance at the end [J].
     pub residual: f64,
-    /// Energy that went through: of what drives and wheels exchanged, or of what the ledger saw, whichever is more [J].
+    /// Energy throughput: the energy exchanged with drives and wheels, or the energy in the ledger, whichever is larger
+    /// [J].
     pub throughput: f64,
-    /// Time it took.
+    /// Computing time.
     pub took: Duration,
 }
 
-/// Runs `scene` to its end; each communication point goes to `csv` too.
+/// Runs `scene` to its end and writes each communication point to `csv`, if given.
 pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) -> Result<SceneResult> {
     let begun = Instant::now();
     progress.begin_task(0.0, "simulating");
@@ -212,20 +214,20 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
     })
 }
 
-/// Power that drives and wheels exchange with the differential, whichever way [W].
+/// Total of the powers that drives and wheels exchange with the differential, regardless of direction [W].
 fn exchange(run: &mut SceneRun) -> f64 {
     let forces = run.simulation.forces();
     forces.power_in.abs() + forces.power_out.abs()
 }
 
-/// The record of a scene: comments, then a row for each communication point.
+/// Starts the record of a scene: comments and header, before a row for each communication point.
 fn record<'a>(scene: &Scene, outputs: &[Variable], out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
     writeln!(out, "# scene {}: {}", scene.name, scene.description)?;
     let units: Vec<&str> =
         outputs.iter().map(|row| Some(units::name(row)).filter(|name| !name.is_empty()).unwrap_or("1")).collect();
     writeln!(out, "# units: s,{}", units.join(","))?;
     let mut rows = csv::Writer::from_writer(out);
-    // columns of SI keep their plain names
+    // SI columns keep their plain names
     let headers = |row: &Variable| if scene.display_units.is_empty() { row.name.into() } else { units::header(row) };
     let time = if scene.display_units.is_empty() { "time" } else { "time [s]" };
     rows.write_record(std::iter::once(time.to_owned()).chain(outputs.iter().map(headers)))?;
@@ -240,12 +242,12 @@ fn line(rows: &mut Option<csv::Writer<&mut dyn Write>>, time: f64, outputs: &[Va
 }
 
 impl SceneResult {
-    /// Energy residual over the energy that went through.
+    /// Energy residual divided by the throughput.
     pub fn relative_residual(&self) -> f64 {
         if self.throughput > 0.0 { self.residual.abs() / self.throughput } else { self.residual.abs() }
     }
 
-    /// For the terminal, in `display_units`.
+    /// Text for the terminal, in `display_units`.
     pub fn text(&self, display_units: &DisplayUnits) -> String {
         let mut table = Table::new(["output", "unit", "min", "mean", "max", "end"]).left([0, 1]);
         for o in &self.outputs {

@@ -1,4 +1,4 @@
-//! A scene as a Python script that runs the FMU by the package `bevel_differential`.
+//! Python script of a scene that runs the FMU with the package `bevel_differential`.
 
 use std::fmt::Write as _;
 
@@ -8,12 +8,12 @@ use super::set::changed_values;
 use super::set::{Setting, SettingValue};
 use super::{InputTable, Scene, units};
 
-/// Widest line of numbers.
+/// Maximum width of a line of numbers.
 const WIDTH: usize = 100;
 
-/// The file's text.
+/// Text of the file.
 pub fn text(scene: &Scene) -> Result<String> {
-    // quotes and backslashes would end the docstring or change in it
+    // quotes and backslashes would end or change the docstring
     let plain = |text: &str| text.replace('\\', "/").replace('"', "'");
     Ok(format!(
         "\"\"\"{}: {}\n\n\
@@ -32,7 +32,7 @@ pub fn text(scene: &Scene) -> Result<String> {
     ))
 }
 
-/// What the scene says, as arguments of `Scene`.
+/// Values of the scene, as arguments of `Scene`.
 fn arguments(scene: &Scene) -> Result<String> {
     let mut out = String::new();
     writeln!(out, "    {},", quoted(&scene.name)?)?;
@@ -77,7 +77,7 @@ fn arguments(scene: &Scene) -> Result<String> {
     Ok(out)
 }
 
-/// A string of Python: those of JSON are.
+/// Formats a string for Python, whose syntax includes that of JSON.
 fn quoted(text: &str) -> Result<String> {
     serde_json::to_string(text).context("a text of the script")
 }
@@ -91,7 +91,7 @@ fn values(indent: &str, settings: &[Setting]) -> Result<String> {
     Ok(out)
 }
 
-/// A value in Python: numbers read back to the same bits, enumerations are literals.
+/// Formats a value for Python: numbers keep all bits, enumerations are literals.
 fn value(setting: &Setting) -> Result<String> {
     Ok(match setting.value {
         SettingValue::Real(value) => format!("{value:?}"),
@@ -102,7 +102,7 @@ fn value(setting: &Setting) -> Result<String> {
     })
 }
 
-/// What the number does not say: the value with its unit.
+/// Comment with the value and its unit.
 fn comment(setting: &Setting) -> String {
     match setting.value {
         SettingValue::Real(_) if !units::name(setting.row).is_empty() => format!("  # {}", setting.text()),

@@ -1,4 +1,4 @@
-//! A value for a variable: taken from a file, checked, and put where the table's access leads.
+//! Value of a variable from a file: it is checked and assigned with the table's accessor.
 
 use bevel_differential::model::{Inputs, Parameters, removed_method};
 use bevel_differential::variables::{Access, Variability, Variable, accepted, assign, check_value, table, value_of};
@@ -18,7 +18,7 @@ pub struct Setting {
     pub value: SettingValue,
 }
 
-/// A value of the type that its variable has.
+/// Value of a variable, in the variable's type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SettingValue {
     /// A number in the unit of the interface.
@@ -27,12 +27,12 @@ pub enum SettingValue {
     Integer(i32),
     /// True or false.
     Boolean(bool),
-    /// Literal of an enumeration, by its number.
+    /// Literal of an enumeration, by its value.
     Literal(i32),
 }
 
 impl Setting {
-    /// `name` set to `value`, or what is wrong with it.
+    /// Checks `value` for the variable `name`. Fails with the problem of the value.
     pub fn new(name: &str, value: &Value) -> Result<Self, Problem> {
         let row = variable(name).map_err(|message| Problem { variable: Some(name.into()), ..message.into() })?;
         let problem = |what: String| {
@@ -43,7 +43,7 @@ impl Setting {
         Ok(Self { row, value: known(row, value).map_err(problem)? })
     }
 
-    /// A parameter, or an input at the start, with the value that it has there; outputs have none.
+    /// Value of a parameter, or of an input at the start. Outputs have none.
     pub fn of(row: &'static Variable, parameters: &Parameters, inputs: &Inputs) -> Option<Self> {
         let number = value_of(row, parameters, inputs)?;
         let value = match row.access {
@@ -56,24 +56,24 @@ impl Setting {
         Some(Self { row, value })
     }
 
-    /// Whether it may be set while a simulation runs.
+    /// True if the variable may be set while a simulation runs.
     pub fn may_come_later(&self) -> bool {
         self.row.variability != Variability::Fixed
     }
 
-    /// Puts the value in its place.
+    /// Assigns the value.
     pub fn apply(&self, parameters: &mut Parameters, inputs: &mut Inputs) {
         let number = match self.value {
             SettingValue::Real(value) => value,
             SettingValue::Integer(value) | SettingValue::Literal(value) => f64::from(value),
             SettingValue::Boolean(value) => f64::from(u8::from(value)),
         };
-        // `known` has found that it fits
+        // `known` has checked that the value fits
         let fits = assign(self.row, number, parameters, inputs);
         debug_assert_eq!(fits, Ok(()));
     }
 
-    /// The value for programs: a number of the interface, or the name of a literal.
+    /// Value for programs: a number in the unit of the interface, or the name of a literal.
     pub fn json(&self) -> serde_json::Value {
         match self.value {
             SettingValue::Real(number) => number.into(),
@@ -83,12 +83,12 @@ impl Setting {
         }
     }
 
-    /// The value as a reader wants it.
+    /// Value for readers, in the usual display unit.
     pub fn text(&self) -> String {
         self.text_in(&DisplayUnits::default())
     }
 
-    /// The value as a reader of `display_units` wants it.
+    /// Value for readers, in `display_units`.
     pub fn text_in(&self, display_units: &DisplayUnits) -> String {
         match self.value {
             SettingValue::Real(value) => units::text(&display_units.row(self.row), value),
@@ -99,7 +99,7 @@ impl Setting {
     }
 }
 
-/// Row of the variable `name`, which may be a former name, or what it might have been.
+/// Returns the row of variable `name`, which may be a former name. The error suggests similar names.
 pub fn variable(name: &str) -> Result<&'static Variable, String> {
     let name = former_names::present(name);
     let rows = &table().rows;
@@ -107,7 +107,7 @@ pub fn variable(name: &str) -> Result<&'static Variable, String> {
     found.ok_or_else(|| format!("there is no variable \"{name}\"{}", hint(name, rows.iter())))
 }
 
-/// Row of the output `name`, which may be a former name, or what it might have been.
+/// Returns the row of output `name`, which may be a former name. The error suggests similar names.
 pub fn output(name: &str) -> Result<&'static Variable, String> {
     let name = former_names::present(name);
     let is_output = |row: &&Variable| matches!(row.access, Access::Output(_));
@@ -119,13 +119,13 @@ pub fn output(name: &str) -> Result<&'static Variable, String> {
     }
 }
 
-/// Names that a wrong name may mean, or advice on how to find one.
+/// Suggests similar names, or advises how to find one.
 fn hint<'a>(name: &str, rows: impl Iterator<Item = &'a Variable>) -> String {
     let near = near::hint(name, rows.map(|row| row.name));
     if near.is_empty() { format!("; {}", how_to_find(name)) } else { near }
 }
 
-/// Advice on how to find the variable that a wrong name means, by those of its words that a variable has.
+/// Advises how to find a variable, using those words of the wrong name that occur in variables.
 pub fn how_to_find(name: &str) -> String {
     let has = |row: &Variable, word: &str| row.name.contains(word) || row.description.to_lowercase().contains(word);
     let mut kept: Vec<String> = Vec::new();
@@ -142,7 +142,7 @@ pub fn how_to_find(name: &str) -> String {
     format!("`bevel-differential variables{words}` lists {which}")
 }
 
-/// Name and meaning of literal `value` of an enumeration.
+/// Name and meaning of the enumeration literal `value`.
 pub fn literal(row: &Variable, value: i32) -> Option<(&'static str, &'static str)> {
     let Access::Enumeration(kind, ..) = row.access else { return None };
     kind.choices.iter().find(|choice| choice.value == value).map(|choice| (choice.name, choice.description))
@@ -153,7 +153,7 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
         (Access::Output(_), _) => Err("is an output, which cannot be set; name it under outputs".into()),
         (Access::Real(_) | Access::Input(_), value) => real(row, value).map(SettingValue::Real),
         (Access::Integer(_), Value::Integer(number)) => {
-            let small = i32::try_from(*number).map_err(|_| "is no number that fits".to_owned())?;
+            let small = i32::try_from(*number).map_err(|_| "is not a whole number of 32 bits".to_owned())?;
             check_value(row, f64::from(small)).map_err(|problem| problem.message)?;
             Ok(SettingValue::Integer(small))
         }
@@ -172,14 +172,14 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
             let Value::String(name) = value else { return Err(format!("must be one of {allowed}{removed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
                 Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None if removed.is_empty() => Err(format!("is none of {allowed}{}", near::hint(name, names()))),
-                None => Err(format!("is none of {allowed}{removed}")),
+                None if removed.is_empty() => Err(format!("is not one of {allowed}{}", near::hint(name, names()))),
+                None => Err(format!("is not one of {allowed}{removed}")),
             }
         }
     }
 }
 
-/// A real value within its range.
+/// Checks that a real value is within its range.
 pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
     let number = match value {
         Value::Float(number) => *number,
@@ -188,7 +188,7 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
         _ => return Err("must be a number, or a text like \"4.5 mm\"".into()),
     };
     accepted(row, number, 0.0).map_err(|problem| {
-        // a text has named its unit, so that no other was meant
+        // a text with a unit needs no suggestion of another unit
         let message = match value {
             Value::String(_) => problem.message.split("; did you mean").next().unwrap_or_default().to_owned(),
             _ => problem.message,
@@ -202,7 +202,7 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
     })
 }
 
-/// The value that `text` on a command line stands for, as a file would have it.
+/// Parses `text` from a command line into the value that a file would contain.
 pub fn value(text: &str) -> Value {
     match (text.parse(), text.parse(), text.parse()) {
         (Ok(whole), _, _) => Value::Integer(whole),
@@ -212,7 +212,7 @@ pub fn value(text: &str) -> Value {
     }
 }
 
-/// A value as a file has it.
+/// Formats a value as in a file.
 pub fn written(value: &Value) -> String {
     match value {
         Value::String(text) => format!("\"{text}\""),
@@ -225,7 +225,7 @@ pub fn written(value: &Value) -> String {
     }
 }
 
-/// Start values of `scene` in the order of the FMU's variables: parameters that it names or that differ from the FMU's own,
+/// Start values of `scene` in the order of the FMU's variables: parameters that the scene sets explicitly or changes,
 /// then all inputs.
 pub fn start_values(scene: &Scene) -> Vec<Setting> {
     let all = table().rows.iter();
@@ -234,12 +234,12 @@ pub fn start_values(scene: &Scene) -> Vec<Setting> {
         .collect()
 }
 
-/// Those of them that the scene names or that differ from the FMU's own.
+/// Start values of parameters and inputs that `scene` sets explicitly or changes.
 pub fn changed_values(scene: &Scene) -> Vec<Setting> {
     start_values(scene).into_iter().filter(|setting| is_of_scene(scene, setting.row)).collect()
 }
 
-/// Whether `scene` names a variable or has another value than the FMU.
+/// True if `scene` sets a variable explicitly or changes its value.
 fn is_of_scene(scene: &Scene, row: &'static Variable) -> bool {
     let named = scene.settings.iter().any(|setting| setting.row.name == row.name);
     let value = |p: &Parameters, i: &Inputs| value_of(row, p, i);
@@ -251,7 +251,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_variable_that_can_be_set_takes_its_own_start_value() {
+    fn every_settable_variable_accepts_its_own_start_value() {
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
         for row in &table().rows {
             let value = match row.access {

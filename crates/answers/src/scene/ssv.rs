@@ -14,7 +14,7 @@ const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 /// Version of the standard.
 const VERSION: &str = "1.0";
 
-/// The file's text.
+/// Text of the file.
 pub fn text(scene: &Scene) -> Result<String> {
     let values = start_values(scene);
     let root = Element::new("ssv:ParameterSet")
@@ -33,7 +33,7 @@ pub fn text(scene: &Scene) -> Result<String> {
 fn parameter(setting: &Setting) -> Element {
     let (row, unit) = (setting.row, declared_unit(setting));
     let value = match setting.value {
-        // the shortest digits that read back to the same bits
+        // shortest digits that keep all bits
         SettingValue::Real(value) => Element::new("ssv:Real")
             .with("value", format!("{value:?}"))
             .with_some("unit", unit.map(|(unit, _)| unit.name)),
@@ -50,7 +50,7 @@ fn parameter(setting: &Setting) -> Element {
     Element::new("ssv:Parameter").with("name", row.name).with("description", description).child(value)
 }
 
-/// The unit of a value, which SSP wants defined by whole exponents; none for the few that have others.
+/// Unit of a value if SSP can define it: SSP needs whole exponents, which a few units lack.
 fn declared_unit(setting: &Setting) -> Option<(Unit, Base)> {
     let unit = setting.row.unit?;
     Some((unit, unit.base?))
@@ -96,7 +96,7 @@ fn enumeration(kind: &EnumType) -> Element {
     Element::new("ssc:Enumeration").with("name", kind.name).children(items)
 }
 
-/// A list, which the schema does not allow to be empty.
+/// Creates a list, or none if it would be empty, which the schema forbids.
 fn list(name: &'static str, items: impl Iterator<Item = Element>) -> Option<Element> {
     let mut items = items.peekable();
     items.peek().is_some().then(|| Element::new(name).children(items))

@@ -5,7 +5,7 @@ use toml::Value;
 use super::set::written;
 use super::units;
 
-/// Seconds of `value`.
+/// Parses a time in seconds.
 pub fn seconds(value: &Value) -> Result<f64, String> {
     match value {
         Value::Float(number) => Ok(*number),
@@ -15,12 +15,12 @@ pub fn seconds(value: &Value) -> Result<f64, String> {
     }
 }
 
-/// Seconds of a length of time: finite and above zero. `key` names it in the error.
+/// Parses a length of time that must be finite and above zero [s]. `key` names it in the error.
 pub fn span(key: &str, value: &Value) -> Result<f64, String> {
     length(key, value, |span| span > 0.0, "must be above 0 s")
 }
 
-/// Seconds of a length of time that may be zero. `key` names it in the error.
+/// Parses a length of time that may be zero [s]. `key` names it in the error.
 pub fn duration(key: &str, value: &Value) -> Result<f64, String> {
     length(key, value, |duration| duration >= 0.0, "must be 0 s or more")
 }
@@ -31,7 +31,7 @@ fn length(key: &str, value: &Value, is_valid: fn(f64) -> bool, rule: &str) -> Re
     if is_valid(length) && length.is_finite() { Ok(length) } else { Err(message(rule.into())) }
 }
 
-/// Checks that a communication step fits into the simulated time. A scene without any duration has no steps.
+/// Checks that a communication step fits into the simulated time. A scene of zero duration has no steps.
 pub fn check_step(step: f64, stop_time: f64) -> Result<(), String> {
     if step > stop_time && stop_time > 0.0 {
         return Err(format!("step = {step} s is longer than stop_time = {stop_time} s"));

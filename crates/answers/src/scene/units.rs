@@ -1,14 +1,14 @@
-//! Numbers with units as people write and read them: "2861 deg/s", "4.5 mm".
+//! Numbers with units in the notation of users: "2861 deg/s", "4.5 mm".
 
 use bevel_differential::variables::Variable;
 use bevel_differential::variables::units::Unit;
 
 use crate::text::numbers;
 
-/// Units of time, and how many of each make a second.
+/// Units of time, and their number per second.
 const TIMES: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0), ("h", 1.0 / 3600.0)];
 
-/// SI value of `text`: a number with one of the units of `row`, or a bare number where the quantity has no unit.
+/// Parses `text` into SI: a number with one of the units of `row`, or a bare number if the quantity has no unit.
 pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
     let Some(unit) = row.unit else { return Err("takes a number without a unit".into()) };
     let (number, name) = split(text)?;
@@ -27,7 +27,7 @@ pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
     }
 }
 
-/// Time [s] of `text`: a bare number of seconds, or a number with a unit of time.
+/// Parses `text` into a time [s]: a bare number of seconds, or a number with a unit of time.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let (number, name) = split(text)?;
     let unit = if name.is_empty() { "s" } else { name.as_str() };
@@ -60,7 +60,7 @@ fn names(unit: &Unit) -> Vec<&'static str> {
 /// Splits `text` into its number and the name of its unit, in the spelling of the FMU.
 fn split(text: &str) -> Result<(f64, String), String> {
     let text = text.trim();
-    // the number is the longest beginning that parses as one: "5e3" in "5e3 m", "5" in "5 m"
+    // the number is the longest prefix that parses as one: "5e3" in "5e3 m", "5" in "5 m"
     let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
     let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
@@ -83,7 +83,7 @@ pub fn name(row: &Variable) -> &'static str {
     }
 }
 
-/// Name and unit of a column of `row`: `left.speed [rpm]`, as tables of inputs have them.
+/// Name and unit of a column of `row`: `left.speed [rpm]`, as in tables of inputs.
 pub fn header(row: &Variable) -> String {
     match name(row) {
         "" => row.name.to_owned(),
@@ -91,22 +91,22 @@ pub fn header(row: &Variable) -> String {
     }
 }
 
-/// SI `value` in the display unit of `row`.
+/// Converts the SI `value` to the display unit of `row`.
 pub fn shown(row: &Variable, value: f64) -> f64 {
     row.display.map_or(value, |display| display.show(value))
 }
 
-/// Text of the SI `value` in the display unit of `row`, with the name of the unit.
+/// Formats the SI `value` in the display unit of `row`, with the name of the unit.
 pub fn text(row: &Variable, value: f64) -> String {
     format!("{} {}", six_digits(shown(row, value)), name(row)).trim_end().to_owned()
 }
 
-/// Text of the SI difference `value` between two values of `row`, with the name of the unit.
+/// Formats the SI difference `value` between two values of `row`, with the name of the unit.
 pub fn difference_text(row: &Variable, value: f64) -> String {
     text(&row.of_differences(), value)
 }
 
-/// Text of a number with six significant digits.
+/// Formats a number with six significant digits.
 pub fn six_digits(value: f64) -> String {
     numbers::short(value, 6)
 }
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_turned_into_si() {
+    fn units_are_converted_to_si() {
         let close = |name: &str, text: &str, wanted: f64| {
             let value = parse(row(name), text).expect(text);
             assert!((value / wanted - 1.0).abs() < 1e-14, "{text}: {value}");

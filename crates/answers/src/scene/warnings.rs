@@ -1,4 +1,5 @@
-//! Warnings about a scene before its first step: unusual values, values that change nothing, and values that nobody set.
+//! Warnings about a scene before its first step: unusual values, values that change nothing, and values that were not
+//! set.
 
 use bevel_differential::model::{Parameters, Simulation};
 use bevel_differential::problem::Problem;
@@ -21,7 +22,7 @@ pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     found
 }
 
-/// The variables that `scene` sets at any time.
+/// Variables that `scene` sets at any time.
 pub fn set_values(scene: &Scene) -> SetValues {
     let mut set = SetValues::default();
     let later = scene.events.iter().flat_map(|event| &event.settings);
@@ -34,7 +35,7 @@ pub fn set_values(scene: &Scene) -> SetValues {
     set
 }
 
-/// Values that change nothing in `scene`, at the start or later, each variable once.
+/// Problems of values that change nothing in `scene`, at the start or later, at most one for each variable.
 fn unfelt(scene: &Scene) -> Vec<Problem> {
     let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
     let mut found = felt::unfelt(&parameters, &inputs, Situation::START);

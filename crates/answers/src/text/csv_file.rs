@@ -1,16 +1,16 @@
-//! CSV files: comments, a head line, and rows without empty cells.
+//! CSV files: comments, a header line, and rows without empty cells.
 
 use anyhow::{Context, Result};
 use csv::Writer;
 
-/// A CSV file in the making.
+/// CSV file that is being written.
 pub struct CsvFile {
     comments: String,
     rows: Writer<Vec<u8>>,
 }
 
 impl CsvFile {
-    /// A file with `columns`, separated by commas, after a line for each comment.
+    /// Creates a file with `columns`, separated by commas, after a line for each comment.
     pub fn new<T: AsRef<str>>(columns: &str, comments: &[T]) -> Result<Self> {
         let comments = comments.iter().map(|comment| format!("# {}\n", comment.as_ref())).collect();
         let mut rows = Writer::from_writer(Vec::new());
@@ -18,7 +18,7 @@ impl CsvFile {
         Ok(Self { comments, rows })
     }
 
-    /// Adds a row of as many cells as there are columns; an empty cell becomes "-".
+    /// Adds a row, which must have a cell for each column. An empty cell becomes "-".
     pub fn push<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<()> {
         for cell in cells {
             let cell = cell.as_ref();
@@ -29,7 +29,7 @@ impl CsvFile {
         self.rows.write_record(None::<&[u8]>).context("a row of a CSV file")
     }
 
-    /// The text of the file.
+    /// Text of the file.
     pub fn text(self) -> Result<String> {
         let rows = self.rows.into_inner().map_err(|error| error.into_error()).context("a CSV file")?;
         Ok(self.comments + &String::from_utf8(rows)?)

@@ -1,5 +1,5 @@
-//! CSV files as other programs write them: columns separated by commas, semicolons or tabs, numbers with decimal points or
-//! decimal commas. What a file does not say unambiguously is refused.
+//! CSV files as other programs write them: columns separated by commas, semicolons or tabs, numbers with decimal points
+//! or decimal commas. Ambiguous files are refused.
 //!
 //! ```csv
 //! # anything after a hash is a comment
@@ -15,26 +15,26 @@ use csv::{Position, ReaderBuilder, StringRecord, Trim};
 
 /// Separators of columns, with their names.
 const SEPARATORS: [(u8, &str); 3] = [(b',', "commas"), (b';', "semicolons"), (b'\t', "tabs")];
-/// Begins comments.
+/// First character of comments.
 const COMMENT: u8 = b'#';
-/// Byte order mark, with which some programs begin UTF-8 files.
+/// Byte order mark, which some programs write at the start of UTF-8 files.
 const MARK: char = '\u{feff}';
 /// First line that names the separator for spreadsheet programs.
 const SEPARATOR_LINE: &str = "sep=";
 
-/// The cells of a file, without comments and blank lines; numbers have decimal points.
+/// Cells of a file, without comments and blank lines. Numbers have decimal points.
 #[derive(Debug)]
 pub struct CsvInput {
-    /// Line of the header.
+    /// Line number of the header.
     pub header_line: u64,
     /// Names of the columns, with units as written.
     pub header: StringRecord,
-    /// Rows with their lines, each with as many cells as the header.
+    /// Rows with their line numbers, each with a cell for each column of the header.
     pub rows: Vec<(u64, StringRecord)>,
 }
 
-/// Reads `file`. Columns whose names are in `texts` hold words, so a comma there is no decimal comma. A problem begins with its
-/// place in the file.
+/// Reads `file`. Columns named in `texts` contain words, so a comma there is not a decimal comma. A problem begins with
+/// its position in the file.
 pub fn read(file: &Path, texts: &[&str]) -> Result<CsvInput, String> {
     let text = fs::read_to_string(file).map_err(|error| match error.kind() {
         io::ErrorKind::InvalidData => format!(": it {}", super::not_text(file, "CSV")),
@@ -83,12 +83,12 @@ pub fn parse(text: &str, texts: &[&str]) -> Result<CsvInput, String> {
     Ok(CsvInput { header_line, header, rows })
 }
 
-/// Name in a cell `name [unit]` of the header.
+/// Name in a header cell `name [unit]`.
 fn name(head: &str) -> &str {
     head.split('[').next().unwrap_or_default().trim()
 }
 
-/// Separator of the columns, which the header has between its names.
+/// Separator of the columns, found between the names of the header.
 fn separator(text: &str) -> Result<u8, String> {
     let mut lines = text.lines().zip(1..);
     if let Some(told) = text.strip_prefix(SEPARATOR_LINE).and_then(|rest| rest.bytes().next())
@@ -141,8 +141,8 @@ fn outside_quotes_and_brackets(header: &str) -> String {
     header.chars().filter(is_outside).collect()
 }
 
-/// Line of the record at `position`, and the text from there. The crate csv gives the position before the comments and blank
-/// lines that it skips.
+/// Line number of the record at `position`, and the text from there. The crate csv returns the position before comments
+/// and blank lines, which it skips.
 fn start<'a>(text: &'a str, position: Option<&Position>) -> (u64, &'a str) {
     let Some(position) = position else { return (0, text) };
     let mut rest = usize::try_from(position.byte()).ok().and_then(|from| text.get(from..)).unwrap_or_default();
@@ -179,7 +179,7 @@ fn wrong_length(line: u64, record: &StringRecord, header: &StringRecord, separat
     format!(", line {line}: has {count} cells where the header has {expected}; {why}")
 }
 
-/// Notation of a number, as far as it is visible.
+/// Notation of a number, as far as it can be recognised.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     /// A decimal comma.
@@ -195,7 +195,7 @@ enum Form {
 }
 
 impl Form {
-    /// Form of a word; none if it is no number, or has neither commas nor points.
+    /// Notation of a word; none if it is not a number or has neither commas nor points.
     fn of(word: &str) -> Option<Self> {
         let digits = word.trim_start_matches(['+', '-']);
         let (digits, exponent) = digits.split_once(['e', 'E']).map_or((digits, None), |(d, e)| (d, Some(e)));
@@ -234,14 +234,14 @@ impl Form {
     }
 }
 
-/// True if the numbers of a file have decimal commas. Fails if they are ambiguous, with the first place that is.
+/// True if the numbers of a file have decimal commas. Fails with the first ambiguous position.
 fn has_decimal_commas(
     header: &StringRecord,
     rows: &[(u64, StringRecord)],
     is_text: &[bool],
     separator: u8,
 ) -> Result<bool, String> {
-    // the first number with each mark, and the first one that cannot mean thousands
+    // the first number with each mark, and the first one that cannot contain thousands separators
     let (mut comma, mut point, mut decided) = (None, None, false);
     for (line, record) in rows {
         for ((cell, head), _) in record.iter().zip(header).zip(is_text).filter(|(_, text)| !**text) {
@@ -272,7 +272,7 @@ fn has_decimal_commas(
     }
 }
 
-/// A cell with its decimal commas as points.
+/// Replaces the decimal commas of a cell with points.
 fn with_points(cell: &str) -> String {
     let point = |word: &str| if Form::of(word).is_some() { word.replace(',', ".") } else { word.to_owned() };
     if cell.contains(',') { cell.split_whitespace().map(point).collect::<Vec<_>>().join(" ") } else { cell.to_owned() }
@@ -282,7 +282,7 @@ fn with_points(cell: &str) -> String {
 mod tests {
     use super::*;
 
-    /// The cells of a file with all its lines, header first.
+    /// Cells of a file, header first.
     fn cells(text: &str) -> Vec<Vec<String>> {
         let found = parse(text, &["name"]).unwrap_or_else(|problem| panic!("{text:?}{problem}"));
         let records = std::iter::once(&found.header).chain(found.rows.iter().map(|(_, record)| record));
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_table_is_read_as_spreadsheets_of_all_countries_write_it() {
+    fn a_table_is_read_in_the_notation_of_any_country() {
         let expected = cells("name,time [s],x [N.m]\n\"a, b; c\",0.5,-1.25e3\n\"1,5\",1.500,7\n");
         assert_eq!(expected[1..], [["a, b; c", "0.5", "-1.25e3"], ["1,5", "1.500", "7"]]);
         for text in [
@@ -304,20 +304,20 @@ mod tests {
         ] {
             assert_eq!(cells(text), expected, "{text}");
         }
-        // elements of an array are between blanks
+        // blanks separate the elements of an array
         assert_eq!(cells("time;x\n0;0,5 1,25\n")[1], ["0", "0.5 1.25"]);
         // one column has no separator
         assert_eq!(cells("time [s]\n0\n0.25\n"), [["time [s]"], ["0"], ["0.25"]]);
     }
 
     #[test]
-    fn rows_have_their_lines() {
+    fn rows_keep_their_line_numbers() {
         let found = parse("# c\n\ntime;x\n0;1\n\n   \n# c\n1;2\n", &[]).expect("a table");
         assert_eq!((found.header_line, found.rows[0].0, found.rows[1].0), (3, 4, 8));
     }
 
     #[test]
-    fn what_is_ambiguous_is_refused_with_its_place() {
+    fn ambiguous_files_are_refused_with_the_position() {
         for (text, parts) in [
             ("time;x\n0;1,500\n1;2,250\n", &["line 2, column x, value \"1,500\"", "decimal comma?", "thousands"][..]),
             ("time;x\n0;1.500\n", &["line 2, column x, value \"1.500\"", "decimal point?", "thousands"]),

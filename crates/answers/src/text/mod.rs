@@ -1,4 +1,4 @@
-//! Text that answers are given in: tables, numbers, CSV, XML, JSON, and files of them; and text from users: CSV files, names with slips.
+//! Texts of answers: tables, numbers, CSV, XML, JSON, and their files. Texts from users: CSV files, misspelt names.
 
 pub mod csv_file;
 pub mod csv_input;
@@ -14,18 +14,18 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Beginnings of files from spreadsheet programs: archives (.xlsx, .ods) and the older format (.xls).
+/// First bytes of files from spreadsheet programs: archives (.xlsx, .ods) and the older format (.xls).
 const SPREADSHEETS: [&[u8]; 2] = [b"PK\x03\x04", b"\xd0\xcf\x11\xe0"];
 /// Length of the longest of these.
 const LONGEST_MARK: u64 = 4;
 
-/// `path` as messages show it: relative to the current folder where it lies in it.
+/// Returns `path` for messages: relative to the current folder if it is inside.
 pub fn shown(path: &Path) -> String {
     let here = env::current_dir().unwrap_or_default();
     path.strip_prefix(&here).unwrap_or(path).display().to_string()
 }
 
-/// Reason and remedy, as a clause, for a `file` that is not UTF-8 and should be a `wanted` file.
+/// Reason and remedy, as a clause, if `file` is not UTF-8 and should be a `wanted` file.
 pub fn not_text(file: &Path, wanted: &str) -> String {
     let mut begin = Vec::new();
     let read = File::open(file).and_then(|opened| opened.take(LONGEST_MARK).read_to_end(&mut begin));

@@ -1,27 +1,27 @@
-//! Names that were probably meant by a wrong one, compared word by word.
+//! Suggestions for wrong names, compared word by word.
 
 use std::collections::HashMap;
 
 use strsim::{jaro_winkler, normalized_damerau_levenshtein};
 
-/// Maximum number of names that are suggested. If more are equally near, none is.
+/// Maximum number of suggested names. If more names are equally similar, none is suggested.
 const MOST: usize = 3;
-/// Similarity from which two words are the same word with a slip, an abbreviation or another plural.
+/// Similarity above which two words count as the same word with a typing error, an abbreviation or another plural.
 const SAME_WORD: f64 = 0.79;
-/// Similarity of all letters from which two names are near without equal words.
+/// Similarity of all letters above which two names are similar without equal words.
 const SAME_LETTERS: f64 = 0.7;
-/// Share of the wrong name, by the weight of its words, that a near name must have.
+/// Share of the wrong name, weighted by words, that a suggested name must contain.
 const SHARE: f64 = 0.65;
-/// Names whose scores are below the best one by less than this are equally near.
+/// Names whose scores differ from the best one by less than this are equally similar.
 const TIE: f64 = 0.03;
-/// Weight of the words before the last point, which name the group: a wrong group is a likely slip.
+/// Weight of the words before the last point, which name the group, because users often mistake the group.
 const GROUP: f64 = 0.5;
-/// Deduction from the score if no word of a name was meant; proportional if some were.
+/// Deduction from the score if the user wrote no word of a name; proportional if some words match.
 const EXTRA_WORDS: f64 = 0.3;
 
-/// The names that `wrong` probably means, nearest first, at most three.
+/// Returns the names that `wrong` probably means, the most similar first, at most three.
 ///
-/// Rare words weigh more than frequent ones, as in a search: `module` says more than `planet`.
+/// As in a search, rare words weigh more than frequent ones: `module` says more than `planet`.
 pub fn near<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let names: Vec<(&str, Vec<String>)> = names.into_iter().map(|name| (name, words(name))).collect();
     let weights = Weights::of(&names);
@@ -44,22 +44,22 @@ pub fn near<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'
     if tied.len() > MOST { Vec::new() } else { tied }
 }
 
-/// `; did you mean …?` with the names that `wrong` probably means; empty if there are none.
+/// Returns `; did you mean …?` with the names that `wrong` probably means; empty if there are none.
 pub fn hint<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let found = near(wrong, names);
     if found.is_empty() { String::new() } else { format!("; did you mean {}?", found.join(" or ")) }
 }
 
-/// Words of a name in small letters, without its signs.
+/// Words of a name in lower case, without punctuation.
 pub fn words(name: &str) -> Vec<String> {
     let parts = name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
     parts.map(str::to_lowercase).collect()
 }
 
-/// Weights of words: a word that few names have says more.
+/// Weights of words: rare words have more weight.
 struct Weights {
     by_word: HashMap<String, f64>,
-    /// Weight of a word that no name has.
+    /// Weight of a word that occurs in no name.
     unknown: f64,
 }
 
@@ -84,8 +84,8 @@ impl Weights {
     }
 }
 
-/// Similarity of the words meant, of group and quantity, to those of a name, from 0 to 1; 0 if they are too different. The
-/// order does not count.
+/// Similarity of the given words of group and quantity to the words of a name, from 0 to 1; 0 if they are too
+/// different. The order does not matter.
 fn by_words((group, quantity): (&[String], &[String]), words: &[String], weights: &Weights) -> f64 {
     let mut left: Vec<&String> = words.iter().collect();
     let (mut found, mut all) = (0.0, 0.0);
@@ -109,11 +109,11 @@ fn by_words((group, quantity): (&[String], &[String]), words: &[String], weights
 
 /// Similarity of two words from 0 to 1.
 fn alike(a: &str, b: &str) -> f64 {
-    // one letter is no abbreviation, and 1 is not 11
+    // one letter is not an abbreviation, and 1 is not 11
     if a.len() < 3 || b.len() < 3 || a.bytes().chain(b.bytes()).any(|letter| letter.is_ascii_digit()) {
         return f64::from(u8::from(a == b));
     }
-    // a long word is no slip of a short one unless it begins so
+    // a long word is not a misspelt short one unless it begins with it
     let letters = normalized_damerau_levenshtein(a, b);
     if letters >= 0.5 || a.starts_with(b) || b.starts_with(a) { jaro_winkler(a, b) } else { letters }
 }
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_names_are_suggested_if_they_are_near() {
+    fn the_most_similar_names_are_suggested_if_they_are_similar_enough() {
         let literals = ["line", "line_weber", "point"];
         for (wrong, expected) in [("lin", vec!["line"]), ("webber", vec!["line_weber"]), ("xyz", vec![]), ("", vec![])]
         {
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn more_equally_near_names_than_are_suggested_are_none() {
+    fn too_many_equally_similar_names_give_no_suggestion() {
         let names = ["a.torque", "b.torque", "c.torque", "d.torque", "e.speed"];
         assert_eq!(near("torque", names), Vec::<&str>::new());
         assert_eq!(near("torque", names[1..4].iter().copied()), names[1..4]);

@@ -1,11 +1,12 @@
-//! Numbers as people read them, and what is made of repeated measurements.
+//! Numbers for readers, and statistics of repeated measurements.
 
 /// Numbers below this are shown with a power of ten.
 const SMALL: f64 = 1e-3;
-/// Numbers from here on are shown with a power of ten by [`short`].
+/// [`short`] shows numbers from here on with a power of ten.
 const LARGE: f64 = 1e7;
 
-/// `value` with `digits` significant digits; digits before the point are never cut. One digit less with a power of ten.
+/// Formats `value` with `digits` significant digits, or one digit less with a power of ten. Digits before the point are
+/// never cut.
 pub fn significant(value: f64, digits: u32) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -19,7 +20,8 @@ pub fn significant(value: f64, digits: u32) -> String {
     format!("{value:.*}", decimals(value, digits))
 }
 
-/// `value` rounded to `digits` significant digits, without zeros after the point at the end; digits before it are kept.
+/// Formats `value` rounded to `digits` significant digits, without trailing zeros after the point. Digits before the
+/// point are kept.
 pub fn short(value: f64, digits: u32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -32,7 +34,7 @@ pub fn short(value: f64, digits: u32) -> String {
     trimmed(&format!("{value:.*}", decimals(value, digits)))
 }
 
-/// Decimals that show `digits` significant digits.
+/// Number of decimals for `digits` significant digits.
 fn decimals(value: f64, digits: u32) -> usize {
     (f64::from(digits) - 1.0 - value.abs().log10().floor()).max(0.0) as usize
 }
@@ -55,7 +57,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// That of `values`; NaN if there are none.
+    /// Spread of `values`; NaN if there are none.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -92,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn quartiles_lie_between_the_values_they_part() {
+    fn quartiles_are_between_the_values_that_they_separate() {
         let spread = Spread::of(&[5.0, 1.0, 2.0, 4.0, 3.0]);
         assert_eq!(spread, Spread { median: 3.0, low: 2.0, high: 4.0, count: 5 });
         assert_eq!(Spread::of(&[1.0, 2.0]).median, 1.5);

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
-/// JSON whose objects keep the order in which their entries are given, which a map of the library would lose.
+/// JSON whose objects keep the order of their entries, which a map of the library would lose.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub enum Ordered {

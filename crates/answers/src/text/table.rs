@@ -1,4 +1,4 @@
-//! Tables, aligned for a terminal and as Markdown for documents, and paragraphs of a terminal's width.
+//! Tables, aligned for a terminal or as Markdown for documents, and paragraphs of a terminal's width.
 
 use std::fmt::Write as _;
 
@@ -7,10 +7,10 @@ use comfy_table::{CellAlignment, LineStyle, TableStyle};
 
 /// Width of paragraphs.
 const WIDTH: usize = 118;
-/// Characters that the line under the head spans at most in a last column of sentences.
+/// Maximum length of the line under the header of a last column with sentences, in characters.
 const LAST_COLUMN: usize = 24;
 
-/// A table of texts; columns are right-aligned unless said otherwise.
+/// A table of texts. Columns are right-aligned by default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     head: Vec<String>,
@@ -19,18 +19,18 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with the columns `head`, and no rows yet.
+    /// Creates a table with the columns `head` and no rows.
     pub fn new<T: Into<String>>(head: impl IntoIterator<Item = T>) -> Self {
         Self { head: head.into_iter().map(Into::into).collect(), left: Vec::new(), rows: Vec::new() }
     }
 
-    /// With `columns` left-aligned.
+    /// Aligns `columns` to the left.
     pub fn left(mut self, columns: impl IntoIterator<Item = usize>) -> Self {
         self.left.extend(columns);
         self
     }
 
-    /// With all columns left-aligned.
+    /// Aligns all columns to the left.
     pub fn all_left(self) -> Self {
         let columns = self.head.len();
         self.left(0..columns)
@@ -41,7 +41,7 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// Aligned columns, for a terminal.
+    /// Aligned columns for a terminal.
     pub fn terminal(&self) -> String {
         let rule = LineStyle::none().fill('-').junction('-');
         let mut drawn = self.drawn(TableStyle::new().header_separator(rule));
@@ -56,7 +56,8 @@ impl Table {
         })
     }
 
-    /// Characters of the last column that the line under the head leaves out, where the column holds long sentences.
+    /// Number of characters by which the line under the header is shorter than the last column, if that contains long
+    /// sentences.
     fn beyond_rule(&self) -> usize {
         let Some(last) = self.head.len().checked_sub(1).filter(|last| self.left.contains(last)) else { return 1 };
         let cells = self.rows.iter().filter_map(|row| row.get(last)).chain([&self.head[last]]);
@@ -64,7 +65,7 @@ impl Table {
         1 + width.saturating_sub(LAST_COLUMN.max(self.head[last].chars().count()))
     }
 
-    /// Markdown, for a document.
+    /// Markdown for a document.
     pub fn markdown(&self) -> String {
         let drawn = self.drawn(ASCII_MARKDOWN);
         let mut out = String::new();
@@ -74,7 +75,7 @@ impl Table {
         out
     }
 
-    /// The line under the head with the alignment of each column.
+    /// Adds the alignment of each column to the line under the header.
     fn rule(&self, line: &str) -> String {
         let dashes = line.trim_matches('|').split('|').enumerate();
         let marked = dashes.map(|(i, dashes)| {
@@ -94,7 +95,7 @@ impl Table {
         drawn
     }
 
-    /// The table that `lines` of Markdown hold.
+    /// Parses the table in `lines` of Markdown.
     fn read(lines: &[&str]) -> Self {
         let cells = |line: &str| -> Vec<String> {
             line.trim().trim_matches('|').split('|').map(|cell| cell.trim().replace('`', "")).collect()
@@ -112,7 +113,7 @@ impl Table {
     }
 }
 
-/// A page of Markdown for a terminal: its tables aligned, all else as it is.
+/// Formats a page of Markdown for a terminal: tables are aligned, everything else is unchanged.
 pub fn for_terminal(page: &str) -> String {
     let mut out = String::new();
     let lines: Vec<&str> = page.lines().collect();
@@ -128,12 +129,12 @@ pub fn for_terminal(page: &str) -> String {
     out
 }
 
-/// `text` in lines of the terminal's width.
+/// Wraps `text` to the terminal's width.
 pub fn wrapped(text: &str) -> String {
     labelled("", text)
 }
 
-/// `text` after `label` in lines of the terminal's width, the later ones indented as far as the label reaches.
+/// Wraps `text` after `label` to the terminal's width. Later lines are indented by the length of the label.
 pub fn labelled(label: &str, text: &str) -> String {
     let indent = " ".repeat(label.chars().count());
     let (mut out, mut line, mut width) = (String::new(), label.to_owned(), label.chars().count());
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn markdown_says_how_columns_are_aligned() {
+    fn markdown_states_the_alignment_of_columns() {
         let lines: Vec<String> = table().markdown().lines().map(|line| line.replace(' ', "")).collect();
         assert_eq!(lines[0], "|case|error,µm|");
         assert!(lines[1].starts_with("|--") && lines[1].ends_with("-:|"), "{}", lines[1]);

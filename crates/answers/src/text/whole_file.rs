@@ -1,4 +1,4 @@
-//! Files that are complete or not there, whatever else writes them at the same time.
+//! Files that are either complete or missing, even if several processes write them at the same time.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::ErrorKind;
@@ -9,13 +9,13 @@ use anyhow::{Context, Result};
 
 use super::shown;
 
-/// Characters of a name that a temporary name repeats: names have at most 255 bytes.
+/// Number of characters of a name that a temporary name repeats: names have at most 255 bytes.
 const KEPT: usize = 50;
 
-/// Lets `make` write a temporary file in the folder of `path`, and renames it to `path` if `make` succeeds.
+/// Calls `make` to write a temporary file in the folder of `path`, and renames it to `path` if `make` succeeds.
 ///
-/// The file keeps its permissions and may be a symbolic link. A device or a pipe is written directly. The temporary file is
-/// `.NAME.xxxx.part`; only a process that is killed leaves one behind.
+/// The file keeps its permissions and may be a symbolic link. A device or a pipe is written directly. The temporary
+/// file is `.NAME.xxxx.part`; it remains only if the process is killed.
 pub fn write<T>(path: &Path, make: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
     let failed = || format!("{} cannot be written", shown(path));
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
@@ -38,7 +38,7 @@ pub fn write<T>(path: &Path, make: impl FnOnce(&Path) -> Result<T>) -> Result<T>
     done
 }
 
-/// A new file in the folder of `target`, which no other process or thread uses.
+/// Creates a new file in the folder of `target` that no other process or thread uses.
 fn created(target: &Path) -> std::io::Result<PathBuf> {
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let kept: String = name.chars().take(KEPT).collect();
@@ -110,7 +110,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn permissions_and_links_stay_and_a_device_is_no_file() {
+    fn permissions_and_links_are_kept_and_devices_are_written_directly() {
         use std::os::unix::fs::{PermissionsExt as _, symlink};
 
         let folder = folder("links");

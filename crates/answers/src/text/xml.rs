@@ -14,18 +14,18 @@ pub struct Element {
 }
 
 impl Element {
-    /// An empty element.
+    /// Creates an empty element.
     pub fn new(name: &'static str) -> Self {
         Self { name, ..Self::default() }
     }
 
-    /// With one more attribute.
+    /// Adds an attribute.
     pub fn with(mut self, key: &'static str, value: impl ToString) -> Self {
         self.attributes.push((key, value.to_string()));
         self
     }
 
-    /// With one more attribute, if there is a value.
+    /// Adds an attribute if there is a value.
     pub fn with_some(self, key: &'static str, value: Option<impl ToString>) -> Self {
         match value {
             Some(value) => self.with(key, value),
@@ -33,19 +33,19 @@ impl Element {
         }
     }
 
-    /// With one more child.
+    /// Adds a child.
     pub fn child(mut self, child: Element) -> Self {
         self.children.push(child);
         self
     }
 
-    /// With more children.
+    /// Adds children.
     pub fn children(mut self, children: impl IntoIterator<Item = Element>) -> Self {
         self.children.extend(children);
         self
     }
 
-    /// With a text inside.
+    /// Sets the text inside.
     pub fn text(mut self, text: impl ToString) -> Self {
         self.text = Some(text.to_string());
         self

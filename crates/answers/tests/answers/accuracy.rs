@@ -1,4 +1,4 @@
-//! Questions of accuracy about scenes whose answer is known in closed form.
+//! Questions of accuracy about scenes with answers in closed form.
 
 use std::hint::spin_loop;
 use std::path::Path;
@@ -30,7 +30,7 @@ left.load_torque = 99.0
 right.load_torque = 99.0
 "#;
 
-/// A drag of the carrier that is 2 N.m at all speeds but the slowest: 1 % of the 200 N.m that the drive then delivers.
+/// Carrier drag of 2 N.m at all but the lowest speeds: 1 % of the drive's torque of 200 N.m.
 const DRAG: &str = "bearing_drag.carrier_torque = 2.0
 bearing_drag.carrier_viscous = 0.0
 bearing_drag.carrier_churning = 0.0
@@ -73,7 +73,7 @@ fn a_drag_of_one_percent_is_needed_for_less_and_not_for_more() {
     {
         let found = asked(&format!("{IDEAL}{DRAG}{on}"), &["carrier.torque:mean"], within);
         let Role::Acts { by, chosen } = role(&found, "bearing_drag") else { panic!("no role") };
-        // closed form but for rounding
+        // closed form, except for rounding
         assert!((by / 0.01 - 1.0).abs() < 1e-9, "{by}");
         assert_eq!(*chosen, wanted);
         let p = found.choice().expect("a setting").scene.parameters;
@@ -82,9 +82,9 @@ fn a_drag_of_one_percent_is_needed_for_less_and_not_for_more() {
 }
 
 #[test]
-fn what_is_small_alone_is_kept_where_it_is_too_much_together() {
-    // 50 rad/s and 100 N.m on each side: 10 kW; the drag of 1.3 N.m takes 65 W of it, and two clutches of 7 N.m that slip
-    // at 10/16 of the spin of 8 rad/s take 70 W
+fn small_effects_are_kept_if_they_are_too_large_together() {
+    // 50 rad/s and 100 N.m on each side: 10 kW. The drag of 1.3 N.m takes 65 W of it, and two clutches of 7 N.m that
+    // slip at 10/16 of the spin of 8 rad/s take 70 W.
     let text = format!(
         "{}{}scene.planet_spin = \"imposed\"\nspin.command = 8.0\n\
          effects.limited_slip = true\nlimited_slip.torque_coefficient = 0.0\nlimited_slip.preload = 7.0\n",
@@ -135,7 +135,7 @@ fn values_of_its_own_make_a_law_part_of_the_question() {
 }
 
 #[test]
-fn outputs_of_strength_are_in_only_where_they_are_asked_for() {
+fn outputs_of_strength_are_included_only_if_wanted() {
     let found = asked(TEETH, &["stress.contact_max:max"], 0.05);
     assert!(found.choice().expect("a setting").scene.parameters.effects.strength);
     let found = asked(TEETH, &["left.speed:max"], 0.05);
@@ -143,19 +143,19 @@ fn outputs_of_strength_are_in_only_where_they_are_asked_for() {
 }
 
 #[test]
-fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
+fn the_written_scene_reproduces_the_values_of_the_search() {
     let found = asked(TEETH, &["left.speed:max", "planet[1].left_transmission_error:mean"], 0.02);
     let text = chosen::text(&found, TEETH).expect("a file");
     let scene = parsed(&text);
     assert_eq!(scene.parameters, found.choice().expect("a setting").scene.parameters);
     let result = run(&scene, None, &mut Progress::silent()).expect("a run");
     let trial = found.choice().expect("a setting");
-    // this one summarises from the start on
+    // this summary includes the start
     assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);
 }
 
 #[test]
-fn a_scene_is_written_without_the_values_that_change_nothing() {
+fn a_scene_is_written_without_values_that_change_nothing() {
     let idle = "oil.temperature = \"80 degC\"
 effects.thrust_friction = true
 thrust_friction = { coefficient = 0.04, cold_factor = 1.5 }
@@ -170,7 +170,7 @@ time = \"20 ms\"
 left.load_torque = \"410 N.m\"
 thrust_friction.coefficient = 0.05
 ";
-    // no teeth give the carrier's torque of a turn with little friction
+    // the carrier's torque in a turn with little friction needs no teeth
     let found = asked(&format!("{TEETH}{idle}"), &["carrier.torque:mean"], 0.2);
     let text = chosen::text(&found, &format!("{TEETH}{idle}")).expect("a file");
     assert!(!text.contains("thrust_friction.") && !text.contains("oil."), "{text}");
@@ -185,20 +185,20 @@ thrust_friction.coefficient = 0.05
 }
 
 #[test]
-fn a_scene_that_cannot_run_says_why() {
+fn a_scene_that_cannot_run_states_the_reason() {
     let text = format!("{TEETH}scene.left_drive = \"speed\"\nscene.right_drive = \"speed\"\n");
     let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0 };
     let failed = answer(&parsed(&text), &question, &mut Progress::silent()).err().expect("three imposed speeds");
     assert!(format!("{failed:#}").contains("two independent speeds"), "{failed:#}");
 }
 
-/// The scene `text` in fixed steps.
+/// Returns the scene `text` with fixed steps.
 fn in_fixed_steps(text: &str) -> String {
     format!("{text}solver.method = \"fixed_step\"\n")
 }
 
 #[test]
-fn an_answer_does_not_depend_on_what_else_the_machine_does() {
+fn an_answer_does_not_depend_on_the_load_of_the_machine() {
     let short = TEETH.replace("0.04", "0.01");
     for text in [short.clone(), in_fixed_steps(&short)] {
         let ask = || asked(&text, &["planet[1].left_transmission_error:mean"], 0.05);
@@ -241,7 +241,7 @@ fn a_mirrored_scene_gets_the_same_setting() {
     }
 }
 
-/// Largest less smallest value of the scene's first output at the communication points.
+/// Difference between the largest and the smallest value of the scene's first output at the communication points.
 fn swing(scene: &Scene) -> f64 {
     let mut run = SceneRun::start(scene, scene.step).expect("a start");
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -254,7 +254,7 @@ fn swing(scene: &Scene) -> f64 {
 }
 
 #[test]
-fn a_scene_that_asks_for_fixed_steps_keeps_them_and_gets_the_longest_that_are_accurate_enough() {
+fn a_scene_with_fixed_steps_gets_the_longest_that_are_accurate_enough() {
     let (text, within) = (in_fixed_steps(TEETH), 0.1);
     let found = asked(&text, &["left.speed:peak_to_peak"], within);
     let richest = found.reference.scene.parameters;
@@ -262,14 +262,14 @@ fn a_scene_that_asks_for_fixed_steps_keeps_them_and_gets_the_longest_that_are_ac
     let mut tight = found.reference.scene.clone();
     tight.parameters.solver.relative_tolerance = 1e-10;
     let wanted = swing(&tight);
-    // the setting as a user runs it
+    // the setting that a user runs
     let written = parsed(&chosen::text(&found, &text).expect("a file"));
     let solver = written.parameters.solver;
     assert_eq!(solver.method, Method::FixedStep);
     let error = |scene: &Scene| (swing(scene) / wanted - 1.0).abs();
     assert!(error(&written) <= within, "{}", error(&written));
     assert!((error(&written) - found.choice().expect("a setting").error()).abs() < 1e-3);
-    // next longer in 1, 2, 5
+    // the next longer step in the sequence 1, 2, 5
     let longer = |factor: f64| {
         let mut scene = written.clone();
         scene.parameters.solver.fixed_step *= factor;
@@ -282,7 +282,7 @@ fn a_scene_that_asks_for_fixed_steps_keeps_them_and_gets_the_longest_that_are_ac
 }
 
 #[test]
-fn an_accuracy_that_no_affordable_fixed_step_reaches_is_said() {
+fn an_accuracy_that_no_affordable_fixed_step_reaches_is_reported() {
     let short = TEETH.replace("0.04", "0.004");
     let ask = |text: &str| asked(text, &["left.speed:peak_to_peak"], 1e-4);
     let found = ask(&in_fixed_steps(&short));
@@ -292,7 +292,7 @@ fn an_accuracy_that_no_affordable_fixed_step_reaches_is_said() {
 }
 
 #[test]
-fn a_scene_that_asks_for_radau_is_answered_as_the_adaptive_one() {
+fn a_scene_with_radau_gets_the_same_answer_as_with_the_adaptive_method() {
     let text = format!("{TEETH}solver.method = \"radau\"\n");
     let [radau, adaptive] = [&text, TEETH].map(|text| asked(text, &["left.speed:max"], 0.05));
     let [of_radau, of_adaptive] = [&radau, &adaptive].map(|found| found.choice().expect("a setting").scene.parameters);

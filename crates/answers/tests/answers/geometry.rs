@@ -1,4 +1,5 @@
-//! The derived dimensions: golden numbers, the same in text and JSON, set by name and unit, refused with all reasons.
+//! Derived dimensions: golden numbers, equal rows in text and JSON, settings by name and unit, and refusals with all
+//! reasons.
 
 use answers::geometry::design::{Design, parameters};
 use answers::geometry::dimensions::{DimensionGroup, of_gears, of_pair};
@@ -10,7 +11,7 @@ fn document(design: &Design) -> Result<Value> {
     Ok(serde_json::from_str(&json::text(design, None)?)?)
 }
 
-/// The golden variants and the settings that their labels describe; golden gears have no backlash.
+/// Golden variants with the settings that their labels describe. Golden gears have no backlash.
 fn variants() -> [(&'static str, Vec<String>); 7] {
     let explicit = |planet: [f64; 2], side: [f64; 2]| {
         vec![
@@ -37,7 +38,7 @@ fn variants() -> [(&'static str, Vec<String>); 7] {
     ]
 }
 
-/// Golden name of a number of the pair, and where the document has it.
+/// Golden names of numbers of the pair, with their positions in the document.
 const PAIR: [(&str, &str); 23] = [
     ("z1", "/planet/number_of_teeth_z/value"),
     ("z2", "/side_gear/number_of_teeth_z/value"),
@@ -64,7 +65,7 @@ const PAIR: [(&str, &str); 23] = [
     ("rho_tredgold1_pitch_mm", "/planet/outer_radius_of_curvature_at_pitch_point_rho_e/value"),
 ];
 
-/// Golden name of a number of the pair that belongs to planet (1) or side gear (2), `#` standing for which.
+/// Golden names of numbers of the pair that belong to planet (1) or side gear (2); `#` stands for the index.
 const EACH: [(&str, &str); 4] = [
     ("max_tip_cone_gear#_deg", "limit_face_angle"),
     ("max_addendum_gear#_mm(R_e tan)", "limit_outer_addendum"),
@@ -72,7 +73,7 @@ const EACH: [(&str, &str); 4] = [
     ("rho#_pitch_outer_mm", "outer_radius_of_curvature_at_pitch_point_rho_e"),
 ];
 
-/// Golden name of a number of a gear, and its key.
+/// Golden names of numbers of a gear, with their keys.
 const GEAR: [(&str, &str); 35] = [
     ("delta_deg", "pitch_angle_delta"),
     ("delta_b_deg", "base_angle_delta_b"),
@@ -146,7 +147,7 @@ fn the_table_agrees_with_every_golden_number() -> Result<()> {
         for (i, (group, gear)) in gears.into_iter().enumerate() {
             for (key, ours) in EACH {
                 let key = key.replace('#', &(i + 1).to_string());
-                // the planet's radius says how it is found, too
+                // the name of the planet's radius also contains its formula
                 let key = if key == "rho1_pitch_outer_mm" { "rho1_pitch_outer_mm(R tan psi)" } else { &key };
                 equal(key, &golden[key], of(gear, ours), 1.0);
             }
@@ -199,7 +200,7 @@ fn text_and_json_have_the_same_rows_with_the_same_numbers() -> Result<()> {
             assert!(found, "no line \"{wanted} ... {ending}\"");
         }
         for part in parts {
-            // the parser keeps one of two equal keys
+            // the parser keeps only one of two equal keys
             let entries = document[part].as_object().map_or(0, |entries| entries.len());
             assert_eq!(entries, groups.iter().map(|group| group.rows.len()).sum::<usize>(), "{part}");
         }
@@ -243,7 +244,7 @@ fn every_number_is_finite_for_slender_and_for_flat_gears() -> Result<()> {
         let teeth = [format!("geometry.planet_teeth={planet}"), format!("geometry.side_teeth={side}")];
         let usual = ["geometry.face_width=2mm", "geometry.addendum_system=standard", "geometry.backlash=0mm"];
         let design = Design::new(&[teeth.to_vec(), usual.map(str::to_owned).to_vec()].concat())?;
-        // JSON has no other numbers
+        // JSON writes other values as null
         assert!(!json::text(&design, None)?.contains("null"), "{planet}/{side}");
         let text = text::text(&design);
         assert!(!text.contains("NaN") && !text.contains("inf "), "{text}");
@@ -256,7 +257,7 @@ fn refused(settings: &[&str]) -> String {
 }
 
 #[test]
-fn errors_are_reported_at_once_with_name_range_and_unit() {
+fn errors_are_reported_together_with_name_range_and_unit() {
     let message =
         refused(&["geometry.modul=4mm", "geometry.backlash=60mm", "geometry.planet_teeth=ten", "geometry.module"]);
     assert!(message.contains("no variable \"geometry.modul\"; did you mean geometry.module?"), "{message}");

@@ -1,4 +1,4 @@
-//! The C header is made from the source.
+//! The C header is generated from the source.
 
 use std::fs;
 
@@ -6,13 +6,13 @@ use cbindgen::{Builder, Config, Language};
 
 use crate::workspace;
 
-/// Where the header stands.
+/// Path of the header.
 fn file() -> std::path::PathBuf {
     workspace().join("crates").join("answers").join("include").join("bd_answers.h")
 }
 
 #[test]
-fn the_header_is_that_of_the_source() {
+fn the_header_matches_the_source() {
     let config = Config {
         language: Language::C,
         header: Some(

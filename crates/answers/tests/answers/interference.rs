@@ -1,4 +1,4 @@
-//! Whether the gears turn freely: what the check of the teeth reports.
+//! Reports of the interference check.
 
 use answers::geometry::design::Design;
 use answers::geometry::interference::InterferenceCheck;
@@ -6,20 +6,20 @@ use answers::geometry::json;
 use anyhow::{Context, Result};
 use serde_json::Value;
 
-/// The text of a check without its line breaks.
+/// Text of a check without line breaks.
 fn words(check: &InterferenceCheck) -> String {
     check.text().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]
-fn the_gears_of_the_study_turn_freely_and_thicker_ones_are_reported_where_and_how_deep() -> Result<()> {
+fn the_studys_gears_turn_freely_and_thicker_ones_are_reported_with_position_and_depth() -> Result<()> {
     let design = Design::new::<&str>(&[])?;
     let reported =
         |check: &InterferenceCheck| -> Result<Value> { Ok(serde_json::from_str(&json::text(&design, Some(check))?)?) };
     let free = InterferenceCheck::new(&design, 0.0)?;
     assert!(!free.any() && free.text().contains("no interference"), "{}", free.text());
     assert_eq!(reported(&free)?["interference"]["found"], Value::Bool(false));
-    // 0.1 mm of backlash, less 0.2 mm: half of 0.1 mm cos α at the heel
+    // 0.1 mm of backlash minus 0.2 mm: half of 0.1 mm cos α at the heel
     let thick = InterferenceCheck::new(&design, 2e-4)?;
     let depth = 0.05 * 20f64.to_radians().cos();
     assert!(thick.any() && words(&thick).contains(&format!("by {depth:.4} mm at the heel")), "{}", thick.text());

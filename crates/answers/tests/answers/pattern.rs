@@ -1,4 +1,4 @@
-//! Contact patterns: an engagement is whole, the load lies where the offset brings it, and files have no holes.
+//! Contact patterns: engagements are complete, the load is where the offset moves it, and files have no gaps.
 
 use answers::pattern::cases::{PatternCase, turn};
 use answers::pattern::envelope::Envelope;
@@ -27,18 +27,18 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
     let (first, last) = (all[0], all[all.len() - 1]);
     assert!(first.is_corner && last.is_corner && first.s < record.pair.path.low && last.s > record.pair.path.high);
     assert!(first.polar[0] < gear.pitch && (last.polar[0] - gear.tip).abs() < 0.01);
-    // light at both ends, and one pair bears all of the mesh at the pitch point
+    // little load at both ends, and one pair transmits the whole load of the mesh at the pitch point
     let pitch = record.at_pitch_point();
     let force = |line: &[LoadedSection]| line.iter().map(LoadedSection::force).sum::<f64>();
     assert!(first.line_load < 0.1 * pitch[0].line_load && last.line_load < 0.1 * pitch[0].line_load);
     let torque = force(&pitch) * record.pair.mean_cone * record.pair.sin_base()[1];
     assert!((torque / (835.0 / 2.0) - 1.0).abs() < 0.01, "{torque}");
     assert!((centroid(&pitch) - record.pair.mean_cone).abs() < 1e-9);
-    // p² ρ is the same over the face, and the strip's load that of Hertz's half-ellipse
+    // p² ρ is constant over the face, and the load of the strip is that of Hertz's half-ellipse
     for c in &pitch {
         assert!((c.pressure.powi(2) * c.radius / (pitch[0].pressure.powi(2) * pitch[0].radius) - 1.0).abs() < 1e-9);
         assert!((0.5 * std::f64::consts::PI * c.pressure * c.half_width / c.line_load - 1.0).abs() < 1e-9);
-        // on the path the arcs of both flanks fill the line of action
+        // on the path, the arcs of both flanks add up to the line of action
         let arcs: f64 = (0..2).map(|i| record.pair.gears[i].action_arc(c.polar[i])).sum();
         assert!((arcs - record.pair.line_of_action()).abs() < 2e-3, "{arcs}");
     }
@@ -49,17 +49,17 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
     let most = envelope.pressure.iter().flatten().fold(0.0, |a: f64, &b| a.max(b));
     let greatest = all.iter().map(|c| c.pressure).fold(0.0, f64::max);
     assert!(most > 0.7 * greatest && most < 1.05 * greatest, "{most} {greatest}");
-    // nothing has touched the root
+    // the root was not touched
     assert!(envelope.pressure.iter().all(|column| column[0] == 0.0));
 }
 
 #[test]
-fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
+fn a_pin_moved_forward_shifts_the_load_to_the_toe_and_files_are_complete() {
     let errors = ToothErrorSpec { axis_offset: 3e-5, ..ToothErrorSpec::default() };
     let record = record(&errors);
     let found = PatternFindings::new(&case(&errors), &record).expect("findings");
     assert!(found.is_drive && found.centroid < -2e-4 && found.ends[0] > 1.1 * found.ends[1], "{found:?}");
-    // e = −ε cosα on planet 1 and +ε cosα on planet 2 under one approach a: (a + e)^1.5 shares the torque
+    // e = −ε cosα on planet 1 and +ε cosα on planet 2 under a common approach a: (a + e)^1.5 shares the torque
     let record = &record;
     let pitch = record.at_pitch_point();
     let line = pitch.iter().map(LoadedSection::force).sum::<f64>();
@@ -78,10 +78,10 @@ fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
     }
 }
 
-/// Torque of one mesh: half of that of a side gear with two planets [N·m].
+/// Torque of one mesh: half of the torque of a side gear with two planets [N·m].
 const TORQUE: f64 = 835.0 / 2.0;
 
-/// The turn with teeth of the linear law over the face, crowned by `crowning` [m].
+/// The turn with teeth that have the linear law over the face and `crowning` [m].
 fn crowned(crowning: f64) -> Engagement {
     let mut scene = turn(&ToothErrorSpec { crowning, ..ToothErrorSpec::default() }).expect("a scene");
     scene.parameters.scene.gear_contact = GearContact::Tooth;
@@ -94,14 +94,14 @@ fn torque(record: &Engagement, line: &[LoadedSection]) -> f64 {
     line.iter().map(|c| c.force() * c.cone).sum::<f64>() * record.pair.sin_base()[1]
 }
 
-/// Opening of teeth that are crowned by `crowning` at toe and heel, a parabola [m].
+/// Gap of crowned teeth at cone distance `cone`: a parabola that reaches `crowning` at toe and heel [m].
 fn opening(record: &Engagement, crowning: f64, cone: f64) -> f64 {
     let face = record.pair.outer_cone - record.pair.inner_cone;
     crowning * ((cone - record.pair.mean_cone) / (0.5 * face)).powi(2)
 }
 
 #[test]
-fn aligned_teeth_of_a_law_bear_over_face_and_path_with_a_load_that_grows_with_the_cone_distance() {
+fn aligned_teeth_with_a_law_are_loaded_over_face_and_path_in_proportion_to_the_cone_distance() {
     let record = crowned(0.0);
     let (pair, all) = (&record.pair, record.engagement().collect::<Vec<_>>());
     let (first, last) = (all[0], all[all.len() - 1]);
@@ -109,19 +109,19 @@ fn aligned_teeth_of_a_law_bear_over_face_and_path_with_a_load_that_grows_with_th
     let pitch = record.at_pitch_point();
     assert!((torque(&record, &pitch) / TORQUE - 1.0).abs() < 1e-3, "{}", torque(&record, &pitch));
     for c in &all {
-        // on the path the aligned flanks touch at equal arcs, wherever on the face
+        // on the path, the aligned flanks touch at equal arcs all over the face
         let arcs: f64 = (0..2).map(|i| pair.gears[i].action_arc(c.polar[i])).sum();
         assert!(c.is_corner || (arcs - pair.line_of_action()).abs() < 1e-9, "{arcs}");
     }
     for c in &pitch {
         let at_first = pitch[0].line_load / pitch[0].cone;
         assert!((c.line_load / c.cone / at_first - 1.0).abs() < 1e-9);
-        // w and ρ are proportional to R, so that the pressure is even
+        // w and ρ are proportional to R, so the pressure is constant
         assert!((c.pressure / pitch[0].pressure - 1.0).abs() < 1e-9);
     }
     let envelope = Envelope::new(&record);
     let gear = &pair.gears[0];
-    // from where rigid contact begins to the tip, all of the face has been touched, and nothing below
+    // from the start of rigid contact to the tip, all of the face has been touched, and nothing below
     let start = gear.polar_at(pair.pitch_arc[0] + pair.path.low);
     for column in &envelope.pressure {
         for (polar, pressure) in envelope.polars.iter().zip(column) {
@@ -136,7 +136,7 @@ fn aligned_teeth_of_a_law_bear_over_face_and_path_with_a_load_that_grows_with_th
 
 #[test]
 fn the_length_of_contact_of_crowned_teeth_follows_from_the_equilibrium_of_the_load() {
-    // a linear law: w = k (a R − e), with k from a light crowning
+    // linear law: w = k (a R − e), with k from light crowning
     let (light, strong) = (20e-6, 300e-6);
     let record = crowned(light);
     let pitch = record.at_pitch_point();
@@ -147,11 +147,11 @@ fn the_length_of_contact_of_crowned_teeth_follows_from_the_equilibrium_of_the_lo
     let turned = (one.line_load / k + e1) / one.cone;
     for c in &pitch {
         let wanted = k * (turned * c.cone - opening(&record, light, c.cone));
-        // the approach of the moving teeth is damped, too, which is not in this formula
+        // the damping of the moving teeth, which is missing in this formula, adds a little
         assert!((c.line_load / wanted - 1.0).abs() < 1e-4, "{} {wanted}", c.line_load);
     }
     assert!((torque(&record, &pitch) / TORQUE - 1.0).abs() < 1e-3);
-    // with this k, the approach that holds the torque of strongly crowned teeth, and the ends of their contact
+    // with this k, the approach that balances the torque of strongly crowned teeth, and the ends of their contact
     let record = crowned(strong);
     let [inner, outer] = [record.pair.inner_cone, record.pair.outer_cone];
     let cones: Vec<f64> = (0..20000).map(|i| inner + (outer - inner) * (f64::from(i) + 0.5) / 20000.0).collect();
@@ -183,8 +183,8 @@ fn the_length_of_contact_of_crowned_teeth_follows_from_the_equilibrium_of_the_lo
 }
 
 #[test]
-fn solid_teeth_and_teeth_of_a_law_touch_the_same_flank() {
-    // solid teeth spread the load evenly, so that a law over the face has the arm R_F > R_m and the smaller force
+fn solid_teeth_and_teeth_with_a_law_touch_the_same_flank() {
+    // solid teeth spread the load evenly, so a law over the face has the arm R_F > R_m and a smaller force
     let [law, solid] = [crowned(0.0), record(&ToothErrorSpec::default())];
     let force = |record: &Engagement| record.at_pitch_point().iter().map(LoadedSection::force).sum::<f64>();
     let [inner, outer] = [law.pair.inner_cone, law.pair.outer_cone];
@@ -194,14 +194,14 @@ fn solid_teeth_and_teeth_of_a_law_touch_the_same_flank() {
         let angles = || record.engagement().map(|c| c.polar[0]);
         [angles().fold(f64::INFINITY, f64::min), angles().fold(0.0, f64::max)]
     };
-    // the same foot and tip, to 0.05 mm at the mean cone distance: a step of the solid run, and the shape of its tip
+    // equal foot and tip within 0.05 mm at the mean cone distance: a step of the solid run, and the shape of its tip
     for (a, b) in ends(&law).into_iter().zip(ends(&solid)) {
         assert!((a - b).abs() * law.pair.mean_cone < 5e-5, "{a} {b}");
     }
 }
 
 #[test]
-fn teeth_that_stand_and_a_law_with_one_resultant_have_a_pattern_and_a_warning() {
+fn standing_teeth_and_a_law_with_one_resultant_have_a_pattern_and_a_warning() {
     let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
     scene.parameters.scene.gear_contact = GearContact::Tooth;
     scene.parameters.scene.planet_spin = PlanetSpin::Free;

@@ -1,4 +1,4 @@
-//! Questions that make no sense are answered by what is wrong with them.
+//! Questions that make no sense are answered with their problems.
 
 use answers::ask::{Question, Refusal, ask};
 use answers::progress::Progress;
@@ -21,7 +21,7 @@ fn a_question_of_accuracy_that_makes_no_sense_is_a_problem_in_one_line() {
         ("left.sped:mean", "1%", None, &["left.sped", "did you mean left.speed?"][..]),
         ("left.speed:meen", "1%", None, &["meen", "did you mean mean?"]),
         ("left.load_torque:mean", "1%", None, &["not an output"]),
-        // straight ahead no teeth mesh
+        // no teeth mesh while driving straight
         ("left.speed:mesh_order_1", "1%", None, &["mesh_order_1", "period"]),
         ("left.speed:mean", "0", None, &["above 0"]),
         ("left.speed:mean", "200%", None, &["below 100 %"]),
@@ -40,7 +40,7 @@ fn a_question_of_accuracy_that_makes_no_sense_is_a_problem_in_one_line() {
 }
 
 #[test]
-fn a_scene_that_is_not_there_or_too_long_is_refused_by_name() {
+fn a_missing_or_too_long_scene_is_refused_by_name() {
     let found = refused(json!({"ask": "plan", "of": about("study_strait", &[])}));
     assert_eq!(found.problems[0].hint.as_deref(), Some("study_straight"));
     let found = refused(json!({"ask": "plan", "of": about("study_straight", &["stop_time=1e9", "step=1e-9"])}));
@@ -65,13 +65,13 @@ fn gears_that_cannot_be_built_are_refused_with_all_reasons() {
 }
 
 #[test]
-fn figures_need_numbers_that_fit() {
+fn statistics_need_numbers_that_fit() {
     let question =
         |points: usize| json!({"ask": "statistics", "points": points, "figures": [{"statistic": "mean", "series": 0}]});
     let asked = |points: usize, numbers: &[f64]| {
         ask(&serde_json::from_value(question(points)).expect("a question"), numbers, &mut Progress::silent())
     };
-    // straight from 0 to 2 and on to 4 over unequal steps
+    // linear from 0 to 2 and from 2 to 4, over unequal steps
     let answer = asked(3, &[0.0, 1.0, 3.0, 0.0, 2.0, 4.0]).expect("a figure");
     assert_eq!(answer["figures"], json!([7.0 / 3.0]));
     for (points, numbers) in [(4, &[0.0, 1.0, 3.0, 0.0, 2.0, 4.0][..]), (0, &[]), (3, &[]), (3, &[0.0, 1.0, 2.0])] {

@@ -1,4 +1,4 @@
-//! What scenes take besides their own values: inputs from CSV files, times with units, and changes on the command line.
+//! Inputs of scenes from CSV files, times with units, and changes on the command line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,14 +13,14 @@ use crate::folder;
 const FRAME: &str = "description = \"d\"\nstop_time = \"100 ms\"\nstep = \"1 ms\"\noutputs = [\"left.speed\"]\n";
 const INPUTS: &str = "[[inputs]]\nfile = \"cycle.csv\"\n";
 
-/// The scene `what` of `folder`, changed by `changes`.
+/// Finds the scene `what` of `folder` and applies `changes`.
 fn find_with(what: &str, folder: &Path, changes: &[impl AsRef<str>]) -> Result<Scene> {
     let mut scene = find(what, folder)?;
     assignments::apply(&mut scene, changes)?;
     Ok(scene)
 }
 
-/// A folder of its own for each test, removed at its end.
+/// Separate folder for a test, removed at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -30,7 +30,7 @@ impl Folder {
         Ok(Self(folder))
     }
 
-    /// The scene `FRAME` with `rest`, beside a file cycle.csv with `csv`.
+    /// Loads the scene `FRAME` with `rest`, next to a file cycle.csv with `csv`.
     fn scene(&self, rest: &str, csv: &str) -> Result<Scene> {
         fs::write(self.0.join("cycle.csv"), csv)?;
         load::parse("test", &self.0.join("test.toml"), &format!("{FRAME}{rest}"))
@@ -52,7 +52,7 @@ fn parsed(text: &str) -> Result<Scene> {
 }
 
 #[test]
-fn times_with_units_are_those_in_seconds() -> Result<()> {
+fn times_with_units_equal_times_in_seconds() -> Result<()> {
     let rest = |at: &str, times: &str, period: &str| {
         format!(
             "[[at]]\ntime = {at}\nleft.load_torque = 1.0\n[[table]]\ninput = \"right.load_torque\"\ntime = {times}\n\
@@ -71,7 +71,7 @@ fn times_with_units_are_those_in_seconds() -> Result<()> {
 }
 
 #[test]
-fn wrong_times_are_told_by_key_and_value() {
+fn wrong_times_are_reported_by_key_and_value() {
     for (text, wanted) in [
         (FRAME.replace("100 ms", "100 mm"), "stop_time = \"100 mm\""),
         (FRAME.replace("100 ms", "100 mm"), "s, ms, us, min"),
@@ -89,7 +89,7 @@ fn wrong_times_are_told_by_key_and_value() {
 }
 
 #[test]
-fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
+fn a_scene_of_zero_duration_shows_its_start() -> Result<()> {
     let start = "[set]\nscene.start = \"rolling\"\ncarrier.speed_command = 30.0\n";
     for frame in [FRAME.replace("100 ms", "0 s"), FRAME.replace("\"100 ms\"", "0")] {
         let scene = parsed(&format!("{frame}{start}"))?;
@@ -98,7 +98,7 @@ fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
         let speed = outcome.outputs[0];
         assert_eq!([speed.min, speed.mean, speed.max, speed.end], [30.0; 4]);
         assert_eq!(String::from_utf8(csv)?.lines().last(), Some("0,30"));
-        // meshes are preloaded unless the start says otherwise
+        // meshes are preloaded by default
         let lines = loads::write(&parsed(&frame)?, None, &mut Vec::new(), &mut Progress::silent())?;
         assert!(lines > 0, "the loads at the start");
     }
@@ -106,7 +106,7 @@ fn a_scene_without_any_duration_shows_its_start() -> Result<()> {
 }
 
 #[test]
-fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
+fn inputs_from_a_file_equal_inputs_from_tables() -> Result<()> {
     let folder = Folder::new("tables")?;
     let csv = "\u{feff}# a cycle\ntime [ms], carrier.speed_command [rpm], left.load_torque [N·m], right.load_torque\n\
                0, 300, 400, 401\n20, 600, 800, 802\n";
@@ -145,7 +145,7 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
 }
 
 #[test]
-fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<()> {
+fn wrong_input_files_are_reported_with_line_column_value_and_remedy() -> Result<()> {
     let folder = Folder::new("wrong")?;
     for (csv, wanted) in [
         ("time,left.load_torqe\n0,1\n", &["column left.load_torqe", "did you mean left.load_torque?"][..]),
@@ -192,7 +192,7 @@ fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<(
 }
 
 #[test]
-fn a_scene_is_changed_as_by_its_file() -> Result<()> {
+fn changes_on_the_command_line_act_as_in_the_file() -> Result<()> {
     let changes = [
         "geometry.module=4 mm",
         "scene.start = rest",
@@ -222,7 +222,7 @@ fn a_scene_is_changed_as_by_its_file() -> Result<()> {
 }
 
 #[test]
-fn a_shorter_run_leaves_out_what_comes_after_its_end() -> Result<()> {
+fn a_shorter_run_leaves_out_changes_after_its_end() -> Result<()> {
     let times = |scene: Scene| scene.events.iter().map(|event| event.time).collect::<Vec<_>>();
     assert_eq!(times(find("limited_slip", &folder())?), [0.1, 0.25]);
     assert_eq!(times(find_with("limited_slip", &folder(), &["stop_time=0.2"])?), [0.1]);
@@ -230,7 +230,7 @@ fn a_shorter_run_leaves_out_what_comes_after_its_end() -> Result<()> {
 }
 
 #[test]
-fn wrong_changes_are_told_with_what_was_probably_meant() {
+fn wrong_changes_are_reported_with_a_suggestion() {
     for (change, wanted) in [
         ("geometry.modul=4 mm", &["geometry.modul", "did you mean geometry.module?"][..]),
         ("stop_tim=1", &["did you mean stop_time?"]),
@@ -260,13 +260,13 @@ fn wrong_changes_are_told_with_what_was_probably_meant() {
     assert!(twice.contains("step is set twice") && twice.lines().count() == 2, "{twice}");
 }
 
-/// A ramp of the carrier's speed to 100 rad/s within the 0.1 s of the scene.
+/// Ramp of the carrier's speed to 100 rad/s during the 0.1 s of the scene.
 const RAMP: &str = "[set]\nscene.gear_contact = \"ideal\"\n\
                     [[table]]\ninput = \"carrier.speed_command\"\ntime = [0, 0.1]\nvalue = [0, 100]\n";
 
 #[test]
-fn a_speed_that_goes_on_straight_turns_the_carrier_by_its_integral() -> Result<()> {
-    // held values lag by half a step of 1 ms
+fn a_linear_speed_turns_the_carrier_by_its_integral() -> Result<()> {
+    // held values lag by half of a 1 ms step
     for (slopes, angle) in
         [("", 5.0), ("input_slopes = false\n", 5.0 - 0.5 * 1e-3 * 100.0), ("input_slopes = true\n", 5.0)]
     {
@@ -282,14 +282,14 @@ fn a_speed_that_goes_on_straight_turns_the_carrier_by_its_integral() -> Result<(
 }
 
 #[test]
-fn a_choice_of_slopes_that_is_none_is_told_by_key_and_value() {
+fn an_invalid_choice_of_slopes_is_reported_by_key_and_value() {
     let problem =
         parsed(&format!("{FRAME}input_slopes = 1\n")).err().map(|error| format!("{error:#}")).unwrap_or_default();
     assert!(problem.contains("input_slopes = 1: must be true or false"), "{problem}");
 }
 
 #[test]
-fn under_input_ramps_a_change_is_spread_over_the_next_step_and_tables_keep_their_lines() -> Result<()> {
+fn with_input_ramps_a_change_is_spread_over_the_next_step_and_tables_stay_linear() -> Result<()> {
     // a table jumps by 2 rad/s at 20 ms, and rises by 1 rad/s from there to 30 ms
     let table = "[[table]]\ninput = \"spin.command\"\ntime = [0.0, 0.02, 0.02, 0.03]\nvalue = [0.0, 0.0, 2.0, 3.0]\n";
     for (ramps, turned) in [(true, 50.0 * 0.01 + 50.5 * 0.001 + 51.0 * 0.089), (false, 50.0 * 0.01 + 51.0 * 0.09)] {

@@ -1,4 +1,4 @@
-//! The scenes of the repository run, and errors in files are reported.
+//! The scenes of the repository run, and errors in scene files are reported.
 
 use std::path::Path;
 
@@ -9,9 +9,9 @@ use anyhow::Result;
 
 use crate::folder;
 
-/// Communication steps that every scene has to take here.
+/// Number of communication steps that every scene must complete here.
 const STEPS: f64 = 20.0;
-/// Energy residual over the energy that goes through; solvers run at their start tolerance.
+/// Maximum energy residual relative to the throughput, with the default tolerance of the solvers.
 const BALANCE: f64 = 1e-6;
 /// Energy below which a scene is at rest [J].
 const LEAST: f64 = 1e-6;
@@ -43,7 +43,7 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
 }
 
 #[test]
-fn the_study_is_the_study() -> Result<()> {
+fn the_studys_scene_reproduces_the_study() -> Result<()> {
     let turning = run(&find("study_turning", &folder())?, None, &mut Progress::silent())?;
     for (name, wanted) in [("left.speed", 1079f64), ("right.speed", 829.0), ("carrier.speed", 954.0)] {
         let mean = named(&turning, name).mean.to_degrees();
@@ -54,7 +54,7 @@ fn the_study_is_the_study() -> Result<()> {
 }
 
 #[test]
-fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
+fn the_clunk_peak_follows_from_the_two_inertias() -> Result<()> {
     let outcome = run(&find("clunk", &folder())?, None, &mut Progress::silent())?;
     let peak = named(&outcome, "left.shaft_torque").max + named(&outcome, "right.shaft_torque").max;
     println!("clunk: {peak} N.m");
@@ -64,7 +64,7 @@ fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
 }
 
 #[test]
-fn with_a_wheel_on_ice_speeds_part_by_torque_over_inertia() -> Result<()> {
+fn with_a_wheel_on_ice_speeds_separate_by_torque_over_inertia() -> Result<()> {
     let outcome = run(&find("one_wheel_on_ice", &folder())?, None, &mut Progress::silent())?;
     let difference = named(&outcome, "left.wheel_speed").end - named(&outcome, "right.wheel_speed").end;
     // 835 N·m for 0.2 s on a wheel of 1 kg·m²
@@ -73,10 +73,10 @@ fn with_a_wheel_on_ice_speeds_part_by_torque_over_inertia() -> Result<()> {
 }
 
 #[test]
-fn half_shafts_start_wound_up_by_what_accelerates_their_wheels() -> Result<()> {
+fn half_shafts_start_twisted_by_the_torque_that_accelerates_their_wheels() -> Result<()> {
     let scene = find("split_friction", &folder())?;
     let mut run = SceneRun::start(&scene, scene.step)?;
-    // carrier imposed: both wheels part with a = (T_R - T_L)/(J_L + J_R), but for the light gears
+    // carrier imposed: without the light gears, both wheels accelerate with a = (T_R - T_L)/(J_L + J_R)
     let ([left, right], [j_left, j_right]) = ([700.0, 835.0], [0.9, 1.1]);
     let wanted = left + j_left * (right - left) / (j_left + j_right);
     for torque in run.simulation.forces().shaft_torque {
@@ -100,7 +100,7 @@ fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
     let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().expect(name);
     let units = text.lines().find_map(|line| line.strip_prefix("# units: ")).expect("units");
     assert_eq!(units.split(',').count(), rows[0].len());
-    // both planets of the last instant carry the load: moments about the left side gear's axis
+    // both planets are loaded at the last instant: moments about the left side gear's axis
     let last = rows[rows.len() - 1][0];
     let torque: f64 = rows[1..]
         .iter()
@@ -134,7 +134,7 @@ fn wrong(rest: &str) -> String {
 }
 
 #[test]
-fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
+fn wrong_files_are_reported_with_key_value_unit_range_and_the_nearest_name() {
     let cases = [
         ("[set]\ngeometry.modul = 1.0", vec!["[set]", "geometry.modul", "did you mean geometry.module?"]),
         ("[set]\ngeometry.module = \"4.5 kg\"", vec!["geometry.module", "4.5 kg", "m, mm, um"]),
@@ -168,7 +168,7 @@ fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
             assert!(problem.contains(part), "\"{part}\" is not in: {problem}");
         }
     }
-    // all at once
+    // all problems together
     let both = wrong("[set]\ngeometry.modul = 1.0\neffects.backlash = 1");
     assert_eq!(both.lines().count(), 2, "{both}");
     let outputs = load::parse("test", Path::new("t"), &FRAME.replace("left.speed", "left.sped")).err().expect("wrong");
@@ -178,7 +178,7 @@ fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
 }
 
 #[test]
-fn contradictions_are_told_at_the_start_by_name() -> Result<()> {
+fn contradictions_are_reported_at_the_start_by_name() -> Result<()> {
     let scene = parsed("[set]\nscene.gear_contact = \"ideal\"\neffects.tooth_friction = true")?;
     let problem = SceneRun::start(&scene, scene.step).err().map(|error| format!("{error:#}")).expect("a contradiction");
     assert!(problem.contains("effects.tooth_friction"), "{problem}");
@@ -186,7 +186,7 @@ fn contradictions_are_told_at_the_start_by_name() -> Result<()> {
 }
 
 #[test]
-fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Result<()> {
+fn inputs_change_at_their_times_even_between_communication_points() -> Result<()> {
     let scene = parsed("[[at]]\ntime = 0.0105\ncarrier.speed_command = 40.0\n")?;
     let mut run = SceneRun::start(&scene, scene.step)?;
     let mut times = Vec::new();
@@ -201,7 +201,7 @@ fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Re
 }
 
 #[test]
-fn tables_go_straight_from_point_to_point_and_begin_anew() -> Result<()> {
+fn tables_are_linear_between_points_and_repeat() -> Result<()> {
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0.1, 0.3]\nvalue = [1.0, \"5 N.m\"]\n";
     let at = |input_table: &InputTable, time| (input_table.table.at(time) * 1e6).round() / 1e6;
     let scene = parsed(table)?;

@@ -1,12 +1,12 @@
-//! Suggestions for wrong names, as a drivetrain engineer might guess them.
+//! Suggestions for wrong names, with guesses that a drivetrain engineer might make.
 
 use answers::scene::set::{output, variable};
 use answers::text::near::near;
 use bevel_differential::variables::table;
 
-/// A guess, and what is suggested for it.
+/// Guesses with their suggestions.
 const GUESSES: [(&str, &[&str]); 52] = [
-    // the group is wrong, missing, or another word
+    // the group is wrong or missing, or another word is used
     ("planet.count", &["geometry.planet_count"]),
     ("gear.module", &["geometry.module"]),
     ("module", &["geometry.module"]),
@@ -27,7 +27,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("ring.teeth", &["final_drive.ring_teeth"]),
     ("loss.power", &["power.loss"]),
     ("lock.torqe", &["lock.torque"]),
-    // letters are wrong
+    // wrong letters
     ("carier.speed", &["carrier.speed"]),
     ("carrier.spede", &["carrier.speed"]),
     ("geometry.modul", &["geometry.module"]),
@@ -37,7 +37,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("carrier.tork", &["carrier.torque"]),
     ("geometry.backslash", &["geometry.backlash"]),
     ("efficency", &["efficiency"]),
-    // plural, another spelling, another order, other signs
+    // plural, other spelling, order or punctuation
     ("geometry.modules", &["geometry.module"]),
     ("geometry.planets_count", &["geometry.planet_count"]),
     ("effects.half_shafts", &["effects.half_shaft"]),
@@ -51,7 +51,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("geometry-face-width", &["geometry.face_width"]),
     ("bearing_drag.oillevel", &["bearing_drag.oil_level"]),
     ("torque", &["carrier.torque", "lock.torque", "spin.torque"]),
-    // too many are as near, or none is
+    // too many names are equally similar, or no name is
     ("planet.torque_capacity_of_gearbox", &[]),
     ("speed", &["carrier.speed", "left.speed", "right.speed"]),
     ("ratio", &[]),
@@ -65,7 +65,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
 ];
 
 #[test]
-fn a_wrong_name_suggests_what_was_meant() {
+fn a_wrong_name_suggests_the_intended_one() {
     let names: Vec<&str> = table().rows.iter().map(|row| row.name).collect();
     let mut wrong = Vec::new();
     for (guess, expected) in GUESSES {
@@ -95,7 +95,7 @@ fn every_variable_is_found_if_its_last_letter_is_missing_or_swapped() {
 }
 
 #[test]
-fn where_no_name_is_near_the_command_that_finds_it_is_named() {
+fn without_similar_names_the_command_that_finds_the_name_is_shown() {
     for (guess, command) in [
         ("axle.torque", "`bevel-differential variables torque` lists those that may be meant"),
         ("ratio", "`bevel-differential variables ratio` lists those that may be meant"),

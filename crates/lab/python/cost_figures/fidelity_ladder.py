@@ -1,4 +1,4 @@
-"""The picture of the error and the cost of each level of fidelity."""
+"""Picture of the error and the cost of each level of fidelity."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,11 +9,11 @@ from bevel_differential.readable import percent, ratio, with_unit, wrapped
 from bevel_differential.records import read
 
 SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
-# communication steps of 1 ms in the turn
+# number of communication steps of 1 ms in the turn
 TURN_STEPS = 360
 COLORS = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
 LIMITS = BoundaryNorm([0.0, 1e-3, 1e-2, 0.1, 0.5, 1e9], COLORS.N)
-# letters that can be read where a page shows the picture at two thirds of its size
+# font sizes that are readable on a page that shows the picture at two thirds of its size
 CELL, LABEL, TITLE = 15, 14, 16
 
 
@@ -43,7 +43,7 @@ def errors(axes, rows, rungs, title):
               for quantity in quantities] for rung in rungs[:-1]]
     last = [cell[rungs[-1], quantity] for quantity in quantities]
     texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1] for row in last])
-    # a failed run has no error: its cells take the colour of the largest errors
+    # a failed run has no error: its cells have the colour of the largest errors
     draw_cells(axes, np.where(np.isfinite(found), found, 1e8), texts, COLORS, LIMITS, lambda error: error < 1e-3 or error >= 0.5)
     axes.set_title(title, fontsize=TITLE, loc="left")
     axes.set_xticklabels([wrapped(quantity, 11) for quantity in quantities], fontsize=LABEL)
@@ -67,7 +67,7 @@ def costs(axes, rows):
 
 
 def draw_cells(axes, values, texts, colors, limits, is_dark, size=CELL):
-    """Draws `texts[i][j]` in a cell of the colour for `values[i, j]`; the text is white where `is_dark(value)`."""
+    """Draws `texts[i][j]` in a cell with the colour for `values[i, j]`; the text is white if `is_dark(value)`."""
     axes.imshow(np.where(np.isfinite(values), values, 0.0), cmap=colors, norm=limits, aspect="auto")
     for (i, j), value in np.ndenumerate(values):
         axes.text(j, i, texts[i][j], ha="center", va="center", fontsize=size, color="white" if is_dark(value) else style.INK)

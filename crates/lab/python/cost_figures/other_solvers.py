@@ -1,4 +1,4 @@
-"""Figure of error against time: this program's default method and solvers of others, on the same equations."""
+"""Figure of error against time: this program's default method and solvers by other authors, on the same equations."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -49,9 +49,9 @@ def other_solvers(folder):
 
 
 def by_case(rows):
-    """Rows by case and solver, each with its time over that of this program's default at 1e-6.
+    """Rows by case and solver, each with its time divided by that of this program's default at 1e-6.
 
-    A solver is named by the part before the comma. Of several variants of a solver the first one stays."""
+    A solver is named by the part before the comma. Only the first of several variants of a solver is kept."""
     found = {}
     for row in rows:
         if row["status"] in (0.0, "ok"):

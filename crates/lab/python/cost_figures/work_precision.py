@@ -1,4 +1,4 @@
-"""Figures of error against time and against counts that hold on any machine, by method, motion and level of gear contact."""
+"""Figures of error against time and against machine-independent counts, by method, motion and level of gear contact."""
 
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -16,7 +16,7 @@ MOTIONS = {"turn": "Turn: one tooth, 0.18 s", "blow": "Turn from mid-gap: teeth\
            "clunk": "Clunk: lash crossed,\nshafts wind up, 20 ms"}
 FIDELITIES = {"ideal": "ideal: no teeth", "lumped": "lumped: spring per mesh",
               "impact": "tooth pairs, law impact", "line": "tooth pairs, law line"}
-# smaller errors are rounding and are drawn at this value
+# smaller errors are rounding errors and are drawn at this value
 FLOOR = 1.5e-13
 HEIGHT = 10.6
 
@@ -83,7 +83,7 @@ def counts(folder):
 def panels():
     """Axes by motion (rows) and level of gear contact (columns).
 
-    Ideal gears have axes for the clunk alone, because nothing is integrated in their turns. The legend fills the free place."""
+    Ideal gears have axes only for the clunk, because nothing is integrated in their turns. The legend fills the free space."""
     figure = style.figure(HEIGHT)
     spec = figure.add_gridspec(3, 4)
     grid, first = [[None] * 4 for _ in range(3)], None

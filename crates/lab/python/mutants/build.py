@@ -1,4 +1,4 @@
-"""Builds all changes into one copy of the source, each asleep until it is chosen."""
+"""Builds all changes into one copy of the source. Each is inactive until it is selected."""
 
 import json
 import os
@@ -10,7 +10,7 @@ from io import BytesIO
 
 from changes import build_in
 
-# in place of a change's number: those that a run reaches are written to a file
+# special number instead of that of a change: changes that a run reaches are written to a file
 WATCH = 4096
 SWITCH = f'''//! Which change acts, and which ones a test reaches.
 use std::io::Write;
@@ -18,7 +18,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{{AtomicBool, Ordering}};
 static CHOSEN: OnceLock<u32> = OnceLock::new();
 static REACHED: [AtomicBool; {WATCH}] = [const {{ AtomicBool::new(false) }}; {WATCH}];
-/// Whether change `k` acts.
+/// True if change `k` is active.
 #[inline]
 pub fn on(k: u32) -> bool {{
     let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
@@ -39,8 +39,8 @@ fn reach(k: u32) {{
 
 
 def built(repository, folder, draw, command):
-    """The changes that `draw(source, refused)` draws, and cargo's messages about what `command` builds with all of them in. What the
-    compiler refuses is replaced by other changes."""
+    """Returns the changes drawn by `draw(source, refused)`, and cargo's messages about `command` with all of them. Changes that do not compile
+    are replaced by others."""
     source, refused = folder / "source", set()
     for _ in range(20):
         shutil.rmtree(source, ignore_errors=True)
@@ -59,11 +59,11 @@ def built(repository, folder, draw, command):
         if not wrong:
             raise SystemExit(f"the source does not compile: {errors[:3]}")
         refused |= wrong
-    raise SystemExit("too many changes are no programs")
+    raise SystemExit("too many changes do not compile")
 
 
 def _compiled(source, folder, command):
-    """Places of errors (file, begin, end), and all messages."""
+    """Positions of errors (file, begin, end), and all messages."""
     settings = {"CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "16", "RUSTFLAGS": "-Aunused -Anonstandard_style"}
     words = [*command, "--release", "-p", "bevel-differential", "--message-format", "json", "--target-dir", str(folder.resolve() / "build")]
     done = subprocess.run(words, cwd=source, env={**os.environ, **settings}, capture_output=True, text=True)

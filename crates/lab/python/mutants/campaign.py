@@ -1,9 +1,9 @@
-"""Tries changes of the source against what should notice them: all in one build, each woken by an environment variable.
+"""Tests if changes of the source are noticed: all are in one build, and an environment variable activates one of them.
 
-usage: campaign.py REPOSITORY FOLDER COUNT SEED        changes of all kinds, held to the tests
-       campaign.py REPOSITORY FOLDER COUNT SEED FMU    coefficients that are 2 % larger, held to the evidence of the FMU by `verify`
+usage: campaign.py REPOSITORY FOLDER COUNT SEED        changes of all kinds, tested by the test programs
+       campaign.py REPOSITORY FOLDER COUNT SEED FMU    coefficients that are 2 % larger, tested by `verify` with the evidence of the FMU
 
-Results are in FOLDER, where a run that was stopped goes on. Prints the report as Markdown."""
+FOLDER contains the results, and an interrupted run continues there. Prints the report as Markdown."""
 
 import json
 import os
@@ -52,7 +52,7 @@ def main():
 
 
 def known(folder):
-    """Outcomes of a run that was stopped."""
+    """Outcomes of an interrupted run."""
     file = folder / "outcomes.jsonl"
     lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
     return {entry.pop("key"): entry for entry in map(json.loads, lines)}

@@ -1,5 +1,5 @@
-"""Possible changes of the source, each an expression that becomes another one; and the source with some of them built in, each
-asleep until it is chosen."""
+"""Possible changes of the source, in which one expression replaces another, and the source with several of them built in, each inactive
+until it is selected."""
 
 import random
 from dataclasses import dataclass
@@ -11,9 +11,9 @@ from tree_sitter import Language, Node, Parser
 BINARY = {"+": "-", "-": "+", "*": "/", "/": "*", "<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "!=", "!=": "==", "&&": "||",
           "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
 NAMES = {"min": "max", "max": "min", "sin": "cos", "cos": "sin"}
-# a literal becomes so much larger
+# factor by which a literal is enlarged
 LARGER = 1.2
-# nothing within is calculated by a running program, or stands where an expression with a branch cannot
+# nodes that are not calculated at run time, or in which an expression with a branch is not allowed
 CLOSED = {"const_item", "static_item", "attribute_item", "inner_attribute_item", "macro_invocation", "macro_definition", "array_type",
           "type_arguments", "const_block", "match_pattern", "range_pattern", "tuple_struct_pattern", "or_pattern", "const_parameter",
           "enum_variant", "let_chain"}
@@ -21,7 +21,7 @@ CLOSED = {"const_item", "static_item", "attribute_item", "inner_attribute_item",
 
 @dataclass(frozen=True)
 class Change:
-    """A change: bytes `begin` to `end` of `file` become `after`; `before` is what stands there, `line` where (1, 2, …)."""
+    """A change: bytes `begin` to `end` of `file` become `after`; `before` is their present text, `line` their line number from 1."""
 
     file: str
     begin: int
@@ -32,19 +32,19 @@ class Change:
 
     @property
     def name(self) -> str:
-        """The change in words, the same when lines move."""
+        """Description of the change, independent of line numbers."""
         return f"{' '.join(self.before.split())} → {' '.join(self.after.split())}"
 
     @property
     def module(self) -> str:
-        """The folder of the file, of the model the folder within."""
+        """Folder of the file; in the model, the folder within it."""
         parts = self.file.split("/")
         return "/".join(parts[:3 if parts[1] == "model" else 2])
 
 
 def drawn(root: Path, modules: list[str], count: int, seed: int, without: set[Change] = frozenset(), kind=None) -> list[Change]:
-    """`count` changes of the files in `modules`, drawn by a seed; none within another, none of `without`. `kind`: all
-    changes of a file, those of `possible` if it is not given."""
+    """Draws `count` changes of the files in `modules` by a seed, without overlaps and without those in `without`. `kind` returns all
+    changes of a file; `possible` is the default."""
     files = sorted(file.relative_to(root).as_posix() for module in modules for file in (root / module).rglob("*.rs")
                    if not file.stem.endswith("tests") and "tests" not in file.parts)
     everything = [change for file in files for change in (kind or possible)(root, file)]
@@ -58,7 +58,7 @@ def drawn(root: Path, modules: list[str], count: int, seed: int, without: set[Ch
 
 
 def possible(root: Path, file: str) -> list[Change]:
-    """All changes of a file but for its tests."""
+    """All changes of a file except those in its tests."""
     text = (root / file).read_bytes()
     found: list[Change] = []
     _walk(tree(text), text, file, found)
@@ -66,7 +66,7 @@ def possible(root: Path, file: str) -> list[Change]:
 
 
 def tree(text: bytes) -> Node:
-    """The syntax of a source text."""
+    """Syntax tree of a source text."""
     return Parser(Language(tree_sitter_rust.language())).parse(text).root_node
 
 
@@ -82,7 +82,7 @@ def _walk(node, text, file, found):
 
 
 def _changed(node, text):
-    """What an expression becomes; None if it is none of those that change."""
+    """Replacement of an expression, or None if the expression is not changed."""
     def piece(begin, end):
         return text[begin:end].decode()
 
@@ -114,8 +114,8 @@ def is_tests(node, text):
 
 
 def build_in(root: Path, changes: list[Change]) -> dict[str, list[tuple[int, int, Change]]]:
-    """Writes the changes into the files under `root`; number k, from 1 on, acts where `MUTANT=k`. Returns by file which bytes of what
-    was written belong to which change."""
+    """Writes the changes into the files under `root`; number k, counted from 1, is active if `MUTANT=k`. Returns by file the written byte
+    ranges with their changes."""
     places: dict[str, list[tuple[int, int, Change]]] = {}
     for file in {change.file for change in changes}:
         text, out, at = (root / file).read_bytes(), b"", 0

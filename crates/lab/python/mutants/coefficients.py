@@ -1,9 +1,9 @@
-"""Coefficients of the physics, each of which a change makes 2 % larger.
+"""Coefficients of the physics; each change makes one of them 2 % larger.
 
-A coefficient is a decimal number of a formula: one that is added, subtracted, multiplied or divided, the exponent of a power, or a
-constant of `CONSTANTS`. None are 0.5, 1 and 2, which are algebra, and powers of ten, which are units or tolerances. None are limits,
-which are compared, or arguments of min, max and clamp, or bounds of a range; start values and ranges of parameters, which a
-scene sets; what messages say; the mathematics in `METHODS`."""
+A coefficient is a decimal number of a formula: a summand, a factor or divisor, the exponent of a power, or a constant of `CONSTANTS`.
+The numbers 0.5, 1 and 2 are excluded because they are algebra, and powers of ten because they are units or tolerances. Also excluded
+are limits in comparisons, arguments of min, max and clamp, bounds of ranges, start values and ranges of parameters (which a scene
+sets), numbers in messages, and the mathematics in `METHODS`."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ ARITHMETIC, COMPARISON = {"+", "-", "*", "/"}, {"<", "<=", ">", ">=", "==", "!="
 
 
 def opened(root: Path) -> None:
-    """Makes functions of `CONSTANTS`, so that a running program can choose their values."""
+    """Turns `CONSTANTS` into functions, so that a running program can choose their values."""
     for file, names in CONSTANTS.items():
         text = (root / file).read_bytes()
         edits = []
@@ -50,7 +50,7 @@ def _open(node, text, names, edits):
 
 
 def coefficients(root: Path, file: str) -> list[Change]:
-    """The changes of a file whose constants are open."""
+    """Changes of a file whose constants are functions."""
     found: list[Change] = []
     if Path(file).name not in METHODS:
         text = (root / file).read_bytes()
@@ -59,7 +59,7 @@ def coefficients(root: Path, file: str) -> list[Change]:
 
 
 def _walk(node, text, file, inside, found):
-    """`inside`: whether the node is a part of a formula."""
+    """Collects changes below a node; `inside` is True if the node is part of a formula."""
     if node.type in CLOSED or node.type == "range_expression" or is_const(node, text) or is_tests(node, text):
         return
     if node.type == "function_item":

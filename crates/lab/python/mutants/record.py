@@ -1,4 +1,4 @@
-"""Digests of all outputs over each scene of an FMU's evidence: equal ones mean equal bits.
+"""Digests of all outputs of each scene of an FMU's evidence: equal digests mean equal bits.
 
 usage: record.py FMU"""
 

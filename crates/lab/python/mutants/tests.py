@@ -1,4 +1,4 @@
-"""Changes held to the tests: which tests each reaches, and which of them notice it."""
+"""Tests as judges of changes: the tests that reach each change, and those that notice it."""
 
 import hashlib
 import html
@@ -15,14 +15,14 @@ from changes import possible
 
 MODULES = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
 PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
-# a test that takes so many times as long as without a change, and so many seconds more, does not come to its end
+# a test that exceeds its time without a change by this factor plus this number of seconds counts as endless
 PATIENCE, GRACE = 5.0, 10.0
-# tests that take longer without a change [s] try none: they ask which settings act at all, not how much
+# tests that take longer without a change [s] are not used: they check which settings have any effect, not how much
 LONGEST = 300.0
 
 
 class Tests:
-    """Judge of changes of all kinds: the test programs of the library, run until one notices the change."""
+    """Judge of changes of all kinds: runs the test programs of the library until one notices the change."""
 
     modules, changes_of = MODULES, staticmethod(possible)
     build = ["cargo", "test", "--no-run", *(word for name in PROGRAMS for word in ("--test", name))]
@@ -34,7 +34,7 @@ class Tests:
 
     @staticmethod
     def prepare(_source):
-        """All changes are built into the source as it is."""
+        """Leaves the source unchanged, because all changes are built into it directly."""
 
     def fate(self, number):
         """Fate of a change, and the test that noticed it."""
@@ -65,7 +65,7 @@ class Tests:
 
 
 def watched(programs, folder, count):
-    """Each test without a change: its seconds, and which changes it reaches."""
+    """Each test without a change: its seconds, and the changes that it reaches."""
     store = folder / "tests.json"
     names = [(program, line.removesuffix(": test")) for program, path in programs.items()
              for line in subprocess.run([path, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()
@@ -81,10 +81,10 @@ def watched(programs, folder, count):
         file.unlink(missing_ok=True)
         fate, seconds = trial(programs[program], name, WATCH, None, folder, {"MUTANTS_REACHED": str(file)})
         reached = [int(line) for line in file.read_text().split()] if file.is_file() else []
-        if fate != "survived":  # as a test that counts allocations, and so counts those of being watched
+        if fate != "survived":  # such as a test that counts allocations, and also counts those of the observation
             reached = list(range(1, count + 1))
             fate, seconds = trial(programs[program], name, 0, None, folder)
-        if fate != "survived":  # as a test of a small stack, whose frames hold all changes
+        if fate != "survived":  # such as a test of a small stack, whose frames contain all changes
             print(f"progress 0.0 left out, as it fails without any change: {name} of {program}", file=sys.stderr, flush=True)
             return None
         file.unlink(missing_ok=True)
@@ -101,13 +101,13 @@ def watched(programs, folder, count):
 
 
 def programs_of(messages):
-    """The test programs by name."""
+    """Test programs by name."""
     found = {message["target"]["name"]: message["executable"] for message in messages if message.get("executable")}
     return {name: found[name] for name in PROGRAMS if name in found}
 
 
 def trial(program, test, number, patience, folder, more={}):
-    """Fate of a change in a test, and the seconds that the test took."""
+    """Fate of a change in a test, and the duration of the test in seconds."""
     begin = time.monotonic()
     surroundings = {**os.environ, "MUTANT": str(number), "RUST_BACKTRACE": "0", **more}
     try:

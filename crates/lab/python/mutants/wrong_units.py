@@ -1,4 +1,4 @@
-"""Units with a wrong coefficient, held to the evidence that they carry by `bevel-differential verify`."""
+"""Units with a wrong coefficient, checked against their own evidence by `bevel-differential verify`."""
 
 import csv
 import json
@@ -14,7 +14,7 @@ HEAD = ("coefficient", "value", "noticed", "scene", "variable", "time_s", "off_b
 
 
 class WrongUnits:
-    """Judge of coefficients: `verify` on the unit with one of them wrong."""
+    """Judge of coefficients: runs `verify` on the unit with one wrong coefficient."""
 
     modules, changes_of, prepare = MODULES, staticmethod(coefficients), staticmethod(opened)
     build = ["cargo", "build", "--lib"]
@@ -27,7 +27,7 @@ class WrongUnits:
         self.bits = digests(self.unit, 0)
 
     def fate(self, number):
-        """Fate of a change with its worst row, and what has other bits if no row fails."""
+        """Fate of a change with its worst row, and the scenes with different bits if no row fails."""
         rows = verified(self.unit, number, self.folder)
         wrong = [row for row in rows if row["verdict"] != "passed"]
         worst = max(wrong or rows, key=ratio_of)
@@ -35,7 +35,7 @@ class WrongUnits:
         return {"fate": "noticed" if wrong else "not noticed", "worst": worst, "differ": differ}
 
     def report(self, changes, fates, seed, said):
-        """The table of coefficients, which is also written as coefficients.csv."""
+        """Table of coefficients, which is also written as coefficients.csv."""
         rows = [row_of(change, fate["worst"], fate["differ"], said) for change, fate in zip(changes, fates)]
         with (self.folder / "coefficients.csv").open("w", encoding="utf-8", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
@@ -46,14 +46,14 @@ class WrongUnits:
 
 
 def library_of(messages):
-    """The dynamic library that was built."""
+    """Dynamic library that was built."""
     files = [name for message in messages if message.get("reason") == "compiler-artifact" and message["target"]["name"] == "bevel_differential"
              for name in message["filenames"]]
     return Path(next(name for name in files if name.endswith((".so", ".dylib", ".dll"))))
 
 
 def packed(fmu, library, file):
-    """An FMU with this library in the place of its own."""
+    """Writes a copy of an FMU with this library instead of its own, and returns the copy's path."""
     with zipfile.ZipFile(fmu) as given, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as made:
         for name in given.namelist():
             own = name.startswith("binaries/") and name.endswith(library.suffix)
@@ -62,7 +62,7 @@ def packed(fmu, library, file):
 
 
 def verified(unit, number, folder):
-    """Rows of the table that `verify` writes with a change awake: one for each variable of each scene."""
+    """Rows of the table that `verify` writes with an active change: one for each variable of each scene."""
     table = folder / f"verify{number}.csv"
     done = subprocess.run([sys.executable, "-m", "bevel_differential", "verify", str(unit), "--csv", str(table)], capture_output=True, text=True,
                           env=awake(number))
@@ -81,22 +81,22 @@ def digests(unit, number):
 
 
 def awake(number):
-    """The environment that wakes a change."""
+    """Environment that activates a change."""
     return {**os.environ, "MUTANT": str(number)}
 
 
 def ratio_of(row):
-    """The deviation divided by the tolerance; 0 of a scene that cannot be compared."""
+    """Deviation divided by the tolerance; 0 for a scene that cannot be compared."""
     return deviation_of(row) / float(row["tolerance"]) if row["value"] else 0.0
 
 
 def deviation_of(row):
-    """The deviation of a variable."""
+    """Deviation of a variable."""
     return abs(float(row["value"]) - float(row["expected"]))
 
 
 def row_of(change, worst, differ, said):
-    """A line of the table. `differ`: scenes whose bits differ if none fails; `said`: why some are not noticed."""
+    """Line of the table. `differ`: scenes whose bits differ if none fails; `said`: explanations of coefficients that are not noticed."""
     begin = [f"{change.file}:{change.line}", change.before, "yes" if differ is None else "no"]
     why = next((each["why"] for each in said if (each["file"], each["value"]) == (change.file, change.before)), "not explained")
     if differ == []:

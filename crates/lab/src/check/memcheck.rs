@@ -1,4 +1,5 @@
-//! Memory errors and leaks: hosts in C that run whole lives of instances, and calls at random, under memcheck.
+//! Check for memory errors and leaks: hosts in C that use instances from creation to end, and random calls, run under
+//! memcheck.
 
 use std::env;
 use std::ffi::OsString;
@@ -19,7 +20,7 @@ use fmu_build::tools::paths;
 use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
-/// Calls at random, half of them of each version of FMI.
+/// Number of random calls, half of them for each version of FMI.
 const CALLS: usize = 20 * fuzz::CALLS;
 
 /// Value reference of `name`, as an argument.
@@ -27,7 +28,7 @@ pub fn reference(name: &str) -> Result<OsString> {
     index_of(name).map(|i| i.to_string().into()).with_context(|| format!("there is no variable {name}"))
 }
 
-/// A program on the library, as the hosts in C take it: library, GUID, references of an input and of an output.
+/// Arguments of the hosts in C: library, GUID, value references of an input and of an output.
 pub fn arguments(library: &Path) -> Result<Vec<OsString>> {
     Ok(vec![library.into(), guid().into(), reference("left.load_torque")?, reference("left.speed")?])
 }
@@ -36,7 +37,7 @@ pub fn arguments(library: &Path) -> Result<Vec<OsString>> {
 pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
     let folder = paths::target().join("memory");
     paths::create_folder(&folder)?;
-    // tests compile at the same time: none runs what another is writing
+    // tests compile concurrently: each uses a separate file
     let program = folder.join(format!("{name}-{}", std::process::id()));
     let output = Command::new("cc")
         .args(["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror"])
@@ -54,13 +55,13 @@ pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
 /// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
 #[derive(Args, Clone, Debug)]
 pub struct MemcheckCommand {
-    /// Questions at random
+    /// Number of random questions
     #[arg(long, default_value_t = 200)]
     questions: usize,
 }
 
 impl MemcheckCommand {
-    /// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
+    /// Runs everything under memcheck and prints a table. Fails if there is an error or a leak.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("building the library and the host");
         let life = compiled("life", &[])?;
@@ -84,7 +85,7 @@ impl MemcheckCommand {
     }
 }
 
-/// A program under memcheck: a row of the table.
+/// Runs a program under memcheck and returns its row of the table.
 fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[String; 5]> {
     let start = Instant::now();
     let output = Command::new("valgrind")
@@ -92,7 +93,7 @@ fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[Strin
         .args(["--show-leak-kinds=definite,indirect,possible", "--num-callers=30"])
         .arg(path)
         .args(arguments)
-        // valgrind may not know all instructions on wider vectors
+        // valgrind may not support all instructions on wider vectors
         .env(lanes::VARIABLE, "narrow")
         .output()
         .context("valgrind checks the memory: install it (apt-get install valgrind)")?;
@@ -107,7 +108,7 @@ fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[Strin
     Ok([program, "memcheck", errors, lost, &seconds].map(str::to_owned))
 }
 
-/// Text of `said` between two others.
+/// Text of `said` between the texts `before` and `after`.
 fn between<'a>(said: &'a str, before: &str, after: &str) -> Option<&'a str> {
     said.split_once(before)?.1.split_once(after).map(|(text, _)| text)
 }

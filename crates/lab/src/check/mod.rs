@@ -1,6 +1,6 @@
-//! Commands that fail if the library breaks a promise: about calls, ordinary drives, memory, effects that are off, steps in real
-//! time, other hosts and platforms, compilers of C, browsers, machines without Rust. Two more look for changes of the source that
-//! no test notices, and for wrong coefficients that the evidence does not show.
+//! Commands that fail if the library breaks a promise. They check calls, ordinary drives, memory, inactive effects,
+//! real-time steps, other hosts and platforms, C compilers, browsers, and machines without Rust. Two more commands look
+//! for source changes that no test notices, and for wrong coefficients that the evidence does not reveal.
 
 pub mod fuzz;
 pub mod memcheck;
@@ -13,7 +13,7 @@ mod sources;
 
 use crate::tools::command::Command;
 
-/// The commands that check.
+/// Commands that check.
 pub fn commands() -> Vec<Command> {
     vec![
         Command::of("test-python", python_tests::TestPythonCommand::run),

@@ -1,5 +1,5 @@
-//! The page in a browser: Chromium runs it as a reader does. Its results are compared with those of node and of the
-//! native FMU.
+//! Test of the page in a browser: Chromium runs it as a reader does. Its results are compared with those of node and of
+//! the native FMU.
 
 use std::env;
 use std::ffi::OsStr;
@@ -19,9 +19,9 @@ use fmu_build::tools::paths;
 use fmu_build::tools::program::Finding;
 use fmu_build::tools::progress::Progress;
 
-/// Names a Chromium that is not on the search path.
+/// Environment variable for a Chromium that is not on the search path.
 const CHROME: &str = "CHROME";
-/// The folder of the tests, the name of their environment, and its packages.
+/// Folder of the tests, name of their Python environment, and its packages.
 const ENVIRONMENT: [&str; 3] = ["tests/browser", "browser", "playwright, pytest, fmpy, numpy"];
 
 /// Opens the page in Chromium and checks it there: scenes, controls, messages, links, pictures, the bits of the native FMU
@@ -81,7 +81,7 @@ impl TestPageCommand {
     }
 }
 
-/// The file of Chromium.
+/// Finds the file of Chromium.
 fn chromium() -> Result<PathBuf> {
     if let Some(named) = env::var_os(CHROME).filter(|named| !named.is_empty()) {
         let shown = Path::new(&named).display().to_string();
@@ -92,7 +92,7 @@ fn chromium() -> Result<PathBuf> {
         .with_context(|| format!("Chromium is not installed: apt install chromium, or name one by {CHROME}"))
 }
 
-/// The file of a program that runs, on the search path unless `name` is a path.
+/// Finds the file of a runnable program, on the search path unless `name` is a path.
 fn program_file(name: &OsStr) -> Option<PathBuf> {
     let folders = env::var_os("PATH").unwrap_or_default();
     let named = Path::new(name);
@@ -108,7 +108,7 @@ fn runs(program: &Path) -> bool {
     status.is_ok_and(|status| status.success())
 }
 
-/// What was checked, from the file of the tests.
+/// Table of the completed checks, from the file written by the tests.
 fn table(file: &Path) -> Result<Table> {
     let text = fs::read(file).with_context(|| format!("{} cannot be read", paths::shown(file)))?;
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&text[..]);

@@ -1,4 +1,4 @@
-//! The FMUs that the command `platforms` compares, one for each library, and the programs that run them.
+//! FMUs that the command `platforms` compares, one for each library, and the programs that run them.
 
 use std::ffi::OsString;
 
@@ -31,7 +31,7 @@ pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsStri
     for library in built {
         let version =
             if library.platform == "linux64" { format!(", glibc {}", toolchains::GLIBC) } else { String::new() };
-        // without qemu the library for ARM cannot run here
+        // the library for ARM can run here only under qemu
         if library.platform != "aarch64-linux" || ARM.found().is_some() {
             named.push((format!("{}{version}", library.platform), library));
         }

@@ -1,4 +1,4 @@
-//! The Python tests, run on the packaged FMU.
+//! Python tests on the packaged FMU.
 
 use std::env;
 use std::ffi::OsString;
@@ -14,7 +14,7 @@ use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python;
 use fmu_build::tools::python::Environment;
 
-/// The program of users.
+/// Program for users.
 const PROGRAM: &str = "fmu-build";
 
 /// Packages the FMU and runs the Python tests on it
@@ -42,7 +42,7 @@ impl TestPythonCommand {
     }
 }
 
-/// The program that users call, which the tests call, too; built as by the first command.
+/// Builds the program for users with the profile of the user's first command. The tests call it.
 fn program() -> Result<PathBuf> {
     let target = paths::target();
     let mut cargo = Command::new(libraries::cargo());

@@ -1,5 +1,5 @@
-//! Questions at random to the library of answers, through its C interface and from several threads at once: each gets an answer,
-//! or a problem by name.
+//! Random questions to the library of answers, through its C interface and from several threads at the same time. Each
+//! must get an answer or a problem.
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -19,13 +19,13 @@ use serde_json::{Map, Value, json};
 
 use crate::tools::random::Draws;
 
-/// Whoever waits loses patience after so long.
+/// Time after which the caller stops the work.
 const PATIENCE: Duration = Duration::from_millis(20);
-/// Numbers and texts that nobody should give.
+/// Absurd numbers and texts.
 const ODD: [&str; 14] =
     ["0", "-1", "1e308", "-1e-320", "1e999", "nan", "inf", "", "°", "4.5 mm", "3 kg", "true", "line_weber", "a\u{0}b"];
 
-/// Questions, each with what belongs to it.
+/// Kinds of questions, each with its keys.
 const KINDS: [(&str, &[&str]); 12] = [
     ("scenes", &["scenes"]),
     ("scene", &["of"]),
@@ -41,21 +41,21 @@ const KINDS: [(&str, &[&str]); 12] = [
     ("weather", &["results"]),
 ];
 
-/// Asks the library of answers questions at random, from several threads at once
+/// Asks the library of answers random questions, from several threads at the same time
 #[derive(Args, Clone, Debug)]
 pub struct QuestionsCommand {
-    /// How many
+    /// Number of questions
     #[arg(long, default_value_t = 100_000)]
     count: usize,
-    /// Threads
+    /// Number of threads
     #[arg(long, default_value_t = 8)]
     threads: usize,
-    /// Of the random numbers
+    /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
 
-/// How questions went: counts by kind, the longest, and what must not be.
+/// Statistics of the questions: counts by kind, the longest, and findings.
 #[derive(Default)]
 struct Tally {
     kinds: BTreeMap<String, usize>,
@@ -64,11 +64,11 @@ struct Tally {
 }
 
 impl QuestionsCommand {
-    /// Asks, and prints a table of the replies; fails if one is none.
+    /// Asks the questions and prints a table of the replies. Fails if a reply is invalid.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("asking");
         let share = self.count.div_ceil(self.threads.max(1));
-        // not scoped: a main thread with a handle of its own is taken for a leak by memcheck
+        // not scoped, because memcheck would report the handle of a scoped main thread as a leak
         let spawned = |thread: usize| {
             let seed = self.seed.wrapping_add(thread as u64);
             thread::spawn(move || asked(share, seed))
@@ -114,7 +114,7 @@ fn asked(count: usize, seed: u64) -> Tally {
     tally
 }
 
-/// What a reply is; none if it is no reply, or tells no problem.
+/// Kind of a reply; none if the reply is invalid or contains no problem.
 fn kind(reply: &str) -> Option<String> {
     let value: Value = serde_json::from_str(reply).ok()?;
     if value.get("answer").is_some_and(Value::is_object) {
@@ -126,7 +126,7 @@ fn kind(reply: &str) -> Option<String> {
     value["kind"].as_str().filter(|_| have_messages).map(str::to_owned)
 }
 
-/// A question, some of them broken.
+/// Text of a question, sometimes corrupted.
 fn text(random: &mut Rng) -> String {
     let mut text = question(random).to_string().into_bytes();
     if random.chance(5) {
@@ -149,7 +149,7 @@ fn question(random: &mut Rng) -> Value {
     let (kind, keys) = random.pick(&KINDS);
     let mut question = Map::new();
     question.insert("ask".into(), json!(kind));
-    // mostly; and below what does not belong to it
+    // most of the valid keys, and below some that do not belong to the question
     for key in keys {
         if !random.chance(12) {
             let name = if *key == "ofs" { "of" } else { *key };
@@ -187,7 +187,7 @@ fn value(key: &str, random: &mut Rng) -> Value {
     }
 }
 
-/// A scene: mostly one that exists, with changes.
+/// Draws a scene: mostly an existing one, with changes.
 fn source(random: &mut Rng) -> Value {
     let names = ["clunk", "hil", "limited_slip", "locked", "rattle", "split_friction", "study_turning", "torque_bias"];
     let name = if random.chance(10) { random.pick(&ODD) } else { random.pick(&names) };
@@ -236,13 +236,13 @@ fn anything(random: &mut Rng) -> Value {
     }
 }
 
-/// Numbers that come beside a question.
+/// Draws the numbers that belong to a question.
 fn numbers(random: &mut Rng) -> Vec<f64> {
     let odd = [0.0, 1.0, 2.0, -1.0, 1e308, f64::NAN, f64::INFINITY];
     (0..random.below(13)).map(|i| if random.chance(4) { random.pick(&odd) } else { i as f64 }).collect()
 }
 
-/// The beginning of a text.
+/// Start of a text.
 fn cut(text: &str) -> String {
     text.chars().take(400).collect()
 }

@@ -1,4 +1,4 @@
-//! The commands that check by scripts of crates/lab/python.
+//! Commands that run the checking scripts of crates/lab/python.
 
 use std::ffi::OsString;
 use std::fs;
@@ -14,7 +14,7 @@ use fmu_build::tools::progress::Progress;
 use super::{platforms, sources};
 use crate::tools::script::{DEFAULTS, Given, Needs, Script, flag, number};
 
-/// The wheel on a machine without Rust.
+/// Test of the wheel on a machine without Rust.
 pub const WHEEL: Script = Script {
     name: "test-wheel",
     about: "Installs the wheel in a fresh environment without Rust, and checks it there: examples, bits against fmpy, a sweep",
@@ -23,7 +23,7 @@ pub const WHEEL: Script = Script {
         vec![Arg::new("wheel").value_name("WHEEL").help(help).value_parser(value_parser!(PathBuf))]
     },
     file: "crates/lab/python/wheel.py",
-    doing: "making a fresh Python environment",
+    doing: "creating a new Python environment",
     given: &[Given::Made(wheel), Given::Target("wheel")],
     ..DEFAULTS
 };
@@ -42,7 +42,7 @@ fn wheel(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
     Ok(vec![found.into()])
 }
 
-/// The wheel built last: names differ by platforms.
+/// Newest wheel in the folder, because names differ between platforms.
 fn newest(folder: &Path, begin: &str) -> Option<PathBuf> {
     let files = fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
     let wheels = files.filter(|file| {
@@ -52,10 +52,10 @@ fn newest(folder: &Path, begin: &str) -> Option<PathBuf> {
     wheels.max_by_key(|file| fs::metadata(file).and_then(|metadata| metadata.modified()).ok())
 }
 
-/// Effects that are off, in bits and in instructions that valgrind counts.
+/// Cost of inactive effects: bits, and instructions counted by valgrind.
 pub const ZERO_COST: Script = Script {
     name: "zero-cost",
-    about: "Checks that effects that are off cost nothing, by bits and instructions of a build without any (needs valgrind)",
+    about: "Checks that inactive effects cost nothing, compared with a build without effects in bits and instructions (needs valgrind)",
     options: || {
         vec![
             flag("quick", "Leave out what each effect costs when it is on").conflicts_with("write"),
@@ -68,14 +68,14 @@ pub const ZERO_COST: Script = Script {
     sections: &[("docs/inside/cost.md", "off", "")],
     ..DEFAULTS
 };
-/// The folder in which both build the program that steps.
+/// Folder in which both commands build the stepping program.
 const BUILD: &str = "off";
 
 fn effects_on(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
     Ok(EFFECTS.iter().filter(|_| !options.get_flag("quick")).map(|effect| effect.name.into()).collect())
 }
 
-/// The steps of the fixed-step method, in instructions.
+/// Cost of the steps of the fixed-step method, in instructions.
 pub const REAL_TIME: Script = Script {
     name: "real-time",
     about: "Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)",
@@ -92,12 +92,12 @@ pub const REAL_TIME: Script = Script {
     ..DEFAULTS
 };
 
-/// The unit as sources in C: bits, warnings, calls of the C library, time to compile, traps.
+/// Check of the unit as sources in C: bits, warnings, calls of the C library, time to compile, traps.
 pub const SOURCES: Script = Script {
     name: "sources",
-    about: "Checks that the unit as sources in C gives the same bits by several compilers, on x86-64 and on ARM under qemu",
+    about: "Checks that the unit as sources in C gives the same bits with several compilers, on x86-64 and on ARM under qemu",
     more: Some(
-        "It takes the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
+        "It needs the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
          libc6-dev-arm64-cross qemu-user. What is not there is left out.",
     ),
     options: || {
@@ -115,15 +115,15 @@ pub const SOURCES: Script = Script {
     ..DEFAULTS
 };
 
-/// Changes of the source that no test notices: drawn by a seed from the modules with the physics, built in at once,
-/// tried one by one.
+/// Search for source changes that no test notices. The changes are drawn by a seed from the modules with the physics,
+/// compiled together, and tested one by one.
 pub const MUTANTS: Script = Script {
     name: "mutants",
-    about: "Changes the source in one place at a time and lists the changes that no test notices (goes on where it was stopped)",
+    about: "Changes the source in one place at a time and lists the changes that no test notices (continues where it was stopped)",
     options: || {
         vec![
-            number("count", "COUNT", "120", "How many changes"),
-            number("seed", "SEED", "1", "By which they are drawn"),
+            number("count", "COUNT", "120", "Number of changes"),
+            number("seed", "SEED", "1", "Seed of the draw"),
             flag("write", "Also renew the report in docs/inside/architecture.md"),
         ]
     },
@@ -136,14 +136,14 @@ pub const MUTANTS: Script = Script {
     ..DEFAULTS
 };
 
-/// Units with a wrong coefficient, tested with their evidence.
+/// Test of units with a wrong coefficient against their evidence.
 pub const COEFFICIENTS: Script = Script {
     name: "coefficients",
     about: "Makes coefficients of the physics 2 % larger, one at a time, and lists what `verify` notices",
     options: || {
         vec![
-            number("count", "COUNT", "20", "How many coefficients"),
-            number("seed", "SEED", "1", "By which they are drawn"),
+            number("count", "COUNT", "20", "Number of coefficients"),
+            number("seed", "SEED", "1", "Seed of the draw"),
             flag("write", "Also renew docs/coefficients.csv"),
         ]
     },
@@ -156,15 +156,16 @@ pub const COEFFICIENTS: Script = Script {
     ..DEFAULTS
 };
 
-/// Ordinary drives at random, held to the requirements of daily life: they finish in balance, held wheels stand, and steps are few.
+/// Random ordinary drives, checked against the requirements of daily life: they finish in balance, held wheels stand
+/// still, and steps are few.
 pub const DRIVES: Script = Script {
     name: "drives",
     about: "Checks random ordinary drives: launches, stops, holds, turns and parking of vehicles from a pedal car to a truck",
-    more: Some("Drives come by turns from three seeds. A drive that violates a requirement is written as JSON."),
+    more: Some("Drives alternate between three seeds. A drive that violates a requirement is written as JSON."),
     options: || {
         let index = Arg::new("index").long("index").value_name("INDEX").value_parser(value_parser!(u64));
         vec![
-            number("count", "COUNT", "1000", "How many drives"),
+            number("count", "COUNT", "1000", "Number of drives"),
             number("seed", "SEED", "1", "The first of the three seeds"),
             index.help("Only this drive of the first seed, in detail"),
         ]
@@ -176,13 +177,13 @@ pub const DRIVES: Script = Script {
     ..DEFAULTS
 };
 
-/// How users call the command, and the index of a single drive.
+/// Command line of the users, and the index of a single drive.
 fn one_drive(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
     let index = options.get_one::<u64>("index").map(|index| index.to_string().into());
     Ok(std::iter::once(format!("{LABORATORY} drives").into()).chain(index).collect())
 }
 
-/// The packaged FMU in other hosts: each host on each scene, all compared with fmpy.
+/// The packaged FMU in other hosts: each host runs each scene, and all are compared with fmpy.
 pub const HOSTS: Script = Script {
     name: "hosts",
     about: "Runs the FMU in other FMI hosts on the same scenes and compares their results with fmpy's",
@@ -202,10 +203,10 @@ pub const HOSTS: Script = Script {
     ..DEFAULTS
 };
 
-/// The same scenes with the library for each platform that something here runs: the bits of all outputs, and the time.
+/// Comparison of the libraries for all platforms that something here can run: bits of all outputs, and times.
 pub const PLATFORMS: Script = Script {
     name: "platforms",
-    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects that for macOS",
+    about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects the one for macOS",
     options: || vec![flag("write", "Also renew docs/inside/hosts.md")],
     needs: Needs::Tests,
     file: "crates/lab/python/platforms.py",

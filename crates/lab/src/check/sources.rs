@@ -1,4 +1,4 @@
-//! The unit as sources in C, made for the command `sources`.
+//! Sources of the unit in C, generated for the command `sources`.
 
 use std::ffi::OsString;
 
@@ -12,7 +12,7 @@ use fmu_build::fmu::toolchains;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
-/// Builds the unit and returns the arguments of the script: scenes, FMU, unit as sources, zig (empty if not installed).
+/// Builds the sources and returns the arguments of the script: scenes, FMU, sources, zig (empty if not installed).
 pub fn arguments(options: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
     let tools = Tools::found().map_err(|remark| anyhow!("{remark}"))?;
     progress.stage("packing the FMU");

@@ -1,12 +1,12 @@
-//! What measures: time and error of this program's fidelities and methods, of solid teeth, of couplings of FMUs, and of other
-//! programs on the same cases. Each command writes figures, and a document with `--write`.
+//! Measurements: time and error of this program's fidelities and methods, of solid teeth, of couplings of FMUs, and of
+//! other programs on the same cases. Each command writes results, and a document with `--write`.
 
 mod scripts;
 pub mod stiffness;
 
 use crate::tools::command::Command;
 
-/// The commands that measure.
+/// Commands that measure.
 pub fn commands() -> Vec<Command> {
     vec![
         scripts::COST.command(),

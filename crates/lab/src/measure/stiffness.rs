@@ -1,4 +1,4 @@
-//! How stiff the laws of contact are, against 3-D finite elements of several gears on two supports.
+//! Stiffness of the contact laws compared with 3-D finite elements of several gears on two supports.
 
 use anyhow::{Context, Result, bail};
 use bevel_differential::contact::bodies::{MeshOnBodies, Support};
@@ -10,16 +10,16 @@ use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::sections;
 
 const DOCUMENT: &str = "docs/inside/stiffness.md";
-/// The marks around the tables.
+/// Markers around the tables.
 const MARKS: [&str; 2] = ["<!-- stiffness:begin -->", "<!-- stiffness:end -->"];
-/// The reference.
+/// Reference values.
 const ROWS: &str = include_str!("../../../../tests/data/golden_fe3d_pairs.csv");
 /// Fillet [modules], modulus [Pa], Poisson's ratio and line load [N/m] of the reference.
 const FILLET: f64 = 0.40;
 const YOUNG: f64 = 2.07e11;
 const POISSON: f64 = 0.25;
 const LINE_LOAD: f64 = 400e3;
-/// Stiffness of IMPACT, the study's [N/m^1.5], and its exponent.
+/// Stiffness of IMPACT in the study [N/m^1.5], and its exponent.
 const IMPACT: [f64; 2] = [5.77e5 * 31_622.776_601_683_79, 1.5];
 /// Pa per N/(mm·µm).
 const PER_MM_UM: f64 = 1e9;
@@ -37,11 +37,11 @@ struct Set {
     columns: Vec<String>,
     /// s [rad] and c [Pa] of single pairs.
     single: Vec<[f64; 2]>,
-    /// s [rad] of the first of two pairs, c of both [Pa], and over that of two pairs apart.
+    /// s [rad] of the first of two pairs, c of both [Pa], and its ratio to that of two separate pairs.
     double: Vec<[f64; 3]>,
 }
 
-/// A gear set as the program has it.
+/// A gear set in the representation of this program.
 struct Gears {
     spec: GearSpec,
     pair: Pair,
@@ -50,7 +50,7 @@ struct Gears {
 }
 
 impl StiffnessCommand {
-    /// Runs it.
+    /// Runs the command.
     pub fn run(&self) -> Result<()> {
         let page = page(&sets()?)?;
         println!("{}", for_terminal(&page));
@@ -83,7 +83,7 @@ fn sets() -> Result<Vec<Set>> {
 }
 
 impl Set {
-    /// Its gears on their supports.
+    /// Gears of the set on their supports.
     fn gears(&self) -> Result<Gears> {
         let number = |i: usize| -> Result<f64> { Ok(self.columns[i].parse()?) };
         let spec = GearSpec {
@@ -105,7 +105,7 @@ impl Set {
             .map_err(|problem| anyhow::anyhow!("{problem}"))?;
         let supports = match self.columns[6].as_str() {
             "tooth" => [Support::NearRoot; 2],
-            // the reference names radii
+            // the reference contains radii
             "full" => [Support::Bore(2e-3 * number(7)?), Support::Bore(2e-3 * number(8)?)],
             other => bail!("no support \"{other}\""),
         };
@@ -114,7 +114,7 @@ impl Set {
         Ok(Gears { spec, pair, stiffness, mesh })
     }
 
-    /// What it is called: gears, width of the face, and how they are held.
+    /// Labels of the set: gears, face width, and support.
     fn name(&self, gears: &Gears) -> [String; 3] {
         let c = &self.columns;
         let face = gears.spec.face_width / gears.pair.outer_cone;
@@ -127,7 +127,7 @@ impl Set {
     }
 }
 
-/// The diameter of a radius.
+/// Formats twice the radius.
 fn twice(radius: &str) -> String {
     radius.parse().map_or_else(|_| radius.to_owned(), |radius: f64| format!("{}", 2.0 * radius))
 }
@@ -180,7 +180,8 @@ fn page(sets: &[Set]) -> Result<String> {
     ))
 }
 
-/// Secant stiffness of IMPACT under the reference load [Pa]: torque over arc and ∫R²dR, its force at the mean cone distance.
+/// Secant stiffness of IMPACT under the reference load [Pa]: torque divided by arc and ∫R²dR, with its force at the
+/// mean cone distance.
 fn impact(gears: &Gears) -> f64 {
     let Pair { mean_cone, outer_cone, inner_cone, .. } = gears.pair;
     let force = LINE_LOAD * gears.spec.face_width;
@@ -189,7 +190,7 @@ fn impact(gears: &Gears) -> f64 {
     force * mean_cone * mean_cone / (depth * moment)
 }
 
-/// Mean, smallest and largest of ratios, as differences from 1 in per cent.
+/// Mean, smallest and largest value of ratios, as differences from 1 in per cent.
 fn off(ratios: impl Iterator<Item = f64> + Clone) -> String {
     let percent = ratios.map(|ratio| 100.0 * (ratio - 1.0));
     let count = percent.clone().count() as f64;

@@ -1,4 +1,4 @@
-//! Tools that only the laboratory needs, beside those of `fmu_build`.
+//! Tools that only the laboratory needs, in addition to those of `fmu_build`.
 
 pub mod command;
 #[path = "../../../../tests/common/random.rs"]

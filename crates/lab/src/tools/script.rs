@@ -1,5 +1,5 @@
-//! Commands that run a Python script. The tables go to the terminal. With the option `write` tables and figures also go into
-//! the documents.
+//! Commands that run a Python script. The tables are printed. With the option `write`, tables and figures are also
+//! written to the documents.
 
 use std::ffi::OsString;
 use std::fs;
@@ -31,15 +31,16 @@ pub struct Script {
     pub needs: Needs,
     /// Path of the script in the workspace, or a Python module.
     pub file: &'static str,
-    /// Text beside the progress bar.
+    /// Text next to the progress bar.
     pub doing: &'static str,
-    /// Folder of the results in the target directory, if there are any. The name of an option in braces stands for its value.
+    /// Folder of the results in the target directory, if there are any. The name of an option in braces is replaced by
+    /// its value.
     pub folder: Option<&'static str>,
     /// Arguments of the script, in order.
     pub given: &'static [Given],
     /// Sections of documents that `write` renews.
     pub sections: &'static [Section],
-    /// Whether `write` copies the pictures of the folder to the documents.
+    /// True if `write` copies the pictures of the folder to the documents.
     pub has_pictures: bool,
 }
 
@@ -62,9 +63,9 @@ pub const DEFAULTS: Script = Script {
 pub enum Needs {
     /// The environment of the Python package's commands.
     Users,
-    /// The same environment with the packages of the tests.
+    /// The users' environment with the packages of the tests.
     Tests,
-    /// An environment of the script's own: folder of requirements.txt, folder in the target directory, main packages.
+    /// A separate environment: folder of requirements.txt, folder in the target directory, main packages.
     Own([&'static str; 3]),
 }
 
@@ -72,7 +73,7 @@ pub enum Needs {
 pub enum Given {
     /// The packaged FMU.
     Fmu,
-    /// The packaged FMU with integers in the place of enumerations.
+    /// The packaged FMU with integers instead of enumerations.
     PlainFmu,
     /// A library with the equations of motion, for other solvers.
     Equations,
@@ -86,15 +87,15 @@ pub enum Given {
     Word(&'static str),
     /// The value of an option.
     Value(&'static str),
-    /// An option, passed on as `--NAME`, with its path if it has one. Nothing if the option is not set.
+    /// An option, passed on as `--NAME`, with its path if it has one. Nothing is passed if the option is not set.
     Named(&'static str),
     /// Arguments that a function computes from the options.
     Made(fn(&ArgMatches, &Progress) -> Result<Vec<OsString>>),
 }
 
-/// A section of a document: path of the document in the workspace, name in the marks of the section, file of results. If the
-/// file is empty, the section is the printed output. If the name is empty, the document becomes a copy of the file. Without the
-/// file in the folder of results, the section stays as it is.
+/// A section of a document: path of the document in the workspace, name in the markers of the section, file of results.
+/// If the file is empty, the section is the printed output. If the name is empty, the document becomes a copy of the
+/// file. If the folder of results lacks the file, the section is unchanged.
 pub type Section = (&'static str, &'static str, &'static str);
 
 /// An option without a value.
@@ -102,7 +103,7 @@ pub fn flag(name: &'static str, help: &'static str) -> Arg {
     Arg::new(name).long(name).help(help).action(ArgAction::SetTrue)
 }
 
-/// An option with a whole number, `usual` if not given.
+/// An option with a whole number and the default `usual`.
 pub fn number(name: &'static str, value: &'static str, usual: &'static str, help: &'static str) -> Arg {
     let number = Arg::new(name).long(name).help(help).value_name(value);
     number.default_value(usual).value_parser(value_parser!(u64))
@@ -118,7 +119,7 @@ fn is_set(options: &ArgMatches, name: &str) -> bool {
 }
 
 impl Script {
-    /// The script as a command of the program.
+    /// Declares the script as a command of the program.
     pub fn command(self) -> Command {
         let declared = clap::Command::new(self.name).about(self.about).args((self.options)());
         let declared = match self.more {
@@ -128,7 +129,7 @@ impl Script {
         Command { declared, run: Box::new(move |options| self.run(options)) }
     }
 
-    /// Runs the script with `options`. Renews the documents if `write` is set.
+    /// Runs the script with `options`, and renews the documents if `write` is set.
     pub fn run(&self, options: &ArgMatches) -> Result<()> {
         let folder = self.folder(options);
         let printed = self.follow(folder.as_deref(), |progress| {
@@ -155,7 +156,7 @@ impl Script {
         let arguments = prepare(&progress)?;
         if let Some(folder) = folder {
             paths::create_folder(folder)?;
-            // so that every file found after the run is from this run
+            // so that every file in the folder after the run is from this run
             for (.., file) in self.sections.iter().filter(|(.., file)| folder.join(file).is_file()) {
                 fs::remove_file(folder.join(file)).with_context(|| format!("{file} cannot be removed"))?;
             }
@@ -177,7 +178,7 @@ impl Script {
         Ok(printed)
     }
 
-    /// Folder of results.
+    /// Folder of the results.
     fn folder(&self, options: &ArgMatches) -> Option<PathBuf> {
         let values = options.ids().map(|id| (format!("{{{id}}}"), value(options, id.as_str())));
         let named = |own: &str| values.fold(own.to_owned(), |folder, (option, value)| folder.replace(&option, &value));
@@ -212,7 +213,7 @@ impl Script {
     }
 }
 
-/// The environment of `Needs::Own`, made if it does not exist.
+/// Environment of `Needs::Own`, created if it does not exist.
 pub fn environment([list, place, holds]: [&'static str; 3], report: impl Fn(&str)) -> Result<Environment> {
     let requirements = paths::workspace().join(list).join("requirements.txt");
     Wanted { folder: paths::target().join(place), requirements, holds }.made(report)

@@ -1,4 +1,4 @@
-//! Libraries compiled by cargo, without the folders of this machine.
+//! Compilation of libraries by cargo, without folder names of this machine in them.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -9,24 +9,24 @@ use anyhow::{Context, Result, bail};
 use super::library::{CRATES, HOST};
 use crate::tools::paths;
 
-/// Builds the dynamic library of `package`, which is not the FMU's, for this machine with cargo and returns its path.
+/// Builds the dynamic library of `package`, other than the FMU's, for this machine with cargo. Returns its path.
 pub fn build_library(package: &str) -> Result<PathBuf> {
     let mut command = Command::new(cargo());
-    // with the program, whose choice of features it shares: what both stand on is compiled once
+    // together with fmu-build, so that both have the same features and shared crates are compiled once
     command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
     let [library] = built_by(command, [package], HOST.1)?;
     Ok(library)
 }
 
-/// Builds the libraries of [`CRATES`] by `options` of the compiler, without paths of this machine. It has a separate
-/// target folder, because the compiler may differ, and its options always do.
+/// Builds the libraries of [`CRATES`] with `options` of the compiler, without paths of this machine. The target folder
+/// is separate, because the options always differ and the compiler may differ.
 pub(super) fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<[PathBuf; 2]> {
     let options: Vec<String> =
         without_folders().into_iter().chain(options.iter().map(|&option| option.into())).collect();
     command
         .arg("--target-dir")
         .arg(paths::target().join("cross").join(name))
-        // whatever the rest is built with: one unit inlines what matters
+        // independent of the other builds: with one unit, the important functions are inlined
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
     built_by(command, CRATES, ending).with_context(|| format!("the library for {name}"))
@@ -34,12 +34,12 @@ pub(super) fn distributable(mut command: Command, name: &str, ending: &str, opti
 
 /// Options that replace the folders of this machine in the locations of panics.
 pub(in crate::fmu) fn without_folders() -> Vec<String> {
-    // of several that match, the last one counts
+    // if several match, the last one applies
     let folders = folders().into_iter().rev();
     folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()
 }
 
-/// Folders of this machine that compilers write into libraries, and what stands for them; the longest first.
+/// Folders of this machine that compilers write into libraries, with their replacements; the longest first.
 pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
@@ -55,7 +55,8 @@ pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
     known
 }
 
-/// The libraries that `command`, cargo with a target, builds of `packages`. In one go, so that what they share is compiled once.
+/// Runs `command`, cargo with a target, and returns the libraries of `packages`. One run compiles shared crates only
+/// once.
 fn built_by<const N: usize>(mut command: Command, packages: [&str; N], ending: &str) -> Result<[PathBuf; N]> {
     let output = command
         .current_dir(paths::workspace())
@@ -75,7 +76,7 @@ fn built_by<const N: usize>(mut command: Command, packages: [&str; N], ending: &
     complete.and_then(|built| built.try_into().ok()).with_context(|| format!("cargo built no .{ending} file"))
 }
 
-/// The dynamic library of a crate named in one line of cargo's messages.
+/// Returns the dynamic library of a crate if one line of cargo's messages names it.
 fn library_in(line: &str, crate_name: &str, ending: &str) -> Option<PathBuf> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     let is_cdylib = message["target"]["kind"].as_array()?.iter().any(|kind| kind == "cdylib");
@@ -85,7 +86,7 @@ fn library_in(line: &str, crate_name: &str, ending: &str) -> Option<PathBuf> {
     if is_meant { libraries.next().map(Path::to_path_buf) } else { None }
 }
 
-/// The cargo that runs this program, or the one in PATH.
+/// Cargo that runs this program, or the one in PATH.
 pub fn cargo() -> std::ffi::OsString {
     env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }

@@ -1,4 +1,4 @@
-//! The library for macOS: one universal file with the code of both kinds of processors, each signed by the linker.
+//! Library for macOS: one universal file with the code for both kinds of processors, each signed by the linker.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,24 +12,25 @@ use crate::fmu::toolchains::{self, Compiler, DARWIN_TARGETS, UnpackedToolchain};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 
-/// FMI's name of the platform in 2.0, and those of its two kinds of processors in 3.0.
+/// FMI 2.0's name of the platform, and FMI 3.0's names of its two kinds of processors.
 const PLATFORM: &str = "darwin64";
 const IN_FMI3: [&str; 2] = ["x86_64-darwin", "aarch64-darwin"];
-/// The oldest macOS for each: that which Rust supports.
+/// Oldest macOS for each kind, which is the oldest that Rust supports.
 const OLDEST: [&str; 2] = ["10.12", "11.0"];
 
-/// Begin of a universal file, and of the file for a processor of 64 bits, whose numbers are in the order of that processor.
+/// First word of a universal file, and of a file for one 64-bit processor, whose numbers are in the byte order of that
+/// processor.
 const UNIVERSAL: u32 = 0xCAFE_BABE;
 const SINGLE: u32 = 0xFEED_FACF;
-/// Where the code of a processor begins, as a power of 2: on a page of ARM, the larger one.
+/// Alignment of the code of a processor, as a power of 2: a page of ARM, which has the larger pages.
 const ALIGNMENT: u32 = 14;
 
-/// Whether the tool chain is installed.
+/// True if the tool chain is installed.
 pub(super) fn has_universal() -> bool {
     CROSS && toolchains::for_darwin().is_some()
 }
 
-/// The library, if its tool chain is installed.
+/// Builds the library if its tool chain is installed.
 pub(super) fn universal() -> Result<Option<Library>> {
     toolchains::for_darwin().filter(|_| CROSS).map(|(compiler, linker)| built(&compiler, &linker)).transpose()
 }
@@ -51,7 +52,7 @@ fn built(compiler: &Compiler, linker: &UnpackedToolchain) -> Result<Library> {
     })
 }
 
-/// The libraries for one kind of processor.
+/// Builds the libraries for one kind of processor.
 fn single(compiler: &Compiler, linker: &UnpackedToolchain, which: usize) -> Result<[PathBuf; 2]> {
     let target = DARWIN_TARGETS[which];
     let variable = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
@@ -61,13 +62,13 @@ fn single(compiler: &Compiler, linker: &UnpackedToolchain, which: usize) -> Resu
         .env(variable, linker.programs().join("ld64.lld"))
         .env("SDKROOT", linker.folder().join("sdk"))
         .env("MACOSX_DEPLOYMENT_TARGET", OLDEST[which])
-        // the linker strips: a signature holds for the file that was signed
+        // the linker strips symbols, because later stripping would invalidate its signature
         .env("CARGO_PROFILE_RELEASE_STRIP", "none");
     compiler.compile(&mut command);
     distributable(command, IN_FMI3[which], "dylib", &["-Clinker-flavor=ld64.lld"])
 }
 
-/// Writes a universal file of the files for single processors into `folder`.
+/// Joins the files for single processors into a universal file in `folder`.
 fn joined(singles: &[&Path; 2], folder: &Path) -> Result<PathBuf> {
     let contents = singles.map(|file| fs::read(file).with_context(|| format!("{} cannot be read", paths::shown(file))));
     let [x86_64, arm] = contents;
@@ -76,7 +77,8 @@ fn joined(singles: &[&Path; 2], folder: &Path) -> Result<PathBuf> {
     Ok(target)
 }
 
-/// A universal file: a table of processors, places and sizes, in which numbers are big-endian, and the files as they are.
+/// Content of a universal file: a table of processors, positions and sizes with big-endian numbers, followed by the
+/// unchanged files.
 fn universal_of(singles: &[Vec<u8>]) -> Result<Vec<u8>> {
     let mut table: Vec<u32> = vec![UNIVERSAL, singles.len() as u32];
     let mut place = 1 << ALIGNMENT;
@@ -103,7 +105,7 @@ mod tests {
     use super::{SINGLE, universal_of};
 
     #[test]
-    fn the_files_lie_on_pages_and_are_found_by_the_table() {
+    fn files_begin_on_pages_and_are_found_through_the_table() {
         let single = |processor: u32, size: usize| {
             let mut file: Vec<u8> = [SINGLE, processor, 3].into_iter().flat_map(u32::to_le_bytes).collect();
             file.resize(size, processor as u8);

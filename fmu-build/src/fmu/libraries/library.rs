@@ -1,14 +1,14 @@
-//! A library for one platform, and where it can be built.
+//! Library for one platform, and the machines on which it can be built.
 
 use std::path::PathBuf;
 
-/// The crate that is the FMU, and the one that answers questions for the Python package.
+/// Crate of the FMU, and crate that answers questions for the Python package.
 pub const CRATES: [&str; 2] = ["bevel-differential", "answers"];
 
-/// Whether the tool chains for other machines run here.
+/// True if the tool chains for other machines run here.
 pub(super) const CROSS: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
 
-/// FMI's name of this machine's platform and the ending of its libraries.
+/// FMI's name of this machine's platform, and the extension of its libraries.
 pub(super) const HOST: (&str, &str) = if cfg!(target_os = "windows") {
     ("win64", "dll")
 } else if cfg!(target_os = "macos") {
@@ -17,34 +17,35 @@ pub(super) const HOST: (&str, &str) = if cfg!(target_os = "windows") {
     ("linux64", "so")
 };
 
-/// The library for one platform.
+/// Library for one platform.
 #[derive(Clone, Debug)]
 pub struct Library {
-    /// FMI's name of the platform, in version 2.0.
+    /// Name of the platform in FMI 2.0.
     pub platform: &'static str,
-    /// The names in FMI 3.0, each with its file: where one platform of 2.0 is two of 3.0, parts of the whole.
+    /// Names in FMI 3.0, each with its file. If one platform of FMI 2.0 corresponds to two of FMI 3.0, these are parts
+    /// of the whole file.
     pub in_fmi3: Vec<(&'static str, PathBuf)>,
-    /// What pip calls the platforms, joined by dots; "this-machine" where it finds out itself.
+    /// Platform tags for pip, joined by dots; "this-machine" if pip determines the tag itself.
     pub in_wheels: &'static str,
-    /// Ending of the file, without the dot.
+    /// File extension, without the dot.
     pub ending: &'static str,
-    /// What was built.
+    /// Built file.
     pub file: PathBuf,
-    /// The library of answers, which was built along with it.
+    /// Library of answers, built in the same run.
     pub answers: PathBuf,
-    /// What a machine needs, in words.
+    /// Requirements for a machine, as text.
     pub needs: String,
-    /// What the linker adds to the crates and Rust's standard library.
+    /// Parts that the linker adds to the crates and Rust's standard library.
     pub added: Vec<AddedPart>,
 }
 
 /// A part of a compiler's runtime that is linked in.
 #[derive(Clone, Debug)]
 pub struct AddedPart {
-    /// Its name.
+    /// Name of the part.
     pub name: &'static str,
-    /// Its licence by its SPDX name.
+    /// SPDX name of its licence.
     pub licence: &'static str,
-    /// The file with the text.
+    /// File with the text of the licence.
     pub text: PathBuf,
 }

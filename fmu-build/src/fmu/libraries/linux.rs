@@ -1,4 +1,4 @@
-//! The library for Linux: by zig, so that it runs on systems as old as glibc 2.17, on x86-64 and on ARM.
+//! Library for Linux on x86-64 and on ARM, linked by zig so that it runs on systems as old as glibc 2.17.
 
 use std::process::Command;
 
@@ -12,11 +12,11 @@ use crate::tools::python::Environment;
 
 /// A kind of machine.
 struct Machine {
-    /// FMI's names of the platform, in 2.0 and 3.0, and pip's name.
+    /// Names of the platform in FMI 2.0, in FMI 3.0 and for pip.
     platform: [&'static str; 3],
     /// Rust's name of the target.
     target: &'static str,
-    /// The processor in words.
+    /// Description of the processor.
     processor: &'static str,
 }
 
@@ -25,34 +25,34 @@ const X86_64: Machine = Machine {
     target: "x86_64-unknown-linux-gnu",
     processor: "x86-64",
 };
-/// FMI 2.0.4 (2.3) takes the names of FMI 3.0 for all platforms that it does not name itself.
+/// FMI 2.0.4 (2.3) uses the names of FMI 3.0 for all platforms that it does not name itself.
 const ARM: Machine = Machine {
     platform: ["aarch64-linux", "aarch64-linux", "manylinux_2_17_aarch64"],
     target: ARM_TARGET,
     processor: "64-bit ARM",
 };
 
-/// The linker, if it is installed where it runs.
+/// Returns the linker if it is installed and can run here.
 fn zig() -> Option<Environment> {
     toolchains::old_linux().found().filter(|_| CROSS)
 }
 
-/// Whether the tool chain for x86-64 is installed.
+/// True if the tool chain for x86-64 is installed.
 pub(super) fn has_x86_64() -> bool {
     zig().is_some()
 }
 
-/// Whether the tool chain for ARM is installed.
+/// True if the tool chain for ARM is installed.
 pub(super) fn has_arm() -> bool {
     zig().is_some() && toolchains::for_arm().is_some()
 }
 
-/// The library for x86-64, if its tool chain is installed.
+/// Builds the library for x86-64 if its tool chain is installed.
 pub(super) fn x86_64() -> Result<Option<Library>> {
     zig().map(|zig| built(&zig, &Compiler::Installed, &X86_64)).transpose()
 }
 
-/// The library for ARM, if its tool chain is installed.
+/// Builds the library for ARM if its tool chain is installed.
 pub(super) fn arm() -> Result<Option<Library>> {
     zig().zip(toolchains::for_arm()).map(|(zig, compiler)| built(&zig, &compiler, &ARM)).transpose()
 }

@@ -1,4 +1,4 @@
-//! The FMU's library, built for this machine or for other machines by the tool chains that are installed.
+//! The FMU's library, built for this machine, and for other machines with the installed tool chains.
 
 mod compile;
 mod darwin;
@@ -18,18 +18,18 @@ pub use own::for_this_machine;
 use crate::fmu::toolchains::{self, GLIBC};
 use library::{CROSS, HOST};
 
-/// The libraries that were built, and which were not with how to get them.
+/// Libraries that were built, and remarks about the others.
 #[derive(Clone, Debug)]
 pub struct Libraries {
-    /// In the order of the archive.
+    /// Libraries in the order of the archive.
     pub built: Vec<Library>,
-    /// A sentence each.
+    /// Sentences about platforms that were left out and how to get them.
     pub left_out: Vec<String>,
-    /// Whether one is for other machines.
+    /// True if at least one library is for other machines.
     pub ships: bool,
 }
 
-/// Builds the FMU's library with every tool chain that is installed.
+/// Builds the FMU's library with every installed tool chain.
 pub fn build() -> Result<Libraries> {
     let (mut built, mut left_out) = (Vec::new(), Vec::new());
     let old_linux = linux::x86_64()?;
@@ -39,7 +39,7 @@ pub fn build() -> Result<Libraries> {
     }
     built.push(old_linux.map_or_else(own::for_this_machine, Ok)?);
     if !CROSS {
-        left_out.push(format!("the FMU holds {} alone", HOST.0));
+        left_out.push(format!("the FMU contains only {}", HOST.0));
         return Ok(Libraries { built, left_out, ships });
     }
     let others = [("win64", windows::x86_64()?), ("aarch64-linux", linux::arm()?), ("darwin64", darwin::universal()?)];

@@ -1,4 +1,5 @@
-//! The library for this machine. The one that cargo built along with this program is packed, so that nothing is compiled twice.
+//! Library for this machine. The library that cargo built together with this program is used, so that nothing is
+//! compiled twice.
 
 use std::env;
 use std::fs;
@@ -13,7 +14,7 @@ use super::library::{CRATES, HOST, Library};
 use crate::tools::files::make_whole;
 use crate::tools::{paths, progress};
 
-/// FMI 3.0's name of this machine's platform, as far as the FMU has been built there.
+/// FMI 3.0's name of this machine's platform, if the FMU was ever built there.
 const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes()) {
     (false, b"win64") => "x86_64-windows",
     (false, b"darwin64") => "x86_64-darwin",
@@ -23,10 +24,12 @@ const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes
     (true, _) => "aarch64-linux",
 };
 
-/// Separators in a folder that is looked for: `/src` may be the middle of any path, and tells nothing of a machine.
+/// Minimum number of separators in a folder that is replaced. `/src` may be in the middle of any path and reveals
+/// nothing about a machine.
 const FEWEST_SEPARATORS: usize = 2;
 
-/// The library as this machine's tools build it: as they built it along with this program, if it can be found.
+/// Returns the library for this machine. If the one built together with this program cannot be used, it is compiled
+/// again.
 pub fn for_this_machine() -> Result<Library> {
     let needs = match HOST.0 {
         "linux64" => "Linux on x86-64 as new as the machine that the library was built on",
@@ -52,17 +55,17 @@ pub fn for_this_machine() -> Result<Library> {
     })
 }
 
-/// The FMU's library as cargo left it beside this program, as it is. An error says why it cannot be used.
+/// Finds the FMU's library that cargo built next to this program. The error states why it cannot be used.
 pub fn beside_program() -> Result<PathBuf> {
     beside(CRATES[0])
 }
 
-/// The same of any crate.
+/// Finds the library of `package` that cargo built next to this program.
 fn beside(package: &str) -> Result<PathBuf> {
     ensure!(!cfg!(debug_assertions), "this program was built without --release");
-    let program = env::current_exe().context("this program does not know its own file")?;
+    let program = env::current_exe().context("the path of this program is unknown")?;
     let library = paths::built(package)?;
-    // program and library are linked from one compilation, the program last; a later library is another one
+    // one compilation links program and library, the program last, so a newer library is from another compilation
     let written = |file: &Path| -> Result<SystemTime> {
         let modified = fs::metadata(file).and_then(|metadata| metadata.modified());
         modified.with_context(|| format!("{} is not there", paths::shown(file)))
@@ -81,7 +84,7 @@ fn packable() -> Result<[PathBuf; 2]> {
     Ok([fmu?, answers?])
 }
 
-/// A copy of `library` without the folders of this machine.
+/// Copies `library` without the folders of this machine.
 fn cleaned(library: &Path) -> Result<PathBuf> {
     let mut content = fs::read(library).with_context(|| format!("{} cannot be read", paths::shown(library)))?;
     for (folder, name) in folders() {
@@ -96,7 +99,8 @@ fn cleaned(library: &Path) -> Result<PathBuf> {
     Ok(copy)
 }
 
-/// Signs a library anew: macOS ends a process that loads pages which do not have the hashes of the linker's signature.
+/// Renews the signature of a library, because macOS ends a process that loads pages whose hashes differ from the
+/// linker's signature.
 fn sign(library: &Path) -> Result<()> {
     let output = Command::new("codesign").args(["--force", "--sign", "-"]).arg(library).output();
     let output = output.context("codesign, which is part of macOS, cannot be run")?;
@@ -104,9 +108,9 @@ fn sign(library: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Puts `name` in the place of each `folder` that a separator follows: strings of a library follow each other without a gap, so
-/// that the beginning of a path cannot be seen. The length stays, so that nothing moves: separators, of which many in a row are
-/// as good as one, fill it up.
+/// Replaces each `folder` that is followed by a separator with `name`. Strings in a library follow each other without a
+/// gap, so the start of a path cannot be recognised. Repeated separators, which count as one, fill the length so that
+/// nothing moves.
 fn overwrite(content: &mut [u8], folder: &[u8], name: &[u8]) {
     let is_separator = |byte: &u8| *byte == b'/' || (cfg!(windows) && *byte == b'\\');
     if folder.iter().filter(|&byte| is_separator(byte)).count() < FEWEST_SEPARATORS {
@@ -137,14 +141,14 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_overwritten_at_equal_length_and_the_rest_of_the_path_stays() {
+    fn a_folder_is_overwritten_at_equal_length_and_the_remaining_path_is_kept() {
         let text = "src/a.rs/home/me/crates/b-1.0/src/lib.rs/home/merry/c.rs";
         assert_eq!(overwritten(text, "/home/me", "cargo"), "src/a.rscargo////crates/b-1.0/src/lib.rs/home/merry/c.rs");
         assert_eq!(overwritten("/opt/x/y.rs", "/opt/x", "toolchains"), "toolch/y.rs");
     }
 
     #[test]
-    fn a_folder_that_may_be_the_middle_of_any_path_is_left() {
+    fn a_folder_that_may_be_in_the_middle_of_any_path_is_kept() {
         assert_eq!(overwritten("b-1.0/src/lib.rs", "/src", "project"), "b-1.0/src/lib.rs");
     }
 }

@@ -1,4 +1,4 @@
-//! Platforms to choose for an FMU that shall hold these and no others.
+//! Selection of the platforms that an FMU contains.
 
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
@@ -23,11 +23,11 @@ pub enum Platform {
     ThisMachine,
 }
 
-/// What is shipped as far as tool chains are installed.
+/// Platforms that are shipped if their tool chains are installed.
 pub const SHIPPED: [Platform; 4] = [Platform::Linux64, Platform::Win64, Platform::ArmLinux, Platform::Darwin64];
 
-/// Builds the library for each of `platforms`, for all that are shipped if there are none. A missing tool chain of a platform
-/// that was chosen is an error before the first build; so is it that no platform can be shipped.
+/// Builds the library for each of `platforms`, or for all shipped ones if there are none. Fails before the first build
+/// if the tool chain of a selected platform is missing, or if no platform can be shipped.
 pub fn build(platforms: &[Platform]) -> Result<Vec<Library>> {
     let possible: Vec<Platform> = SHIPPED.into_iter().filter(|platform| platform.can_be_built()).collect();
     let platforms = match platforms {
@@ -51,7 +51,7 @@ pub fn build(platforms: &[Platform]) -> Result<Vec<Library>> {
 }
 
 impl Platform {
-    /// FMI's name.
+    /// FMI's name of the platform.
     pub fn fmi_name(self) -> &'static str {
         match self {
             Self::Linux64 => "linux64",
@@ -72,7 +72,7 @@ impl Platform {
         }
     }
 
-    /// What to do where it cannot be built.
+    /// Advice if the library cannot be built.
     fn hint(self) -> String {
         let (name, install) = (self.fmi_name(), toolchains::COMMAND);
         if CROSS {
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_platform_chosen_twice_is_told_before_anything_is_built() {
+    fn a_platform_chosen_twice_is_reported_before_anything_is_built() {
         let problem = build(&[Platform::ThisMachine, Platform::ThisMachine]).expect_err("twice").to_string();
         assert!(problem.contains("twice") && problem.contains(HOST.0), "{problem}");
     }

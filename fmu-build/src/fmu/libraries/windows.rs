@@ -1,4 +1,4 @@
-//! The library for Windows: by the unpacked tool chain, or by the MinGW of the system with the target of rustup.
+//! Library for Windows, built with the unpacked tool chain, or with the system's MinGW and rustup's target.
 
 use std::path::Path;
 use std::process::Command;
@@ -14,7 +14,7 @@ pub(super) fn has_x86_64() -> bool {
     CROSS && (WINDOWS.found().is_some() || rustup_has_windows())
 }
 
-/// The library, if a tool chain is installed.
+/// Builds the library if a tool chain is installed.
 pub(super) fn x86_64() -> Result<Option<Library>> {
     match WINDOWS.found() {
         Some(tools) if CROSS => for_windows(&tools).map(Some),
@@ -30,26 +30,26 @@ fn for_windows(tools: &UnpackedToolchain) -> Result<Library> {
         .args(["build", "--target", WINDOWS_TARGET, "-Zbuild-std=std,panic_unwind"])
         .env("PATH", toolchains::path_with(&programs)?)
         .env("RUSTC", programs.join("rustc"))
-        // Debian's Rust is a stable one, and building the standard library is not yet
+        // Debian's Rust is stable, but building the standard library is an unstable feature
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", programs.join("x86_64-w64-mingw32-gcc"));
-    // each function in a section of its own, so that the linker may leave it out
+    // separate sections for functions let the linker leave out unused ones
     windows_library(command, &tools.root(), &["-Zfunction-sections=yes"])
 }
 
-/// Whether rustup's own target for Windows and the system's MinGW are installed.
+/// True if rustup's target for Windows and the system's MinGW are installed.
 fn rustup_has_windows() -> bool {
     toolchains::has_target(WINDOWS_TARGET) && Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok()
 }
 
-/// The library for Windows by both.
+/// Builds the library for Windows with rustup's target and the system's MinGW.
 fn for_windows_by_rustup() -> Result<Library> {
     let mut command = Command::new(cargo());
     command.args(["build", "--target", WINDOWS_TARGET]);
     windows_library(command, Path::new("/"), &[])
 }
 
-/// The library that `command` builds with the MinGW under `root`.
+/// Runs `command`, which builds the library with the MinGW under `root`.
 fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Library> {
     let [file, answers] = distributable(command, "win64", "dll", options)?;
     let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");

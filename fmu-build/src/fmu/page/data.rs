@@ -1,4 +1,4 @@
-//! What the page knows of the library: variables from the table, scenes from their files, prices of effects.
+//! Data of the library for the page: variables from the table, scenes from their files, prices of effects.
 
 use anyhow::{Context, Result};
 use bevel_differential::model::effects::EffectEntry;
@@ -11,7 +11,7 @@ use crate::tools::paths;
 use answers::scene::set::{Setting, SettingValue};
 use answers::scene::{self, InputTable, Scene, load, units};
 
-/// What the page is made from; values are SI.
+/// Returns all data for the page; values are SI.
 pub fn data() -> Result<Value> {
     let scenes: Vec<Value> =
         scene::files(&paths::scenes())?.iter().map(|file| load::load(file).map(of_scene)).collect::<Result<_>>()?;
@@ -43,7 +43,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
         .iter()
         .map(|choice| json!({"name": choice.name, "value": choice.value, "description": choice.description}))
         .collect();
-    // of an output those of the effects that give it; none where it is always there
+    // switches of the effects that provide an output; none for outputs that are always present
     let switches = EFFECTS.iter().filter(|effect| gives(effect, row.name)).filter_map(|effect| effect.switch);
     json!({
         "name": row.name,
@@ -64,7 +64,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
     })
 }
 
-/// Whether the effect brings the output.
+/// True if the effect provides the output.
 fn gives(effect: &EffectEntry, output: &str) -> bool {
     let heat = effect.heat.map(|heat| heat.output);
     heat.into_iter().chain(effect.readings.iter().map(|reading| reading.name)).any(|name| name == output)
@@ -85,7 +85,7 @@ fn of_scene(scene: Scene) -> Value {
     })
 }
 
-/// Values by the names of their variables.
+/// Values by variable name.
 fn assignments(settings: &[Setting]) -> Value {
     let value = |setting: &Setting| match setting.value {
         SettingValue::Real(value) => json!(value),
@@ -95,7 +95,7 @@ fn assignments(settings: &[Setting]) -> Value {
     settings.iter().map(|setting| (setting.row.name.to_owned(), value(setting))).collect::<Map<_, _>>().into()
 }
 
-/// What each effect alone costs, as a multiple of plain teeth, from the last measurement (docs/accuracy.md).
+/// Cost of each single effect, relative to plain teeth, from the last measurement (docs/accuracy.md).
 fn prices() -> Result<Vec<Value>> {
     let file = paths::workspace().join("crates").join("answers").join("data").join("prices.csv");
     let mut reader =

@@ -21,23 +21,23 @@ use crate::tools::python::{Environment, finish};
 
 /// Name of the page's file.
 pub const FILE: &str = "BevelDifferential.html";
-/// What makes it.
+/// Command that builds the page.
 const COMMAND: &str = "cargo run --release -- page";
 /// The crate of the library for browsers.
 const CRATE: &str = "bevel-differential-page";
-/// Settings of the compiler for users, and those of a build that is sooner done: parts of a crate that are compiled beside each
-/// other, and the level of optimisation. Neither touches a result.
+/// Compiler settings for users, and for a faster build: number of codegen units, and level of optimisation. They do not
+/// affect results.
 const FOR_USERS: [&str; 2] = ["1", "3"];
 const QUICK: [&str; 2] = ["16", "1"];
-/// Packs a file by Python's own library, with the check that browsers' unpackers know.
+/// Compresses a file with Python's own library, with the checksum that unpackers of browsers support.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
                     Path(sys.argv[2]).write_bytes(lzma.compress(Path(sys.argv[1]).read_bytes(), \
                     check=lzma.CHECK_CRC32, preset=9 | lzma.PRESET_EXTREME))";
 
 /// Builds target/page/BevelDifferential.html, the differential live in a browser
 ///
-/// The page is one file that needs no server. It takes the tool chain `toolchains wasm`, and node with npm, which gets three.js,
-/// uPlot and esbuild.
+/// The page is one file that needs no server. It needs the tool chain `toolchains wasm`, and node with npm, which
+/// downloads three.js, uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
 pub struct PageCommand {
     /// Compile the library in less time: slower in the browser, the same results
@@ -46,7 +46,7 @@ pub struct PageCommand {
 }
 
 impl PageCommand {
-    /// Builds the page and prints where it is.
+    /// Builds the page and prints its path.
     pub fn run(&self) -> Result<()> {
         let Some(tools) = Compiler::found(&[WASM_TARGET]) else {
             bail!(
@@ -55,7 +55,9 @@ impl PageCommand {
             );
         };
         if Command::new("npm").arg("--version").output().is_err() {
-            bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
+            bail!(
+                "npm, which downloads three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)"
+            );
         }
         let progress = Progress::start("building the library for browsers");
         let _alone = Lock::of(&paths::page())?;
@@ -69,13 +71,13 @@ impl PageCommand {
     }
 }
 
-/// The library for browsers, compiled in so many parts at this level of optimisation.
+/// Compiles the library for browsers with this number of codegen units and this level of optimisation.
 fn library(tools: &Compiler, [parts, level]: [&str; 2]) -> Result<PathBuf> {
     let library = WasmCrate { package: CRATE, parts, level, options: &[], folder: "wasm" };
     library.compiled(tools, "the library for browsers cannot be built")
 }
 
-/// The page around `library`; the sources are copied, so that nothing is written where they are.
+/// Bundles the page with `library`. The sources are copied, so that nothing is written to their folder.
 fn bundle(library: &Path) -> Result<PathBuf> {
     let folder = paths::page();
     let web = folder.join("web");
@@ -85,7 +87,7 @@ fn bundle(library: &Path) -> Result<PathBuf> {
     write_whole(&data, &serde_json::to_vec(&data::data()?)?)?;
     let mut npm = Command::new("npm");
     npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
-    finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
+    finish(&mut npm, "three.js and uPlot cannot be downloaded (check the network)")?;
     let page = folder.join(FILE);
     make_whole(&page, |part| {
         let mut node = Command::new("node");
@@ -95,7 +97,7 @@ fn bundle(library: &Path) -> Result<PathBuf> {
     Ok(page)
 }
 
-/// The library in xz, which is half as large as in gzip.
+/// Compresses the library with xz, which needs half as much space as gzip.
 fn packed(library: &Path, folder: &Path) -> Result<PathBuf> {
     let file = folder.join("library.xz");
     let mut python = Environment::ready(|_| {})?.command();
@@ -104,7 +106,8 @@ fn packed(library: &Path, folder: &Path) -> Result<PathBuf> {
     Ok(file)
 }
 
-/// The page as it was made before, if its variables are those of today; and whether it is packed, or how it will be.
+/// Returns the existing page if its variables are up to date, and a remark that says if the page is included or how to
+/// build it.
 pub fn made() -> Result<(Option<Vec<u8>>, String)> {
     let file = paths::page().join(FILE);
     let is_of_today = |text: &[u8]| text.windows(guid().len()).any(|window| window == guid().as_bytes());

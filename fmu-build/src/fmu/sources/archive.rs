@@ -1,5 +1,5 @@
-//! The archive with sources in C: that of the FMU without libraries and what belongs to them, with a description of what the sources
-//! can do.
+//! Archive with sources in C: the FMU without its libraries and the files that belong to them, with a description of
+//! the features of the sources.
 
 use std::fs::File as Archive;
 use std::io::{Cursor, Write};
@@ -17,13 +17,13 @@ use crate::tools::files::write_whole;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 const INDEX: &str = "documentation/index.html";
-/// What of the FMU the sources do without: libraries, evidence of all that these can do, and the page that stands on one.
+/// Parts of the FMU that are left out: libraries, their evidence, and the page, which contains a library.
 const LEFT_OUT: [&str; 4] = ["binaries/", "extra/", "documentation/fmi-ls-ref", "documentation/BevelDifferential.html"];
-/// What the sources need.
+/// Requirements of the sources, as text.
 const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its library setjmp, string functions, roots and rounding. Co-simulation \
                      with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
 
-/// Writes the archive with the sources next to `fmu`, and returns its path.
+/// Writes the archive with the sources next to `fmu` and returns its path.
 pub fn package(tools: &Tools, packing: Packing, fmu: &Path) -> Result<PathBuf> {
     let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
     let target = fmu.with_file_name(format!("{name}_sources.fmu"));
@@ -62,12 +62,12 @@ fn variant(fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
     Ok(out.finish()?.into_inner())
 }
 
-/// The files that a compiler is given, without headers.
+/// Files to compile, without headers.
 fn compiled(files: &[File]) -> impl Iterator<Item = &str> {
     files.iter().map(|(name, _)| name.as_str()).filter(|name| name.ends_with(".c"))
 }
 
-/// The documentation of the archive.
+/// Documentation page of the archive.
 fn index_page() -> Result<String> {
     let sources = Library {
         platform: "sources",

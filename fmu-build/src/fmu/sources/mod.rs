@@ -1,5 +1,5 @@
-//! The unit as sources in C: the library for WebAssembly, turned into C by wasm2c, around it the C in `fmu-build/sources/c`, and an
-//! archive with them.
+//! Unit as sources in C: wasm2c translates the library for WebAssembly to C. The C files in `fmu-build/sources/c`
+//! surround it, and an archive contains all of them.
 
 mod archive;
 mod translate;
@@ -20,23 +20,23 @@ use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::python::{Environment, finish};
 
-/// The crate of the library.
+/// Crate of the library.
 const CRATE: &str = "bevel-differential-sources";
-/// Folder that the library is compiled in.
+/// Target folder of the library.
 const FOLDER: &str = "sources";
-/// The stack within the library's memory, twice what any scene of the tests takes [bytes].
+/// Size of the stack in the library's memory, twice the maximum in the scenes of the tests [bytes].
 const STACK: &str = "-Clink-arg=-zstack-size=262144";
-/// Files around it, in `fmu-build/sources/c`.
+/// Files around the library, in `fmu-build/sources/c`.
 const OWN: [&str; 5] = ["bd_runtime.h", "bd_runtime.c", "bd_unit.h", "bd_unit.c", "fmi2Functions.c"];
 
-/// What makes the sources.
+/// Tools that create the sources.
 pub struct Tools {
     wasm: Compiler,
     to_c: Environment,
 }
 
 impl Tools {
-    /// What is installed, or how to get it.
+    /// Finds the tools. The error states how to get them.
     pub fn found() -> Result<Self, String> {
         match (Compiler::found(&[WASM_TARGET]), toolchains::sources().found()) {
             (Some(wasm), Some(to_c)) => Ok(Self { wasm, to_c }),
@@ -44,7 +44,7 @@ impl Tools {
         }
     }
 
-    /// All files of the sources; packed in little time they give the same results by more instructions.
+    /// Creates all files of the sources. With quick packing, they give the same results with more instructions.
     pub fn files(&self, packing: Packing) -> Result<Vec<File>> {
         let _alone = Lock::of(&paths::target().join("cross").join(FOLDER))?;
         let library = WasmCrate {
@@ -64,7 +64,7 @@ impl Tools {
         Ok(files)
     }
 
-    /// What wasm2c makes of `library`.
+    /// Translates `library` to C with wasm2c.
     fn in_c(&self, library: &Path) -> Result<String> {
         let file = library.with_extension("c");
         let mut program = Command::new(self.to_c.programs().join("wasm2c"));

@@ -1,21 +1,22 @@
-//! What wasm2c writes, made smaller and independent of its runtime: C in files of bounded size, on top of `bd_runtime.h`.
+//! Translates the output of wasm2c: the result is smaller, independent of wasm2c's runtime, and consists of C files of
+//! bounded size on top of `bd_runtime.h`.
 //!
-//! wasm2c writes one statement a line, in a fixed form. Each line is rewritten on its own: memory is part of the instance `s`, whose
-//! size is known to the compiler; functions are called through one constant table; names are short.
+//! wasm2c writes one statement per line, in a fixed form. Each line is rewritten independently: memory is part of the
+//! instance `s`, whose size the compiler knows; functions are called through one constant table; names are short.
 
 use std::fmt::Write as _;
 
 use anyhow::{Context, Result, bail};
 
-/// Bytes of a file, about.
+/// Approximate size of a file in bytes.
 const FILE: usize = 1_000_000;
-/// What wasm2c puts before names that come from the library.
+/// Prefix that wasm2c adds to names from the library.
 const NAMED: &str = "w2c_bd_";
-/// The beginning of every access to memory.
+/// Start of every memory access.
 const ACCESS: &str = "_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(";
-/// A global that the library changes. Others only say where its data end.
+/// A global that the library changes. Other globals only contain the end of its data.
 const GLOBAL: &str = "instance->w2c_g";
-/// Lines of no use: a register of x86 that may hold the base of memory, copies of its base and size, counts of calls.
+/// Unused lines: a register of x86 that may contain the base of memory, copies of its base and size, counts of calls.
 const DROPPED: [&str; 9] = [
     "#",
     "wasm_rt_segue_write_base(",
@@ -27,7 +28,7 @@ const DROPPED: [&str; 9] = [
     "FUNC_EPILOGUE;",
     "//",
 ];
-/// Names that are replaced wherever they stand.
+/// Replacements of names.
 const SHORTER: [(&str, &str); 6] = [
     ("&instance->w2c_memory, &instance->w2c_memory, ", "s, "),
     ("&instance->w2c_memory", "s"),
@@ -37,10 +38,10 @@ const SHORTER: [(&str, &str); 6] = [
     ("wasm_rt_grow_memory(", "memory_grow("),
 ];
 
-/// A file of C: its name and its text.
+/// A C file: name and text.
 pub type File = (String, String);
 
-/// The files that `text`, the output of wasm2c, becomes: a header, then the sources.
+/// Converts `text`, the output of wasm2c, into files: a header, then the sources.
 pub fn files(text: &str) -> Result<Vec<File>> {
     let parts = Parts::of(text)?;
     let mut files = vec![("bd_library.h".to_owned(), parts.header()?), ("bd_library.c".to_owned(), parts.tables()?)];
@@ -56,22 +57,22 @@ pub fn files(text: &str) -> Result<Vec<File>> {
     Ok(files)
 }
 
-/// The first line of every file.
+/// First line of every file.
 const HEAD: &str = "/* made by wasm2c from the library in Rust; see bd_runtime.h */\n";
 
-/// The parts of wasm2c's output that count.
+/// Relevant parts of wasm2c's output.
 struct Parts<'a> {
     /// Declarations of functions, `static u32 w2c_bd_f0(w2c_bd*, u32);`.
     declared: Vec<&'a str>,
     /// Functions, each from its first to its last line.
     functions: Vec<&'a str>,
-    /// Assignments of the first values of globals.
+    /// Assignments of the initial values of globals.
     globals: Vec<&'a str>,
     /// Entries of the table of functions.
     entries: Vec<&'a str>,
-    /// Name and bytes of segments of data.
+    /// Name and bytes of the data segments.
     data: Vec<(&'a str, &'a str)>,
-    /// What the table and memory begin with.
+    /// Initial sizes of table and memory.
     table: &'a str,
     memory: &'a str,
     loads: Vec<&'a str>,
@@ -91,7 +92,7 @@ impl<'a> Parts<'a> {
             let (part, after) = rest.split_at(end + 3);
             let part = part.trim_start();
             let begin = part.rfind("\n\n").map_or(0, |at| at + 2);
-            // what follows the remark on an export calls the function of that name
+            // the function after a comment about an export only calls the function of that name
             exported |= part[begin..].starts_with("/* export");
             let first = part[begin..].lines().find(|line| !line.starts_with("/*")).unwrap_or_default();
             if first.contains("(w2c_bd* instance") && first.contains(NAMED) && !exported {
@@ -124,12 +125,12 @@ impl<'a> Parts<'a> {
         })
     }
 
-    /// Declarations, and how large memory is at the start.
+    /// Header: declarations, and the initial size of memory.
     fn header(&self) -> Result<String> {
         let mut out = format!("{HEAD}#ifndef BD_LIBRARY_H\n#define BD_LIBRARY_H\n");
         let pages = arguments(self.memory).nth(1).context("memory of unknown size")?;
         writeln!(out, "#define BD_FIRST_PAGES {pages}u")?;
-        // the first global is the place of the stack, which begins at its end and grows towards 0
+        // the first global is the stack pointer: it starts at the end of the stack, which grows towards 0
         let stack =
             self.globals.first().and_then(|line| line.split("= ").nth(1)).context("a library without a stack")?;
         writeln!(out, "#define BD_STACK {}", stack.trim_end_matches(';'))?;
@@ -146,7 +147,7 @@ impl<'a> Parts<'a> {
         Ok(out)
     }
 
-    /// The table of functions, and the first content of memory.
+    /// Source file with the table of functions and the initial content of memory.
     fn tables(&self) -> Result<String> {
         let mut out = format!("{HEAD}#include \"bd_library.h\"\n#include <string.h>\n");
         let first: usize = arguments(self.table)
@@ -197,18 +198,18 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// The number of the global that a line assigns to.
+/// Number of the global to which a line assigns.
 fn global(line: &str) -> &str {
     line.trim_start_matches(GLOBAL).split(' ').next().unwrap_or_default()
 }
 
-/// The arguments of a call, or the parts of braces.
+/// Arguments of a call, or elements in braces.
 fn arguments(line: &str) -> impl Iterator<Item = &str> {
     let inner = line.split_once(['(', '{']).map_or("", |(_, inner)| inner);
     inner.trim_end_matches([';', ',', '}']).split(", ").map(str::trim)
 }
 
-/// A function, line by line.
+/// Translates a function.
 fn function(text: &str) -> Result<String> {
     let mut out = String::with_capacity(text.len() / 2);
     for line in text.lines() {
@@ -222,7 +223,7 @@ fn function(text: &str) -> Result<String> {
     Ok(out)
 }
 
-/// A line of a function.
+/// Translates a line of a function.
 fn statement(line: &str) -> Result<String> {
     let mut line = line.to_owned();
     if let Some(at) = line.find(ACCESS) {
@@ -262,7 +263,7 @@ fn indirect(line: &str, at: usize) -> Option<String> {
     Some(format!("{}bd_call({}, {kind}, {place})(s{rest}", &line[..at], of.replace("void*", "bd *")))
 }
 
-/// Functions by names that no other part of a program has.
+/// Replaces the names of functions with names that no other part of a program uses.
 fn renamed(line: &str) -> String {
     line.replace(NAMED, "bd_")
 }

@@ -1,5 +1,5 @@
-//! Arguments as hosts hand them over, mostly right; now and then NULL, misaligned, or of an absurd length. And the result of a call
-//! with them.
+//! Random arguments of calls: mostly valid, sometimes NULL, misaligned or of an absurd length. Also the results of
+//! calls.
 
 use bevel_differential::fmi3::variables::{Item, added, planet_count};
 use bevel_differential::instance::Status;
@@ -8,18 +8,18 @@ use fastrand::Rng;
 
 use crate::tools::random::Draws;
 
-/// One pointer in so many is NULL or misaligned.
+/// One pointer out of this number is NULL or misaligned.
 const FLAWED: usize = 50;
 
 /// Faults of the arguments of one call.
 #[derive(Default)]
 pub struct Flaws {
-    /// A pointer that FMI needs is NULL or misaligned, or a count is wrong: the call must be refused.
+    /// True if a pointer that FMI requires is NULL or misaligned, or a count is wrong: the call must be refused.
     pub any: bool,
 }
 
 impl Flaws {
-    /// `pointer`, or one that must be refused if it is `needed`.
+    /// Returns `pointer`, or sometimes one that must be refused if the pointer is `needed`.
     pub fn pointer<T>(&mut self, r: &mut Rng, pointer: *const T, needed: bool) -> *const T {
         if !r.chance(FLAWED) {
             return pointer;
@@ -28,12 +28,12 @@ impl Flaws {
         if align_of::<T>() == 1 || r.chance(2) { std::ptr::null() } else { pointer.wrapping_byte_add(1) }
     }
 
-    /// Place to write to, or one that must be refused if it is `needed`.
+    /// Returns a pointer to write to, or sometimes one that must be refused if it is `needed`.
     pub fn place<T>(&mut self, r: &mut Rng, pointer: *mut T, needed: bool) -> *mut T {
         self.pointer(r, pointer, needed).cast_mut()
     }
 
-    /// `n`, or more than any memory holds.
+    /// Returns `n`, or sometimes more than any memory can hold.
     pub fn count(&mut self, r: &mut Rng, n: usize) -> usize {
         if !r.chance(FLAWED) {
             return n;
@@ -42,7 +42,8 @@ impl Flaws {
         r.pick(&[usize::MAX, usize::MAX - 7])
     }
 
-    /// Counts of references and of values: equal, or such as must be refused. There is room for `n + 1` values.
+    /// Counts of references and of values: equal, or sometimes counts that must be refused. There is room for `n + 1`
+    /// values.
     pub fn counts(&mut self, r: &mut Rng, n: usize) -> [usize; 2] {
         let count = self.count(r, n);
         if self.any || !r.chance(FLAWED) {
@@ -53,7 +54,7 @@ impl Flaws {
     }
 }
 
-/// Kind of variables that a call is for.
+/// Kind of variables for a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
     /// Real variables to read.
@@ -74,7 +75,7 @@ pub enum VariableKind {
     Float64,
     /// FMI 3.0: arrays over planets and tooth pairs.
     Array,
-    /// FMI 3.0: integers, and place and number of the last event.
+    /// FMI 3.0: integers, and position and number of the last event.
     Int32,
     /// FMI 3.0: choices, and the kind of the last event.
     Enumeration,
@@ -105,7 +106,7 @@ impl VariableKind {
         }
     }
 
-    /// True if a variable that only FMI 3.0 has is of this kind.
+    /// True if a variable that exists only in FMI 3.0 is of this kind.
     fn fits_added(self, item: &Item) -> bool {
         match item {
             Item::Row(_) => false,
@@ -117,7 +118,7 @@ impl VariableKind {
         }
     }
 
-    /// References of all variables of this kind.
+    /// Value references of all variables of this kind.
     pub fn all(self) -> Vec<u32> {
         let rows = &table().rows;
         let own = rows.iter().enumerate().filter(|(i, row)| self.fits(*i, row)).map(|(i, _)| i);
@@ -126,7 +127,7 @@ impl VariableKind {
     }
 }
 
-/// Value references: none to four of the right kind, now and then any, now and then all.
+/// Value references: up to four of the right kind, sometimes any, sometimes all.
 pub fn references(r: &mut Rng, wanted: VariableKind) -> Vec<u32> {
     let fitting = wanted.all();
     if r.chance(16) {
@@ -142,37 +143,37 @@ pub fn references(r: &mut Rng, wanted: VariableKind) -> Vec<u32> {
     (0..r.below(5)).map(|_| reference(r)).collect()
 }
 
-/// The row of a value reference.
+/// Row of a value reference.
 pub fn row(reference: u32) -> Option<&'static Variable> {
     table().rows.get(reference as usize)
 }
 
-/// The result of a call.
+/// Result of a call.
 pub struct CallResult {
-    /// Its status.
+    /// Status of the call.
     pub status: Status,
-    /// Numbers that it wrote; looked at only if it was carried out.
+    /// Numbers that the call wrote. They are checked only if it succeeded.
     pub numbers: Vec<f64>,
-    /// True if it had to be refused for its arguments.
+    /// True if the call must be refused because of its arguments.
     pub must_fail: bool,
-    /// Bytes of the state that the instance must be in now.
+    /// Bytes of the state that the instance must have now.
     pub restored: Option<Vec<u8>>,
-    /// Broken promise that the driver has already seen.
+    /// Broken promise that the driver already found.
     pub broken: Option<String>,
 }
 
 impl CallResult {
-    /// Result with `status`, for arguments with `flaws`.
+    /// Creates a result with `status`, for arguments with `flaws`.
     pub fn of(status: Status, flaws: &Flaws) -> Self {
         Self { status, numbers: Vec::new(), must_fail: flaws.any, restored: None, broken: None }
     }
 
-    /// Result with the numbers that the call wrote.
+    /// Adds the numbers that the call wrote.
     pub fn with(self, numbers: &[f64]) -> Self {
         Self { numbers: numbers.to_vec(), ..self }
     }
 
-    /// Result with a broken promise, if a successful call `is_broken`.
+    /// Adds a broken promise if `is_broken` after a successful call.
     pub fn unless(mut self, is_broken: bool, what: &str) -> Self {
         if self.status == Status::Ok && is_broken {
             self.broken = Some(what.into());

@@ -1,5 +1,5 @@
-//! Calls with arguments at random, by the shapes of functions. Both versions of FMI share them; their tables say which function has
-//! which shape.
+//! Calls with random arguments, grouped by the signatures of functions. Both versions of FMI use them; their tables
+//! assign a signature to each function.
 
 use std::ffi::CStr;
 use std::ptr;
@@ -13,16 +13,16 @@ use super::random::{integer_for, real};
 use super::site::{ROOM, Site};
 use crate::tools::random::Draws;
 
-/// Sizes of communication steps that must be refused [s].
+/// Step sizes that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
-/// Largest deviation of the time after a step from its end, relative to the time or to 1 s.
+/// Maximum deviation of the time after a step from the step's end, relative to the time or to 1 s.
 const ROUNDING: f64 = 1e-12;
 
 /// A value of a variable.
 pub trait Value: Copy + PartialEq {
     /// Value that no call writes.
     const UNWRITTEN: Self;
-    /// Value for a variable, from an integer.
+    /// Creates a value from an integer.
     fn of(drawn: i32) -> Self;
 }
 
@@ -46,11 +46,11 @@ values! {
     Text: ptr::null(), |_| ptr::null();
 }
 
-/// Reads variables: references and their number, places and their number.
+/// Reads variables: references and their number, room for values and its size.
 pub type Getter<T> = unsafe fn(ComponentPointer, *const u32, usize, *mut T, usize) -> Status;
 /// Sets variables: references and their number, values and their number.
 pub type Setter<T> = unsafe fn(ComponentPointer, *const u32, usize, *const T, usize) -> Status;
-/// Unknowns, knowns, seeds and results, each with its number.
+/// Computes directional derivatives: unknowns, knowns, seeds and results, each with its number.
 pub type Sensitivity =
     unsafe fn(ComponentPointer, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
 type Filler = unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status;
@@ -58,28 +58,29 @@ type Setup<B> = unsafe extern "C" fn(ComponentPointer, B, f64, f64, B, f64) -> S
 type Completed<B> = unsafe extern "C" fn(ComponentPointer, B, *mut B, *mut B) -> Status;
 type Logging<B> = unsafe extern "C" fn(ComponentPointer, B, usize, *const Text) -> Status;
 
-// SAFETY of all calls below: the component is alive or one that the library checks for, and so are the pointers; lengths are those of
-// the arrays, or more than the library may ever accept
+// SAFETY of all calls below: the component is alive or one that the library must refuse, and so are the pointers.
+// Lengths are those of the arrays, or larger than the library may ever accept.
 
-/// A function that needs an instance only.
+/// Calls a function that needs only an instance.
 pub fn plain(s: &mut Site, function: unsafe extern "C" fn(ComponentPointer) -> Status) -> CallResult {
     let status = unsafe { function(s.c) };
     s.result(status)
 }
 
-/// A reset, which forgets what was announced.
+/// Resets an instance, which also discards announced tolerances and stop times.
 pub fn reset(s: &mut Site) -> CallResult {
     let status = unsafe { (s.interface.reset)(s.c) };
     s.instance.has_announced &= status != Status::Ok;
     s.result(status)
 }
 
-/// A function that returns a text.
+/// Calls a function that returns a text.
 pub fn text(s: &Site, function: extern "C" fn() -> Text) -> CallResult {
     s.result(Status::Ok).unless(function().is_null(), "NULL")
 }
 
-/// Name and token of an instance, right ones or others; true if an instance can be made with them. `right` is the right token.
+/// Draws name and token of an instance, valid or not; true if an instance can be created with them. `right` is the
+/// valid token.
 pub fn name_and_token(r: &mut Rng, right: &CStr) -> ([Text; 2], bool) {
     let (name, token) = (r.below(4), r.below(4));
     let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
@@ -87,17 +88,18 @@ pub fn name_and_token(r: &mut Rng, right: &CStr) -> ([Text; 2], bool) {
     ([names[name], tokens[token]], name < 2 && token < 2)
 }
 
-/// Result of an instantiation, which had to succeed if it `is_right`. `is_silent`: a line in the log was to be expected, and there is none.
+/// Result of an instantiation that must succeed if `is_right`. `is_silent` is true if the log is empty although a
+/// refusal must be logged.
 pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> CallResult {
     let outcome = CallResult::of(Status::Ok, &Flaws::default());
     let outcome = outcome.unless(c.is_null() && is_silent, "refused without a line in the log");
     outcome.unless(
         c.is_null() == is_right,
-        if is_right { "refused though all is right" } else { "made though something is wrong" },
+        if is_right { "refused although everything is valid" } else { "created although something is invalid" },
     )
 }
 
-/// Frees what is no instance: nothing must happen. The round makes and frees instances.
+/// Frees a null pointer and an invalid one, which must have no effect. The round creates and frees instances.
 pub fn free(s: &Site) -> CallResult {
     unsafe {
         (s.interface.free)(ptr::null_mut());
@@ -106,7 +108,7 @@ pub fn free(s: &Site) -> CallResult {
     s.result(Status::Ok)
 }
 
-/// Sets what is logged.
+/// Sets the logged categories.
 pub fn logging<B: From<bool>>(s: &mut Site, function: Logging<B>) -> CallResult {
     let names = [c"logStatusError", c"logStatusDiscard", c"logEvents", c"logNonsense", c""].map(|t| t.as_ptr());
     let count = if s.r.chance(3) { 0 } else { s.r.below(names.len() + 1) };
@@ -116,7 +118,7 @@ pub fn logging<B: From<bool>>(s: &mut Site, function: Logging<B>) -> CallResult 
     s.result(status)
 }
 
-/// Announces tolerance, start and stop.
+/// Announces tolerance, start and stop times.
 pub fn setup<B: From<bool>>(s: &mut Site, function: Setup<B>) -> CallResult {
     let defined = [s.r.chance(2), s.r.chance(3)];
     let start = if s.r.chance(2) { 0.0 } else { real(s.r) };
@@ -128,7 +130,7 @@ pub fn setup<B: From<bool>>(s: &mut Site, function: Setup<B>) -> CallResult {
     s.result(status)
 }
 
-/// Calls a getter with places that hold `unwritten`; returns its status and the places.
+/// Calls a getter with room filled with `unwritten`. Returns its status and the values.
 fn read_values<T: Copy>(s: &mut Site, wanted: VariableKind, unwritten: T, function: Getter<T>) -> (Status, Vec<T>) {
     let vr = references(s.r, wanted);
     let (n, needed) = (vr.len(), !vr.is_empty());
@@ -157,7 +159,7 @@ pub fn get_reals(s: &mut Site, wanted: VariableKind, function: Getter<f64>) -> C
     s.result(status).with(&numbers)
 }
 
-/// Reads an array, with room that may have another size than the array.
+/// Reads an array into room that may differ from the array's size.
 pub fn get_array(s: &mut Site, function: Getter<f64>) -> CallResult {
     let (reference, room) = (s.r.pick(&VariableKind::Array.all()), s.r.below(9));
     let mut numbers = [f64::NAN; 9];
@@ -175,7 +177,7 @@ pub fn get<T: Value>(s: &mut Site, wanted: VariableKind, function: Getter<T>) ->
 
 /// Sets numbers: parameters and inputs, in model exchange also states.
 pub fn set_reals(s: &mut Site, function: Setter<f64>) -> CallResult {
-    let is_state = s.instance.making.kind == Kind::ModelExchange && s.r.chance(2);
+    let is_state = s.instance.options.kind == Kind::ModelExchange && s.r.chance(2);
     let wanted = if is_state { VariableKind::State } else { VariableKind::Settable };
     let vr = references(s.r, wanted);
     let values = s.reals(&vr, wanted);
@@ -190,7 +192,7 @@ pub fn set<T: Value>(s: &mut Site, wanted: VariableKind, function: Setter<T>) ->
     write_values(s, &vr, values, T::of(0), function)
 }
 
-/// Reads or sets variables of a type that no variable has: every reference must be refused.
+/// Reads or sets variables of a type that the FMU does not use: every reference must be refused.
 pub fn none(s: &mut Site, function: unsafe fn(ComponentPointer, *const u32, usize) -> Status) -> CallResult {
     let vr = references(s.r, VariableKind::Output);
     s.flaws.any |= !vr.is_empty();
@@ -234,7 +236,7 @@ fn orders(r: &mut Rng, count: usize) -> Vec<i32> {
     (0..count).map(|_| if r.chance(10) { r.i32(..) } else { 1 }).collect()
 }
 
-/// Derivatives along a direction of knowns or, if `is_adjoint`, across one of unknowns.
+/// Computes directional derivatives along the knowns or, if `is_adjoint`, adjoint derivatives of the unknowns.
 pub fn sensitivity(s: &mut Site, is_adjoint: bool, function: Sensitivity) -> CallResult {
     let by = s.r.pick(&[VariableKind::Input, VariableKind::State]);
     let (unknown, known) = (references(s.r, VariableKind::Output), references(s.r, by));
@@ -257,7 +259,7 @@ pub fn fill(s: &mut Site, right: usize, function: Filler) -> CallResult {
     s.result(status).with(&room[..right])
 }
 
-/// The right count, or seldom one that must be refused and for which there is room nonetheless.
+/// Returns the right count, or sometimes another one that must be refused and for which there is room.
 fn counted(s: &mut Site, right: usize) -> usize {
     let count = if s.r.chance(20) { s.r.below(ROOM) } else { right };
     s.flaws.any |= count != right;
@@ -292,20 +294,20 @@ pub fn set_states(
     s.result(status)
 }
 
-/// End of a step: its status, the time that was reached if the function gives it, and true if the step ended early.
+/// End of a step: its status, the time that was reached if the function returns it, and true if the step ended early.
 pub type Ended = (Status, Option<f64>, bool);
 
-/// Makes a step, mostly from the present time, by `step(site, point, size)`.
+/// Executes a step, mostly from the present time, with `step(site, point, size)`.
 pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> Ended) -> CallResult {
     let now = s.instance.time().unwrap_or(0.0);
     let point = if s.r.chance(20) { real(s.r) } else { now };
-    // no step that is meant to take hours: the host gets what it wants
+    // no steps that take hours, because the host would have to wait for them
     let h = if s.r.chance(8) { s.r.pick(&NO_STEPS) } else { s.r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
     s.flaws.any |= NO_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
     let (status, last, is_early) = step(s, point, h);
     let (after, until) = (s.instance.time(), last.unwrap_or(point + h));
     let is_reached = after.is_some_and(|after| same_time(after, until)) && (is_early || same_time(until, point + h));
-    // an event at the start of a step begins it with the smallest time that can be distinguished, which may be more than the step
+    // an event at the start of a step advances by the smallest distinguishable time, which may exceed the step
     let is_within = until >= point && (until <= point + h || same_time(until, point + h));
     let mut outcome = s.result(status);
     if status == Status::Ok && !(is_reached && is_within) {

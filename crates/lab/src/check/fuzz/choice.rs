@@ -1,4 +1,4 @@
-//! Both versions of FMI, and the choice of a version for a round and of a function for a call.
+//! Selection of the FMI version of a round, and of the function of a call.
 
 use bevel_differential::instance::Kind;
 use fastrand::Rng;
@@ -7,16 +7,16 @@ use super::version::{Function, Version};
 use super::{fmi2, fmi3};
 use crate::tools::random::Draws;
 
-/// Both versions.
+/// Both versions of FMI.
 pub static VERSIONS: [&Version; 2] = [&fmi2::VERSION, &fmi3::VERSION];
 
-/// Version of FMI of a round: `given`, or both by turns of seeds.
+/// FMI version of a round: `given`, or alternating with the seed.
 pub fn version(seed: u64, given: Option<u32>) -> &'static Version {
     let number = given.unwrap_or(2 + (seed % 2) as u32);
     VERSIONS.into_iter().find(|version| version.interface.number == number).unwrap_or(VERSIONS[0])
 }
 
-/// Draws a function by its weight; functions of the other kind of instance seldom.
+/// Draws a function by its weight; functions for the other kind of instance are rare.
 pub fn draw(r: &mut Rng, version: &'static Version, kind: Kind) -> &'static Function {
     let total: usize = version.functions.iter().map(|function| function.weight).sum();
     loop {

@@ -1,4 +1,4 @@
-//! The functions of FMI 2.0, each with its weight, the kind of instance that it is for, and a call of it.
+//! Table of the functions of FMI 2.0, each with its weight, the kind of its instance, and its random call.
 
 use std::ffi::CString;
 use std::ptr;
@@ -10,7 +10,7 @@ use bevel_differential::variables::guid;
 
 use super::arguments::{CallResult, VariableKind as V};
 use super::calls::*;
-use super::host::{Host, Making, Recorder};
+use super::host::{Host, InstanceOptions, Recorder};
 use super::interface::Interface;
 use super::site::Site;
 use super::states;
@@ -19,7 +19,7 @@ use crate::tools::random::Draws;
 
 // SAFETY of all calls: as in `calls`
 
-/// FMI 2.0.
+/// Functions of FMI 2.0.
 pub static VERSION: Version = Version {
     functions: functions! {
         fmi2GetTypesPlatform 1 None, |s| text(s, fmi2GetTypesPlatform);
@@ -124,11 +124,11 @@ pub static VERSION: Version = Version {
     },
 };
 
-fn make(making: &Making, host: &Host) -> ComponentPointer {
+fn make(options: &InstanceOptions, host: &Host) -> ComponentPointer {
     let (token, callbacks) = (CString::new(guid()).unwrap_or_default(), host.recorder.callbacks());
-    let logs = i32::from(making.logs);
-    // SAFETY: all pointers are valid through the call, and the host as long as the instance
-    unsafe { fmi2Instantiate(c"unit".as_ptr(), making.kind as i32, token.as_ptr(), ptr::null(), &callbacks, 0, logs) }
+    let logs = i32::from(options.logs);
+    // SAFETY: all pointers are valid during the call, and the host as long as the instance
+    unsafe { fmi2Instantiate(c"unit".as_ptr(), options.kind as i32, token.as_ptr(), ptr::null(), &callbacks, 0, logs) }
 }
 
 fn discrete(s: &mut Site) -> CallResult {
@@ -142,7 +142,7 @@ fn a_kind(s: &mut Site) -> i32 {
     if s.r.chance(8) { s.r.i32(..) } else { s.r.below(4) as i32 }
 }
 
-/// Asks for a status of any kind.
+/// Requests a status of any kind.
 fn status_of<T>(
     s: &mut Site,
     mut value: T,
@@ -153,7 +153,7 @@ fn status_of<T>(
     s.result(status)
 }
 
-/// fmi2Instantiate with anything; an instance that is made is freed.
+/// Calls fmi2Instantiate with random arguments. A created instance is freed.
 fn instantiate(s: &mut Site) -> CallResult {
     let (recorder, r) = (Recorder::default(), &mut *s.r);
     let callbacks = recorder.callbacks();
@@ -162,11 +162,11 @@ fn instantiate(s: &mut Site) -> CallResult {
     let ([name, token], is_right) = name_and_token(r, &right);
     let places = [ptr::null(), c"file:///a%20b".as_ptr(), c"\xff".as_ptr()];
     let callbacks = if r.chance(4) { ptr::null() } else { &raw const callbacks };
-    // SAFETY: all pointers are NULL or valid through the call
+    // SAFETY: all pointers are NULL or valid during the call
     let c = unsafe { fmi2Instantiate(name, kind, token, r.pick(&places), callbacks, 0, r.below(2) as i32) };
     let is_right = is_right && (kind == MODEL_EXCHANGE || kind == CO_SIMULATION);
     let outcome = instantiated(c, is_right, recorder.lines().is_empty() && !callbacks.is_null());
-    // SAFETY: NULL, or a component that nothing else holds; it is freed before its log
+    // SAFETY: NULL, or a component that nothing else uses; it is freed before its log
     unsafe { fmi2FreeInstance(c) };
     outcome
 }

@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0, each with its weight, the kind of instance that it is for, and a call of it.
+//! Table of the functions of FMI 3.0, each with its weight, the kind of its instance, and its random call.
 
 use std::ffi::{CStr, CString, c_void};
 use std::ptr;
@@ -11,26 +11,26 @@ use bevel_differential::variables::{Access, guid, table};
 
 use super::arguments::{CallResult, VariableKind as V, row};
 use super::calls::*;
-use super::host::{Host, Line, Making};
+use super::host::{Host, InstanceOptions, Line};
 use super::interface::Interface;
 use super::site::Site;
 use super::states;
 use super::version::{EXCHANGE, Function, STEPS, Version, functions};
 use crate::tools::random::Draws;
 
-/// The host ends one step early for so many updates within steps.
+/// The host ends a step early at every update whose number is a multiple of this.
 const EARLY: u64 = 17;
-/// Beginnings of messages of functions for types and clocks that no variable has.
+/// Prefixes of the messages of functions for unused types and for clocks.
 const GET: &str = "fmi3Get of a type without variables";
 const SET: &str = "fmi3Set of a type without variables";
 const CLOCKS: &str = "functions of clocks";
 
-/// Call of a function for a type that no variable has, with its further arguments.
+/// Calls a function for an unused type, with its further arguments.
 macro_rules! none {
     ($function:ident($($further:expr),*)) => { |s| none(s, |c, v, n| unsafe { $function(c, v, n, $($further),*) }) };
 }
 
-/// Call of a getter or setter of `shape` on variables of a kind.
+/// Calls a getter or setter of `shape` on variables of a kind.
 macro_rules! values {
     ($shape:ident, $kind:expr, $function:ident) => {
         |s| $shape(s, $kind, |c, v, n, x, m| unsafe { $function(c, v, n, x, m) })
@@ -39,7 +39,7 @@ macro_rules! values {
 
 // SAFETY of all calls: as in `calls`
 
-/// FMI 3.0.
+/// Functions of FMI 3.0.
 pub static VERSION: Version = Version {
     functions: functions! {
         fmi3GetVersion 1 None, |s| text(s, fmi3GetVersion);
@@ -54,7 +54,7 @@ pub static VERSION: Version = Version {
         fmi3InstantiateScheduledExecution 1 None, |s| {
             let host = &*s.instance.host;
             let null = ptr::null();
-            // SAFETY: all pointers are NULL or valid through the call
+            // SAFETY: all pointers are NULL or valid during the call
             let c = unsafe {
                 fmi3InstantiateScheduledExecution(null, null, null, 0, 0, environment(host), Some(log), ptr::null(), ptr::null(), ptr::null())
             };
@@ -186,21 +186,21 @@ pub static VERSION: Version = Version {
     },
 };
 
-/// The pointer that goes with messages and updates.
+/// Pointer that is passed along with messages and updates.
 fn environment(host: &Host) -> *mut c_void {
     ptr::from_ref(host).cast_mut().cast()
 }
 
-fn make(making: &Making, host: &Host) -> ComponentPointer {
+fn make(options: &InstanceOptions, host: &Host) -> ComponentPointer {
     let (name, token) = (c"unit".as_ptr(), CString::new(guid()).unwrap_or_default());
-    let (place, logs) = (environment(host), u8::from(making.logs));
-    // SAFETY: all pointers are valid through the call, and the host as long as the instance
+    let (place, logs) = (environment(host), u8::from(options.logs));
+    // SAFETY: all pointers are valid during the call, and the host as long as the instance
     unsafe {
-        if making.kind == Kind::ModelExchange {
+        if options.kind == Kind::ModelExchange {
             return fmi3InstantiateModelExchange(name, token.as_ptr(), ptr::null(), 0, logs, place, Some(log));
         }
-        let updates = making.updates.then_some(update as IntermediateUpdate);
-        let [events, early] = [making.events, making.early].map(u8::from);
+        let updates = options.updates.then_some(update as IntermediateUpdate);
+        let [events, early] = [options.events, options.early].map(u8::from);
         let token = token.as_ptr();
         fmi3InstantiateCoSimulation(
             name,
@@ -228,7 +228,7 @@ unsafe extern "C" fn log(environment: *mut c_void, status: Status, category: Tex
     host.recorder.lines().push(Line { status, category: category.into_owned(), message: message.into_owned() });
 }
 
-/// Reads within a step, and ends the step now and then.
+/// Reads variables during a step, and sometimes ends the step.
 unsafe extern "C" fn update(
     environment: *mut c_void,
     time: f64,
@@ -254,11 +254,11 @@ unsafe extern "C" fn update(
         let found = format!("in an update at {time}, {references:?} were read with {status:?}: {numbers:?}");
         *host.broken.borrow_mut() = Some(found);
     }
-    // SAFETY: a place of the library
+    // SAFETY: a variable of the library
     unsafe { *early = Boolean::from(count.is_multiple_of(EARLY)) };
 }
 
-/// Sets an integer: the number of planets in configuration mode, and choices as such.
+/// Sets an integer: the number of planets in configuration mode, and enumerations as enumerations.
 unsafe fn set_integer(c: ComponentPointer, v: u32, x: i32) -> Status {
     // SAFETY: the caller's promise
     unsafe {
@@ -275,14 +275,14 @@ unsafe fn set_integer(c: ComponentPointer, v: u32, x: i32) -> Status {
     }
 }
 
-/// A function that every state refuses.
+/// Calls a function that every state refuses.
 fn never(s: &mut Site, function: unsafe fn(ComponentPointer) -> Status) -> CallResult {
     s.flaws.any = true;
     let status = unsafe { function(s.c) };
     s.result(status)
 }
 
-/// A number that never changes.
+/// Reads a number that never changes.
 fn number(
     s: &mut Site,
     right: usize,
@@ -315,7 +315,7 @@ fn do_step(s: &mut Site, point: f64, h: f64) -> Ended {
     (status, Some(last), early == 1)
 }
 
-/// An instance of either kind with any name and token; an instance that is made is freed.
+/// Creates an instance of either kind with random name and token. A created instance is freed.
 fn instantiate(
     s: &mut Site,
     function: fn(&mut fastrand::Rng, Text, Text, *mut c_void, Option<LogMessage>) -> ComponentPointer,
@@ -326,7 +326,7 @@ fn instantiate(
     let message = is_logged.then_some(log as LogMessage);
     let c = function(s.r, name, token, environment(host), message);
     let outcome = instantiated(c, is_right, is_logged && host.recorder.lines().is_empty());
-    // SAFETY: NULL, or an instance that nothing else holds
+    // SAFETY: NULL, or an instance that nothing else uses
     unsafe { fmi3FreeInstance(c) };
     outcome
 }

@@ -1,4 +1,4 @@
-//! The host's side of an instance: options, the log, and the updates within steps.
+//! Host's side of an instance: options, log, and updates during steps.
 
 use std::cell::{Cell, RefCell};
 
@@ -14,7 +14,7 @@ pub use recorder::{Line, Recorder};
 
 /// Options of an instance.
 #[derive(Clone, Copy, Debug)]
-pub struct Making {
+pub struct InstanceOptions {
     /// Model exchange or co-simulation.
     pub kind: Kind,
     /// True if debug logging is on from the start.
@@ -23,25 +23,25 @@ pub struct Making {
     pub events: bool,
     /// FMI 3.0, co-simulation: a step may end at an event.
     pub early: bool,
-    /// FMI 3.0, co-simulation: the host is called back within steps.
+    /// FMI 3.0, co-simulation: the host is called back during steps.
     pub updates: bool,
 }
 
-impl Making {
-    /// Draws everything but the kind.
+impl InstanceOptions {
+    /// Draws all options except the kind.
     pub fn drawn(r: &mut Rng, kind: Kind) -> Self {
         Self { kind, logs: r.chance(2), events: r.chance(2), early: r.chance(2), updates: r.chance(3) }
     }
 }
 
-/// The host's side of an instance. It stays at its place, since the instance has pointers to it.
+/// Host's side of an instance. It must not move, because the instance has pointers to it.
 pub struct Host {
     /// Lines that the instance logged.
     pub recorder: Recorder,
-    /// Updates within steps so far.
+    /// Number of updates during steps so far.
     pub updates: Cell<u64>,
-    /// The instance, for calls within a step; NULL before it is made.
+    /// The instance, for calls during a step; NULL before it is created.
     pub component: Cell<ComponentPointer>,
-    /// First promise that an update within a step broke, in words.
+    /// First promise that was broken by an update during a step, as text.
     pub broken: RefCell<Option<String>>,
 }

@@ -1,48 +1,48 @@
-//! An instance of the fuzzer, made and looked after by the functions of one version of FMI.
+//! Instance of the fuzzer, created and inspected with the functions of one version of FMI.
 
 use std::cell::{Cell, RefCell};
 use std::ptr;
 
 use bevel_differential::instance::{ComponentPointer, FmuState, Status};
 
-use super::host::{Host, Line, Making, Recorder};
+use super::host::{Host, InstanceOptions, Line, Recorder};
 use super::interface::Interface;
 
-/// An instance of the fuzzer.
+/// Instance of the fuzzer.
 pub struct FuzzedInstance {
-    /// Functions that made it.
+    /// Functions of its FMI version.
     pub interface: &'static Interface,
-    /// The instance.
+    /// Pointer to the instance.
     pub component: ComponentPointer,
-    /// Options with which it was made.
-    pub making: Making,
+    /// Options of the instance.
+    pub options: InstanceOptions,
     /// The host's side.
     pub host: Box<Host>,
-    /// True if its log is filtered by category.
+    /// True if the log is filtered by category.
     pub is_filtered: bool,
-    /// A state for comparisons, overwritten each time; NULL until it is needed.
+    /// State for comparisons, overwritten each time; NULL until it is needed.
     pub comparison_state: FmuState,
-    /// True if a tolerance or a stop time was announced: these outlast restored states.
+    /// True if a tolerance or a stop time was announced. Announcements survive the restoring of states.
     pub has_announced: bool,
-    /// Calls refused one after the other.
+    /// Number of consecutive refused calls.
     pub refused: usize,
 }
 
 impl FuzzedInstance {
-    /// A fresh instance; none if it is refused.
-    pub fn new(interface: &'static Interface, making: Making) -> Option<Self> {
+    /// Creates an instance; none if it is refused.
+    pub fn new(interface: &'static Interface, options: InstanceOptions) -> Option<Self> {
         let host = Box::new(Host {
             recorder: Recorder::default(),
             updates: Cell::new(0),
             component: Cell::new(ptr::null_mut()),
             broken: RefCell::new(None),
         });
-        let component = (interface.make)(&making, &host);
+        let component = (interface.make)(&options, &host);
         host.component.set(component);
         (!component.is_null()).then(|| Self {
             interface,
             component,
-            making,
+            options,
             host,
             is_filtered: false,
             comparison_state: ptr::null_mut(),
@@ -65,7 +65,7 @@ impl FuzzedInstance {
         (status == Status::Ok).then_some(now)
     }
 
-    /// The whole state as bytes; none where the standard forbids reading it (after an error).
+    /// Complete state as bytes; none if the standard forbids reading it (after an error).
     pub fn bytes(&mut self) -> Option<Vec<u8>> {
         // SAFETY: a live component; the state is NULL or this instance's own
         let status = unsafe { (self.interface.get_state)(self.component, &mut self.comparison_state) };
@@ -76,7 +76,7 @@ impl FuzzedInstance {
     }
 }
 
-/// A state as bytes.
+/// Serialises a state.
 pub fn serialised(interface: &Interface, c: ComponentPointer, state: FmuState) -> Option<Vec<u8>> {
     let mut size = 0;
     // SAFETY: a live component and a live state

@@ -1,28 +1,28 @@
-//! The functions of FMI by which random calls look after their instances, in shapes that both versions share.
+//! FMI functions that the fuzzer itself needs for its instances, with signatures that both versions share.
 
 use bevel_differential::instance::{ComponentPointer, FmuState, Kind, Status};
 
-use super::host::{Host, Making};
+use super::host::{Host, InstanceOptions};
 
 /// Functions of one version of FMI.
 pub struct Interface {
-    /// First number of the version.
+    /// Major version of FMI.
     pub number: u32,
-    /// Makes an instance; NULL if it is refused.
-    pub make: fn(&Making, &Host) -> ComponentPointer,
+    /// Creates an instance; NULL if it is refused.
+    pub make: fn(&InstanceOptions, &Host) -> ComponentPointer,
     /// Frees an instance.
     pub free: unsafe fn(ComponentPointer),
     /// Resets an instance.
     pub reset: unsafe fn(ComponentPointer) -> Status,
-    /// Logs all categories of errors only.
+    /// Logs all categories, but only errors.
     pub log_all: unsafe fn(ComponentPointer) -> Status,
-    /// Initialises an instance that has its start values.
+    /// Initialises an instance with its present start values.
     pub initialise: unsafe fn(ComponentPointer) -> [Status; 2],
-    /// Goes on from the end of initialisation to where steps happen.
+    /// Advances from the end of initialisation to the mode in which steps are possible.
     pub run: unsafe fn(ComponentPointer, Kind),
     /// Reads the time.
     pub time: unsafe fn(ComponentPointer, *mut f64) -> Status,
-    /// Moves on from a time by a step.
+    /// Executes a step from a time.
     pub step: unsafe fn(ComponentPointer, f64, f64) -> Status,
     /// Sets a number.
     pub set_real: unsafe fn(ComponentPointer, u32, f64) -> Status,
@@ -34,7 +34,7 @@ pub struct Interface {
     pub get_reals: unsafe fn(ComponentPointer, *const u32, usize, *mut f64) -> Status,
     /// Reads all continuous states.
     pub get_states: unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status,
-    /// Reads their derivatives.
+    /// Reads the derivatives of all continuous states.
     pub get_rates: unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status,
     /// Reads event indicators.
     pub get_indicators: unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status,
@@ -44,10 +44,10 @@ pub struct Interface {
     pub set_state: unsafe fn(ComponentPointer, FmuState) -> Status,
     /// Frees a state.
     pub free_state: unsafe fn(ComponentPointer, *mut FmuState) -> Status,
-    /// Size of a serialised state.
+    /// Returns the size of a serialised state.
     pub state_size: unsafe fn(ComponentPointer, FmuState, *mut usize) -> Status,
     /// Serialises a state.
     pub serialize: unsafe fn(ComponentPointer, FmuState, *mut u8, usize) -> Status,
-    /// Makes a state of bytes.
+    /// Creates a state from bytes.
     pub deserialize: unsafe fn(ComponentPointer, *const u8, usize, *mut FmuState) -> Status,
 }

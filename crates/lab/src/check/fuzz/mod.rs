@@ -1,11 +1,12 @@
-//! The C functions of FMI 2.0 and 3.0 called at random, in any order, with arguments right and wrong, on several instances of both
-//! kinds; every result is checked against what the FMU promises.
+//! Random calls of the C functions of FMI 2.0 and 3.0: in any order, with valid and invalid arguments, on several
+//! instances of both kinds. Every result is checked against the promises of the FMU.
 //!
-//! Rounds are independent: the round with the seed S is what `fuzz --seed S --calls 500` runs. Even seeds are rounds of FMI 2.0, odd ones
-//! of FMI 3.0. Workers are separate processes of this program, started by python/fuzz.py, so that a crash or a hang is reported with
-//! its seed.
+//! Rounds are independent: `fuzz --seed S --calls 500` repeats the round with the seed S. Even seeds are rounds of FMI
+//! 2.0, odd ones of FMI 3.0. Workers are separate processes of this program, started by python/fuzz.py. A crash or a
+//! hang can therefore be reported with its seed.
 //!
-//! `fmi2` and `fmi3` are tables of functions, `calls` and `states` call them by their shapes at a `site`, and `round` has the promises.
+//! `fmi2` and `fmi3` are tables of functions. `calls` and `states` call them by signature at a `site`, and `round`
+//! checks the promises.
 
 mod arguments;
 mod calls;
@@ -36,28 +37,28 @@ use fmu_build::tools::program::Finding;
 
 use crate::tools::script::{DEFAULTS, Script};
 
-/// Number of calls by default.
+/// Default number of calls.
 const MANY: usize = 1_000_000;
 
-/// Calls the C functions at random and checks each result against what the FMU promises
+/// Calls the C functions at random and checks each result against the promises of the FMU
 #[derive(Args, Clone, Copy, Debug)]
 pub struct FuzzCommand {
     /// Number of calls
     #[arg(long, value_name = "N", default_value_t = MANY)]
     calls: usize,
-    /// Seed of the first round; each further round has the next
+    /// Seed of the first round; each further round has the next one
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Version of FMI: 2 or 3 [default: both by turns of seeds]
+    /// Version of FMI: 2 or 3 [default: alternating with the seed]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3))]
     fmi: Option<u32>,
-    /// Run rounds one after the other in this process and report them on standard output
+    /// Run rounds sequentially in this process and report them on standard output
     #[arg(long = "worker", hide = true)]
     is_worker: bool,
 }
 
 impl FuzzCommand {
-    /// Calls at random and prints the table; fails with the seed if a promise is not kept.
+    /// Runs the calls and prints the table. Fails with the seed if a promise is broken.
     pub fn run(&self) -> Result<()> {
         if self.is_worker {
             return work(self);
@@ -71,7 +72,7 @@ impl FuzzCommand {
     }
 }
 
-/// Works off rounds, and reports each before it begins, so that a crash can be reproduced.
+/// Executes rounds and reports each one before it begins, so that a crash can be reproduced.
 fn work(command: &FuzzCommand) -> Result<()> {
     let mut tally = Tally::default();
     for k in 0..command.calls.div_ceil(CALLS) {
@@ -88,7 +89,7 @@ fn work(command: &FuzzCommand) -> Result<()> {
     Ok(())
 }
 
-/// Command that runs the round of `seed` again.
+/// Command that repeats the round of `seed`.
 pub fn again(seed: u64, fmi: Option<u32>) -> String {
     let fmi = fmi.map_or_else(String::new, |number| format!(" --fmi {number}"));
     format!("{LABORATORY} fuzz --seed {seed} --calls {CALLS}{fmi}")

@@ -1,11 +1,11 @@
-//! Random values such as careless hosts pass.
+//! Random values that careless hosts might pass.
 
 use bevel_differential::variables::{Access, Variable, real_start};
 use fastrand::Rng;
 
 use crate::tools::random::Draws;
 
-/// Any number, often a hard one: zero, NaN, infinite, tiny or huge.
+/// Draws any number, often a difficult one: zero, NaN, infinite, tiny or huge.
 pub fn real(r: &mut Rng) -> f64 {
     let any = f64::from_bits(r.u64(..));
     let near = (r.below(2001) as f64 - 1000.0) * 10f64.powi(r.below(9) as i32 - 6);
@@ -14,7 +14,7 @@ pub fn real(r: &mut Rng) -> f64 {
     r.pick(&[near, near, near, any, hard])
 }
 
-/// A value for a real variable: mostly near its start value, now and then from its range, or any.
+/// Draws a value for a real variable: mostly near its start value, sometimes from its range, sometimes any.
 pub fn value_for(r: &mut Rng, row: &Variable) -> f64 {
     let start = real_start(row).unwrap_or(0.0);
     match (r.below(8), row.range) {
@@ -25,7 +25,7 @@ pub fn value_for(r: &mut Rng, row: &Variable) -> f64 {
     }
 }
 
-/// A value for an integer, a choice or a switch: mostly one that exists.
+/// Draws a value for an integer, an enumeration or a Boolean, mostly a valid one.
 pub fn integer_for(r: &mut Rng, row: &Variable) -> i32 {
     if r.chance(8) {
         return r.i32(..);

@@ -1,4 +1,4 @@
-//! A round: a few instances of both kinds, and calls at random on them, each checked against what the FMU promises.
+//! A round: several instances of both kinds with random calls, each checked against the promises of the FMU.
 
 use std::ptr;
 
@@ -8,7 +8,7 @@ use fastrand::Rng;
 
 use super::arguments::{CallResult, Flaws};
 use super::choice::{VERSIONS, draw};
-use super::host::{Line, Making};
+use super::host::{InstanceOptions, Line};
 use super::instance::FuzzedInstance;
 use super::scenes;
 use super::site::{HeldStates, Site};
@@ -16,40 +16,40 @@ use super::tally::Tally;
 use super::version::{Function, Version};
 use crate::tools::random::Draws;
 
-/// Calls of a round.
+/// Number of calls of a round.
 pub const CALLS: usize = 500;
 /// Kinds of the instances of a round.
 const KINDS: [Kind; 4] = [Kind::ModelExchange, Kind::CoSimulation, Kind::ModelExchange, Kind::CoSimulation];
-/// For one call in this many the states before and after it are compared.
+/// The state before and after is compared for one call out of this number.
 const COMPARED: usize = 6;
-/// One call in so many is a function of the other version of FMI.
+/// One call out of this number is a function of the other version of FMI.
 const OTHER: usize = 100;
-/// Refusals in a row after which an instance is started again.
+/// Number of consecutive refusals after which an instance is restarted.
 const PATIENCE: usize = 10;
-/// Where a serialised state has the phase: after the header, the version of FMI and the kind.
+/// Position of the phase in a serialised state: after the header, the version of FMI and the kind.
 const PHASE: usize = 30;
 
-/// A promise that was not kept.
+/// A broken promise.
 #[derive(Clone, Debug)]
 pub struct BrokenPromise {
-    /// Number of the call in its round.
+    /// Index of the call in its round.
     pub at: usize,
-    /// What was called.
+    /// Called function.
     pub function: &'static str,
-    /// What it should not have done.
+    /// Description of the broken promise.
     pub what: String,
 }
 
-/// Calls `calls` functions of a `version` at random by `seed`, and counts them in `tally`.
+/// Calls `calls` functions of `version` at random with `seed`, and counts them in `tally`.
 pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromise> {
     let mut r = Rng::with_seed(seed);
     let outside = |what: &str| BrokenPromise { at: 0, function: "start of the round", what: what.to_owned() };
     let (mut instances, mut expected) = (Vec::new(), Vec::new());
-    // a host that handles events restores no state of one that does not
+    // a host that handles events cannot restore a state of one that does not
     let events = r.bool();
     for (i, kind) in KINDS.into_iter().enumerate() {
-        let making = Making { events, ..Making::drawn(&mut r, kind) };
-        let make = || FuzzedInstance::new(&version.interface, making).ok_or_else(|| outside("no instance was made"));
+        let options = InstanceOptions { events, ..InstanceOptions::drawn(&mut r, kind) };
+        let make = || FuzzedInstance::new(&version.interface, options).ok_or_else(|| outside("no instance was made"));
         expected.push(scenes::study(&make()?).ok_or_else(|| outside("the study's scene does not run"))?);
         let instance = make()?;
         if i > 0 {
@@ -68,7 +68,7 @@ pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally
         unsafe { (version.interface.free_state)(instances[0].component, &mut state) };
     }
     outcome?;
-    // after a reset every instance behaves as new, whatever was called before
+    // after a reset, every instance must behave like a new one, regardless of previous calls
     for (instance, expected) in instances.iter().zip(&expected) {
         tally.updates += instance.host.updates.get();
         if scenes::study(instance).as_ref() != Some(expected) {
@@ -79,7 +79,7 @@ pub fn run(version: &'static Version, seed: u64, calls: usize, tally: &mut Tally
     Ok(())
 }
 
-/// Makes one call and checks all promises about it.
+/// Executes one call and checks all promises about it.
 fn make_call(
     (seed, at): (u64, usize),
     r: &mut Rng,
@@ -95,14 +95,14 @@ fn make_call(
     let is_other = r.chance(OTHER);
     let version = VERSIONS.into_iter().find(|v| (v.interface.number != instance.interface.number) == is_other);
     let version = version.unwrap_or(VERSIONS[0]);
-    let function = draw(r, version, instance.making.kind);
+    let function = draw(r, version, instance.options.kind);
     let c = match r.below(150) {
         0 => ptr::null_mut(),
         1 => instance.component.wrapping_byte_add(1),
         _ => instance.component,
     };
     let before = if r.chance(COMPARED) { instance.bytes() } else { None };
-    // processor time, so that other load of the machine does not count
+    // processor time, which excludes other load of the machine
     let start = ThreadTime::now();
     let outcome =
         (function.call)(&mut Site { interface: &version.interface, c, r, flaws: Flaws::default(), instance, held });
@@ -126,7 +126,7 @@ fn make_call(
     {
         return Err(broken("the instance is not in the state that was set".into()));
     }
-    // FMI 2.0 tells the time only between steps
+    // FMI 2.0 provides the time only between steps
     match instance.time() {
         None if instance.interface.number > 2 => return Err(broken("the time cannot be read afterwards".into())),
         Some(now) if !now.is_finite() => return Err(broken(format!("the time is {now} afterwards"))),
@@ -140,7 +140,7 @@ fn make_call(
     Ok(())
 }
 
-/// Checks what every call must return.
+/// Checks the status and log of a call.
 fn check(
     function: &Function,
     is_foreign: bool,
@@ -170,17 +170,18 @@ fn check(
         let bad = outcome.numbers.iter().position(|x| !x.is_finite());
         return bad.map_or(Ok(()), |i| Err(format!("OK, but number {i} is {}", outcome.numbers[i])));
     }
-    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(function.said));
+    let is_reported =
+        lines.iter().any(|line| line.status == status && line.message.starts_with(function.message_prefix));
     if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 
-/// Checks that a call that was refused, or that only reads, has left the state as it was `before`.
+/// Checks that a call that was refused or only reads has not changed the state `before`.
 fn compare(function: &Function, refused: bool, before: &[u8], instance: &mut FuzzedInstance) -> Result<(), String> {
     let must_not_change = function.only_reads() || refused && !function.may_change_on_failure();
     if !must_not_change {
         return Ok(());
     }
-    // in initialisation mode the first read builds the simulation
+    // in initialisation mode, the first read builds the simulation
     let starts = before.get(PHASE) == Some(&(Phase::Initialization as u8));
     match instance.bytes() {
         None => Err("the instance failed".into()),

@@ -1,4 +1,4 @@
-//! Instances brought to where steps happen: scenes and effects at random.
+//! Initialisation of instances with random scenes and effects.
 
 use bevel_differential::instance::{EVENT_INDICATORS, Kind, Status};
 use bevel_differential::model::STATES;
@@ -8,9 +8,9 @@ use fastrand::Rng;
 use super::instance::FuzzedInstance;
 use crate::tools::random::Draws;
 
-/// Scenes that are tried before the study's own is taken.
+/// Number of scenes that are tried before the study's scene is used.
 const TRIES: usize = 4;
-/// Integers and choices that make a scene.
+/// Integers and enumerations that define a scene.
 const CHOICES: [&str; 9] = [
     "scene.gear_contact",
     "scene.carrier_drive",
@@ -22,10 +22,10 @@ const CHOICES: [&str; 9] = [
     "contact.damping_model",
     "solver.method",
 ];
-/// Level of solid teeth, which cost most.
+/// Level of solid teeth, which are the most expensive.
 const SOLID: i32 = 4;
 
-/// Brings a fresh or reset instance to a running simulation. Returns true if that succeeded.
+/// Brings a new or reset instance to a running simulation. Returns true on success.
 pub fn start(instance: &FuzzedInstance, r: &mut Rng) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
@@ -40,13 +40,13 @@ pub fn start(instance: &FuzzedInstance, r: &mut Rng) -> bool {
     false
 }
 
-/// Initialises an instance and brings it to where steps happen. Returns true if that succeeded.
+/// Initialises an instance and brings it to the mode in which steps are possible. Returns true on success.
 fn initialised(instance: &FuzzedInstance) -> bool {
     // SAFETY: a live component
     let is_initialised = unsafe { (instance.interface.initialise)(instance.component) } == [Status::Ok; 2];
     if is_initialised {
         // SAFETY: as above
-        unsafe { (instance.interface.run)(instance.component, instance.making.kind) };
+        unsafe { (instance.interface.run)(instance.component, instance.options.kind) };
     }
     is_initialised
 }
@@ -61,7 +61,7 @@ fn draw(instance: &FuzzedInstance, r: &mut Rng) {
             integers.push((name, if dear { 1 } else { value }));
         }
     }
-    // solid teeth cost most: they run with the default method only
+    // solid teeth are the most expensive, so they run only with the default method
     if integers.contains(&("scene.gear_contact", SOLID)) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
@@ -88,22 +88,22 @@ fn draw(instance: &FuzzedInstance, r: &mut Rng) {
     }
 }
 
-/// Results of the study's own scene after a reset, bit by bit: three steps, or rates and indicators at the start.
+/// Results of the study's scene after a reset, bit by bit: three steps, or rates and indicators at the start.
 pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
     let (interface, c) = (instance.interface, instance.component);
     let mut numbers = vec![f64::NAN; STATES + EVENT_INDICATORS];
-    // the host ends steps early by the number of its updates
+    // the host ends steps early depending on the number of updates
     instance.host.updates.set(0);
     // SAFETY, for all: a live component and room for the counts passed
     unsafe {
         let mut statuses = vec![(interface.reset)(c)];
         let fine = initialised(instance);
-        if instance.making.kind == Kind::ModelExchange {
+        if instance.options.kind == Kind::ModelExchange {
             let (rates, indicators) = numbers.split_at_mut(STATES);
             statuses.push((interface.get_rates)(c, rates.as_mut_ptr(), rates.len()));
             statuses.push((interface.get_indicators)(c, indicators.as_mut_ptr(), indicators.len()));
         } else {
-            // a step may end early where the host has said that it may
+            // a step may end early if the host has allowed it
             statuses.extend([(); 3].map(|()| (interface.step)(c, instance.time().unwrap_or(f64::NAN), 1e-3)));
             let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
             numbers.resize(outputs.len(), f64::NAN);

@@ -1,4 +1,4 @@
-//! A call that is to be made: its instance, its arguments, and the states that all instances share.
+//! A prepared call: its instance, its arguments, and the states that all instances share.
 
 use bevel_differential::instance::{ComponentPointer, FmuState, Status};
 use bevel_differential::model::STATES;
@@ -11,25 +11,25 @@ use super::interface::Interface;
 use super::random::{real, value_for};
 use crate::tools::random::Draws;
 
-/// Room for arrays of states and event indicators, and the largest count announced for it.
+/// Room for arrays of states and event indicators, and the largest announced count.
 pub const ROOM: usize = 64;
 
-/// Saved states that any instance may be given.
+/// Saved states, which may be passed to any instance.
 #[derive(Default)]
 pub struct HeldStates {
-    /// States, each with its bytes.
+    /// States, each with its serialised bytes.
     pub states: Vec<(FmuState, Vec<u8>)>,
     /// Serialised states.
     pub blobs: Vec<Vec<u8>>,
 }
 
-/// A call that is to be made.
+/// A prepared call.
 pub struct Site<'a> {
-    /// Version of FMI of the function. The instance may have another one.
+    /// Functions of the called FMI version. The instance may have another version.
     pub interface: &'static Interface,
     /// The component, or a pointer that must be refused.
     pub c: ComponentPointer,
-    /// The generator.
+    /// Random generator.
     pub r: &'a mut Rng,
     /// Faults of the arguments so far.
     pub flaws: Flaws,
@@ -40,27 +40,27 @@ pub struct Site<'a> {
 }
 
 impl Site<'_> {
-    /// `pointer`, or one that must be refused if it is `needed`.
+    /// Returns `pointer`, or sometimes one that must be refused if the pointer is `needed`.
     pub fn read<T>(&mut self, pointer: *const T, needed: bool) -> *const T {
         self.flaws.pointer(self.r, pointer, needed)
     }
 
-    /// Place to write to, or one that must be refused if it is `needed`.
+    /// Returns a pointer to write to, or sometimes one that must be refused if it is `needed`.
     pub fn place<T>(&mut self, pointer: *mut T, needed: bool) -> *mut T {
         self.flaws.place(self.r, pointer, needed)
     }
 
-    /// Counts of references and values, or such as must be refused.
+    /// Counts of references and values, or sometimes counts that must be refused.
     pub fn counts(&mut self, n: usize) -> [usize; 2] {
         if self.interface.number == 2 { [self.flaws.count(self.r, n); 2] } else { self.flaws.counts(self.r, n) }
     }
 
-    /// Result with a status.
+    /// Creates a result with `status`.
     pub fn result(&self, status: Status) -> CallResult {
         CallResult::of(status, &self.flaws)
     }
 
-    /// A step of Euler's from where the instance is, now and then with something wild in it.
+    /// Advances the instance's states by an Euler step, sometimes with an extreme value among them.
     pub fn next_states(&mut self) -> [f64; ROOM] {
         let (mut x, mut rates) = ([0.0; ROOM], [0.0; STATES]);
         let interface = self.instance.interface;
@@ -78,7 +78,7 @@ impl Site<'_> {
         x
     }
 
-    /// Values for `references`, for states those of a next step.
+    /// Draws values for `references`; for states, the values of a next step.
     pub fn reals(&mut self, references: &[u32], wanted: VariableKind) -> Vec<f64> {
         let share = |r: &mut Rng| if r.chance(2) { 1.0 } else { 0.9 };
         let drawn = |&v: &u32| row(v).map_or(0.0, |row| value_for(self.r, row)) * share(self.r);

@@ -1,4 +1,4 @@
-//! Calls that save and deserialise states. States and serialised states pass between instances.
+//! Calls that save and restore states. States and serialised states are passed between instances.
 
 use std::ptr;
 
@@ -10,12 +10,12 @@ use super::instance::serialised;
 use super::site::Site;
 use crate::tools::random::Draws;
 
-/// Most states that are held at a time, and most blobs.
+/// Maximum number of saved states, and of serialised ones.
 const HELD: usize = 12;
-/// Bytes before the payload of a serialised state.
+/// Length of the header of a serialised state, in bytes.
 const HEADER: usize = 28;
 
-/// A state of any instance, or none.
+/// Draws a state of any instance, or sometimes a null or invalid pointer.
 fn a_state(s: &mut Site) -> (FmuState, Vec<u8>) {
     if s.held.states.is_empty() || s.r.chance(20) {
         s.flaws.any = true;
@@ -24,7 +24,7 @@ fn a_state(s: &mut Site) -> (FmuState, Vec<u8>) {
     s.r.pick(&s.held.states)
 }
 
-/// Stores the state in a new place or in that of another state.
+/// Saves the state to a new pointer, or replaces a saved state.
 pub fn get_state(s: &mut Site) -> CallResult {
     let fresh = s.held.states.len() < HELD && (s.held.states.is_empty() || s.r.chance(2));
     let mut made = ptr::null_mut();
@@ -56,12 +56,12 @@ pub fn set_state(s: &mut Site) -> CallResult {
     outcome
 }
 
-/// Frees a state, or none.
+/// Frees a state or a null state.
 pub fn free_state(s: &mut Site) -> CallResult {
     if s.r.chance(4) || s.held.states.len() < HELD / 2 {
         let mut nothing = ptr::null_mut();
         let place = if s.r.chance(2) { ptr::null_mut() } else { &raw mut nothing };
-        // SAFETY: a live component, and NULL or a place with no state
+        // SAFETY: a live component, and NULL or a pointer to a null state
         return s.result(unsafe { (s.interface.free_state)(s.c, place) });
     }
     let at = s.r.below(s.held.states.len());
@@ -75,12 +75,12 @@ pub fn free_state(s: &mut Site) -> CallResult {
     outcome
 }
 
-/// Asks for the size of a serialised state.
+/// Requests the size of a serialised state.
 pub fn state_size(s: &mut Site) -> CallResult {
     let (state, bytes) = a_state(s);
     let mut size = 0;
     let place = s.place(&raw mut size, true);
-    // SAFETY: a live component, a live state or one that the library checks for, and a place for the size
+    // SAFETY: a live component, a live state or one that the library must refuse, and room for the size
     let outcome = s.result(unsafe { (s.interface.state_size)(s.c, state, place) });
     outcome.unless(size != bytes.len(), "another size than before")
 }
@@ -92,21 +92,21 @@ pub fn serialize(s: &mut Site) -> CallResult {
     let size = if s.r.chance(6) { s.r.below(room.len() + 1) } else { bytes.len() };
     s.flaws.any |= size != bytes.len();
     let place = s.place(room.as_mut_ptr(), true);
-    // SAFETY: a live component, a live state or one that the library checks for, and room for the bytes
+    // SAFETY: a live component, a live state or one that the library must refuse, and room for the bytes
     let outcome = s.result(unsafe { (s.interface.serialize)(s.c, state, place, size) });
     outcome.unless(room[..size] != bytes, "other bytes than before")
 }
 
-/// How a blob differs from what was serialised.
+/// Damage to a serialised state.
 enum Damage {
     None,
-    /// A bit flipped, the end cut off, or a byte added: must be refused.
+    /// A flipped bit, a cut end or an added byte: must be refused.
     Plain,
-    /// Bits of the payload flipped and the checksum made to fit: may be refused; if accepted, the state must work.
+    /// Flipped bits of the payload with a matching checksum: may be refused; if accepted, the state must work.
     Covered,
 }
 
-/// Makes a state of bytes, damaged or not.
+/// Creates a state from bytes, damaged or not.
 pub fn deserialize(s: &mut Site) -> CallResult {
     let mut blob = if s.held.blobs.is_empty() { Vec::new() } else { s.r.pick(&s.held.blobs) };
     let damage = match s.r.below(4) {
@@ -142,7 +142,7 @@ pub fn deserialize(s: &mut Site) -> CallResult {
     let mut made = ptr::null_mut();
     let place = if full { &raw mut s.held.states[at].0 } else { &raw mut made };
     let (place, bytes) = (s.place(place, true), s.read(blob.as_ptr(), true));
-    // SAFETY: a live component, the bytes passed, and a place for a state
+    // SAFETY: a live component, the bytes passed, and room for a state
     let mut outcome = s.result(unsafe { (s.interface.deserialize)(s.c, bytes, blob.len(), place) });
     if outcome.status == Status::Ok {
         let state = if full { s.held.states[at].0 } else { made };

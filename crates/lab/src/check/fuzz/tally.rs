@@ -1,4 +1,4 @@
-//! Calls by function: counts, statuses and times.
+//! Statistics of calls by function: counts, statuses and times.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -8,24 +8,24 @@ use serde_json::{Value, json};
 
 use super::choice::VERSIONS;
 
-/// Statuses that are counted: OK, warning, discard, error.
+/// Number of counted statuses: OK, warning, discard, error.
 const STATUSES: usize = 4;
 
-/// Counts by function.
+/// Statistics by function.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     rows: BTreeMap<&'static str, FunctionTally>,
     /// Instances brought to a running simulation.
     pub started_instances: u64,
-    /// Calls before and after which states were compared.
+    /// Number of calls for which states were compared.
     pub compared: u64,
-    /// Updates within steps.
+    /// Number of updates during steps.
     pub updates: u64,
-    /// The call that took longest.
+    /// Call that took longest.
     longest: LongestCall,
 }
 
-/// A call by its place: seed of its round, and its number there.
+/// A call, identified by the seed of its round and its index in the round.
 #[derive(Clone, Copy, Debug, Default)]
 struct LongestCall {
     took: Duration,
@@ -42,7 +42,7 @@ struct FunctionTally {
 }
 
 impl Tally {
-    /// Counts a call of `function`. Its place is the seed of its round and its number there.
+    /// Counts a call of `function`. The call is identified by the seed of its round and its index in the round.
     pub fn count(&mut self, function: &'static str, status: Status, took: Duration, (seed, at): (u64, usize)) {
         if took > self.longest.took {
             self.longest = LongestCall { took, function, seed, at: at as u64 };
@@ -53,17 +53,17 @@ impl Tally {
         row.longest = row.longest.max(took);
     }
 
-    /// Calls so far.
+    /// Number of calls so far.
     pub fn calls(&self) -> u64 {
         self.rows.values().flat_map(|row| row.statuses).sum()
     }
 
-    /// Successful calls of `function`.
+    /// Number of successful calls of `function`.
     pub fn returned_ok(&self, function: &str) -> u64 {
         self.rows.get(function).map_or(0, |row| row.statuses[0])
     }
 
-    /// All of it as JSON, for the process that starts workers; times in seconds.
+    /// Statistics as JSON, for the process that starts workers; times in seconds.
     pub fn json(&self) -> Value {
         let LongestCall { took, function, seed, at } = self.longest;
         let functions = VERSIONS.iter().flat_map(|version| version.functions);
