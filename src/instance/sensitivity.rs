@@ -42,7 +42,7 @@ impl Instance {
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
         }
-        let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.is_felt(known)))).collect();
+        let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.has_effect(known)))).collect();
         let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], vec![0.0; known.len()]);
         self.with_columns(&unknowns, |columns| {
             known.into_iter().zip(&mut sums).try_for_each(|(known, sum)| {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::felt::{Situation, acts, written_as_shown};
+use super::effective::{Situation, acts, written_as_shown};
 use super::named::{index_of, number};
 use super::table::table;
 use super::{Access, Causality, Variable};
