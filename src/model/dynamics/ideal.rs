@@ -469,7 +469,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         LedgerRates::combined(of)
     }
 
-    fn take_change_back(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
+    fn undo_torque_change(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
         self.take_torques_back(at, ledger_rates);
         for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
             ledger_rates.shaft[s] = self.acting.inputs.load_torque[s] - self.acting.change[s];

@@ -118,7 +118,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     }
 
     #[inline(never)]
-    fn take_change_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
+    fn undo_torque_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         self.take_torques_back(at, ledger_rates);
     }
 
@@ -195,19 +195,19 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
-    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
-        let mut part = 1.0f64;
+    fn safe_fraction(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        let mut fraction = 1.0f64;
         for g in 0..self.groups() {
             for s in 0..2 {
                 let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[Q]);
                 let most = self.teeth.contact.mesh.half_backlash()
                     + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.contact.mesh.approach(from));
                 if to.abs() > most {
-                    part = part.min((most.copysign(to) - from) / (to - from));
+                    fraction = fraction.min((most.copysign(to) - from) / (to - from));
                 }
             }
         }
-        part
+        fraction
     }
 
     #[inline]

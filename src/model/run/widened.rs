@@ -149,8 +149,8 @@ impl SecondOrder<MEDIUM> for Widened<'_> {
         LedgerRates::combined(of)
     }
 
-    fn take_change_back(&self, at: &Point<MEDIUM>, ledger_rates: &mut LedgerRates) {
-        self.0.take_change_back(&narrow(at), ledger_rates);
+    fn undo_torque_change(&self, at: &Point<MEDIUM>, ledger_rates: &mut LedgerRates) {
+        self.0.undo_torque_change(&narrow(at), ledger_rates);
     }
 
     fn energy(&self, at: &Point<MEDIUM>) -> [f64; 2] {
