@@ -141,10 +141,10 @@ impl Instance {
     /// torques among them turn the wheels backward.
     fn report_unset(&self) {
         let Snapshot { parameters, inputs, set, .. } = &self.now;
-        let is_own = set.has_own_differential();
-        if self.log.is_on(if is_own { Category::Warning } else { Category::Events }) {
+        let is_another = set.describes_another_differential();
+        if self.log.is_on(if is_another { Category::Warning } else { Category::Events }) {
             let line = unset::in_one_line(&unset::unset(parameters, inputs, set));
-            match (line.is_empty(), is_own) {
+            match (line.is_empty(), is_another) {
                 (true, _) => {}
                 (false, true) => self.log.warning(&line),
                 (false, false) => self.log.event(&line),

@@ -15,7 +15,7 @@ pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
     let problems = simulation.warnings().iter().cloned().chain(values_without_effect(scene)).chain(runaway);
     let mut found: Vec<String> = problems.map(|problem| problem.to_string()).collect();
-    if set.has_own_differential() {
+    if set.describes_another_differential() {
         let line = unset::in_one_line(&unset::unset(&scene.parameters, &scene.inputs, &set));
         found.extend(Some(line).filter(|line| !line.is_empty()));
     }
