@@ -63,9 +63,9 @@ impl Acting {
     /// Adds the contribution of effects on bodies at `state`: dry friction, if there may be any, and the viscosity of
     /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
-        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.felt);
+        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.used);
         if body_effects.may_rub_in(state) {
-            let at = (state.lock, &state.thermal.felt);
+            let at = (state.lock, &state.thermal.used);
             let friction = body_effects.friction(at, &self.inputs, &self.input_derivatives);
             self.rubs = friction.is_any();
             self.friction = Some(friction);

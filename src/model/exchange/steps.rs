@@ -102,8 +102,8 @@ impl Simulation {
                 if outcome.is_ok() {
                     let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
                     equations.record(model, (&step, None), sums);
-                    if sums.thermal.is_to_be_felt() {
-                        sums.thermal.feel();
+                    if sums.thermal.is_update_due() {
+                        sums.thermal.use_temperatures();
                     }
                 }
                 let mut anchors = equations.acting().anchors();

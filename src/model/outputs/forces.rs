@@ -177,7 +177,7 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 /// Sets the readings of the effects that follow from the motion.
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);

@@ -56,7 +56,7 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
 
 /// True if brakes were applied or released since friction last switched.
 pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
 

@@ -174,8 +174,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let mut outcome = Ok(());
     let mut switched = true;
     let mut anchors = equations.acting().anchors();
-    let feels_temperature = model.thermal.is_some() && model.body_effects().feels_temperature();
-    if feels_temperature {
+    let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
+    if depends_on_temperature {
         course.longest = LONGEST.min(state.thermal.longest);
     }
     while switched && outcome.is_ok() {
@@ -190,7 +190,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             equations.record(model, (&step, motion), &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
-            let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
+            let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
         // the method attempts steps until one passes `now`, or until `observe` stops it
@@ -212,12 +212,12 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             }),
         };
         equations.acting_mut().set_anchors(&anchors);
-        let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
+        let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
-            state.thermal.feel();
+            state.thermal.use_temperatures();
             course.longest = LONGEST.min(state.thermal.longest);
-            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.felt);
+            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
         }
         if switched {
             let before = equations.acting().friction_state;

@@ -68,7 +68,7 @@ impl Carried {
 
 /// Brake torques on turning wheels [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
     let brakes = friction.wheel_loads(inputs);
     let (plan, layout) = (&model.ideal.plan, &model.layout);
     [0, 1].map(|s| {
@@ -85,7 +85,7 @@ fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1
     for (i, to) in model.layout.attached() {
         v[i] = v[to];
     }
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
     let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, oil_viscosity };
     let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);
