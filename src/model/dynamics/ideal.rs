@@ -5,7 +5,7 @@
 //! constraint force λ_s = J_s ω̇_s − Q_s.
 
 use super::energy_floor::energy_floor;
-use super::{Acted, Acting, Jacobian, State};
+use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, Linear, MOST};
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -29,7 +29,7 @@ pub struct IdealTorques {
 pub struct IdealEquations<'a> {
     /// Constants.
     pub ideal: &'a IdealWithEffects,
-    pub(in crate::model) acting: Acting,
+    pub(in crate::model) applied: InputsAndFriction,
 }
 
 /// Inputs at one instant, and their rates [per s].
@@ -49,16 +49,16 @@ impl<'a> IdealEquations<'a> {
     /// Equations under `inputs`, with friction and temperatures of `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
-        let mut equations = Self { ideal, acting: Acting::without_friction(inputs, state) };
-        equations.acting.add(&ideal.body_effects, state);
+        let mut equations = Self { ideal, applied: InputsAndFriction::without_friction(inputs, state) };
+        equations.applied.add(&ideal.body_effects, state);
         equations
     }
 
     /// Calls `of` with the inputs at `time` [s] after they were set.
     #[inline(always)]
     fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
-        if self.acting.driven {
-            let (inputs, derivatives) = self.acting.input_derivatives.after(time, &self.acting.inputs);
+        if self.applied.driven {
+            let (inputs, derivatives) = self.applied.input_derivatives.after(time, &self.applied.inputs);
             of((&inputs, &derivatives.rates[0]))
         } else {
             of(self.now())
@@ -68,7 +68,7 @@ impl<'a> IdealEquations<'a> {
     /// Inputs at the time at which they were set.
     #[inline(always)]
     fn now(&self) -> InputsNow<'_> {
-        (&self.acting.inputs, &self.acting.input_derivatives.rates[0])
+        (&self.applied.inputs, &self.applied.input_derivatives.rates[0])
     }
 
     /// Forces, including commanded torques except those of imposed motions, and the accelerations of imposed motions.
@@ -89,8 +89,8 @@ impl<'a> IdealEquations<'a> {
         for effect in self.ideal.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
-        if self.rubs() {
-            self.rub(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
+        if self.has_dry_friction() {
+            self.add_friction_torques(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
         }
         for s in (0..2).filter(|_| self.has_ends()) {
             let end = self.end(s);
@@ -104,14 +104,14 @@ impl<'a> IdealEquations<'a> {
     /// Positions, velocities and inputs, as passed to effects.
     #[inline]
     fn motion<'b>(&'b self, at: &'b Point<MOST>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
-        let (layout, oil_viscosity) = (&self.ideal.layout, self.acting.oil_viscosity);
+        let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
         BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
     }
 
     /// Loads on all rubbing surfaces. Without teeth, only brakes have loads.
     fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(inputs));
+        all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(inputs));
         all
     }
 
@@ -153,7 +153,7 @@ impl<'a> IdealEquations<'a> {
     /// Constants of a scene in which only half-shafts act, or `None` if other effects or dry friction act.
     #[inline]
     fn linear(&self) -> Option<&'a Linear> {
-        self.ideal.linear.as_deref().filter(|_| !self.rubs())
+        self.ideal.linear.as_deref().filter(|_| !self.has_dry_friction())
     }
 
     /// Forces and imposed accelerations if only half-shafts act; [`Self::forces`] would return the same values. Calls
@@ -258,7 +258,7 @@ impl<'a> IdealEquations<'a> {
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&motion, &mut out);
         }
-        if self.rubs() {
+        if self.has_dry_friction() {
             let mut by_rate = [[0.0; MOST]; MOST];
             let by_velocity = &mut by_velocity;
             let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity };
@@ -289,7 +289,7 @@ impl<'a> IdealEquations<'a> {
     pub fn torques(&self, at: &Point<MOST>) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
         let (sum, imposed) = self.forces(at, self.now(), &mut ledger_rates);
-        let drive = self.acting.inputs.carrier_torque + ledger_rates.drive;
+        let drive = self.applied.inputs.carrier_torque + ledger_rates.drive;
         self.torques_of(&sum, &self.accelerations(&sum, &imposed), drive)
     }
 
@@ -302,7 +302,7 @@ impl<'a> IdealEquations<'a> {
     /// Energy stored in half-shafts and stuck friction [J].
     fn stored_energy(&self, at: &Point<MOST>) -> f64 {
         let motion = self.motion(at, self.now());
-        if self.linear().is_some() && self.acting.is_free() {
+        if self.linear().is_some() && self.applied.is_free() {
             return self.ideal.body_effects.forces[0].energy(&motion);
         }
         let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&motion)).sum();
@@ -310,13 +310,13 @@ impl<'a> IdealEquations<'a> {
     }
 }
 
-impl Acted<MOST> for IdealEquations<'_> {
-    fn acting(&self) -> &Acting {
-        &self.acting
+impl FrictionEquations<MOST> for IdealEquations<'_> {
+    fn applied(&self) -> &InputsAndFriction {
+        &self.applied
     }
 
-    fn acting_mut(&mut self) -> &mut Acting {
-        &mut self.acting
+    fn applied_mut(&mut self) -> &mut InputsAndFriction {
+        &mut self.applied
     }
 
     fn friction_sources(&self) -> &[FrictionSource] {
@@ -331,8 +331,8 @@ impl Acted<MOST> for IdealEquations<'_> {
         &self.ideal.layout
     }
 
-    fn rubs(&self) -> bool {
-        self.acting.rubs
+    fn has_dry_friction(&self) -> bool {
+        self.applied.has_dry_friction
     }
 
     fn has_ends(&self) -> bool {
@@ -426,7 +426,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     #[inline]
     fn is_driven(&self) -> bool {
-        self.acting.driven
+        self.applied.driven
     }
 
     #[inline]
@@ -459,7 +459,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     fn drift(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
         let (_, InputDerivatives { rates: [first, second] }) =
-            self.acting.input_derivatives.after(time, &self.acting.inputs);
+            self.applied.input_derivatives.after(time, &self.applied.inputs);
         let with = self.accelerate(at, (&first, &second));
         let without = self.accelerate(at, (&Inputs::ZERO, &Inputs::ZERO));
         std::array::from_fn(|i| with[i] - without[i])
@@ -470,16 +470,16 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     }
 
     fn undo_torque_change(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
-        self.take_torques_back(at, ledger_rates);
+        self.undo_input_change(at, ledger_rates);
         for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
-            ledger_rates.shaft[s] = self.acting.inputs.load_torque[s] - self.acting.change[s];
+            ledger_rates.shaft[s] = self.applied.inputs.load_torque[s] - self.applied.change[s];
         }
     }
 
     fn weights(&self, at: &Point<MOST>) -> Point<MOST> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
         let mut weights = Point { q: [1.0; MOST], v: [1.0 / (carrier + at.v[PLANET].abs()); MOST] };
-        if self.rubs() {
+        if self.has_dry_friction() {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }

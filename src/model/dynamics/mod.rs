@@ -1,7 +1,7 @@
 //! Equations of motion, and the state that they change. In the order of an evaluation:
 //!
 //! - `shape`: degrees of freedom of equations with teeth, and their indices;
-//! - `acting`: inputs and dry friction, with and without teeth;
+//! - `inputs_and_friction`: inputs and dry friction, with and without teeth;
 //! - `planet_contact`: loads of the meshes; `bodies`: their forces on gears, carrier, pins and seats; `dry_friction`:
 //!   friction under these loads;
 //! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
@@ -11,7 +11,6 @@
 //!   resolve;
 //! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
-pub mod acting;
 mod bodies;
 mod driven;
 #[cfg(test)]
@@ -29,6 +28,7 @@ mod ideal_course;
 #[cfg(test)]
 #[path = "tests/ideal.rs"]
 mod ideal_tests;
+pub mod inputs_and_friction;
 pub mod ledger_rates;
 mod motion;
 pub mod pending_step;
@@ -38,9 +38,9 @@ pub mod shaft_means;
 pub mod shape;
 pub mod state;
 
-pub use acting::{Acted, Acting, Jacobian};
 pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
+pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};
 pub use pending_step::Clock;
 pub use shape::LARGEST;
 pub use state::State;

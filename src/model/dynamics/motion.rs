@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{LARGEST, Shape};
-use super::{Acted, Equations};
+use super::{Equations, FrictionEquations};
 use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
@@ -119,7 +119,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline(never)]
     fn undo_torque_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
-        self.take_torques_back(at, ledger_rates);
+        self.undo_input_change(at, ledger_rates);
     }
 
     #[inline]

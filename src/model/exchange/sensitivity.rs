@@ -9,7 +9,7 @@
 use super::states::STATES;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::Acted;
+use crate::model::dynamics::FrictionEquations;
 use crate::model::dynamics::with_equations;
 use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};

@@ -7,7 +7,7 @@ use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State};
+use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, LARGEST, Largest, State};
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
@@ -189,7 +189,7 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
 /// frames small.
 #[inline(never)]
-fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Acted<N>, at: &Point<N>) {
+fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl FrictionEquations<N>, at: &Point<N>) {
     each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
         if let Some(place) = places_of(source.effect, Changes::Always).next() {
             out.readings[place] = out.readings[place].max(pv);
@@ -301,9 +301,9 @@ impl Largest<'_> {
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + ledger_rates.drive
+            self.applied.inputs.carrier_torque + ledger_rates.drive
         };
-        let inertial = self.teeth.inertia[self.planet(0)] * self.acting.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * self.applied.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut ledger_rates);

@@ -162,7 +162,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         pending_step.resume(&mut course);
         course.end_at(clock.end);
         if let Some((time, jump)) = change {
-            equations.acting_mut().change = inputs.torques_since(&pending_step.inputs);
+            equations.applied_mut().change = inputs.torques_since(&pending_step.inputs);
             if !course.change_at(time, jump) {
                 // no part of the pending step precedes the change
                 state.control.jump(Some(jump));
@@ -173,7 +173,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
-    let mut anchors = equations.acting().anchors();
+    let mut anchors = equations.applied().anchors();
     let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
     if depends_on_temperature {
         course.longest = LONGEST.min(state.thermal.longest);
@@ -211,19 +211,19 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 observe(step, Some(motion))
             }),
         };
-        equations.acting_mut().set_anchors(&anchors);
+        equations.applied_mut().set_anchors(&anchors);
         let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
             state.thermal.use_temperatures();
             course.longest = LONGEST.min(state.thermal.longest);
-            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
+            equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
         }
         if switched {
-            let before = equations.acting().friction_state;
+            let before = equations.applied().friction_state;
             equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
-            anchors = equations.acting().anchors();
-            let friction = [&before, &equations.acting().friction_state];
+            anchors = equations.applied().anchors();
+            let friction = [&before, &equations.applied().friction_state];
             let is_event = state.events.record_friction(friction, begin + course.time);
             if is_event && pauses && course.time < clock.now {
                 clock.now = course.time;
@@ -232,7 +232,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
     // store the result and the pending step
-    state.friction = equations.acting().friction_state;
+    state.friction = equations.applied().friction_state;
     state.set_point(&course.point);
     clock.time = course.time;
     match &course.pending {

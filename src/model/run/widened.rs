@@ -13,7 +13,7 @@ use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::MEDIUM;
-use crate::model::dynamics::{Acted, Acting, IdealEquations};
+use crate::model::dynamics::{FrictionEquations, IdealEquations, InputsAndFriction};
 use crate::model::effect_kinds::{FrictionSource, SurfaceLoad};
 use crate::model::scene::{FRICTION_BODIES, Layout, Plan};
 
@@ -32,13 +32,13 @@ fn wide_matrix(m: &Matrix<MOST>) -> Matrix<MEDIUM> {
     std::array::from_fn(|i| m.get(i).map_or([0.0; MEDIUM], wide))
 }
 
-impl Acted<MEDIUM> for Widened<'_> {
-    fn acting(&self) -> &Acting {
-        self.0.acting()
+impl FrictionEquations<MEDIUM> for Widened<'_> {
+    fn applied(&self) -> &InputsAndFriction {
+        self.0.applied()
     }
 
-    fn acting_mut(&mut self) -> &mut Acting {
-        self.0.acting_mut()
+    fn applied_mut(&mut self) -> &mut InputsAndFriction {
+        self.0.applied_mut()
     }
 
     fn friction_sources(&self) -> &[FrictionSource] {
@@ -53,8 +53,8 @@ impl Acted<MEDIUM> for Widened<'_> {
         self.0.layout()
     }
 
-    fn rubs(&self) -> bool {
-        self.0.rubs()
+    fn has_dry_friction(&self) -> bool {
+        self.0.has_dry_friction()
     }
 
     fn has_ends(&self) -> bool {
@@ -178,6 +178,6 @@ impl LedgerEquations<MEDIUM> for Widened<'_> {
     }
 
     fn record(&self, model: &Model, (step, _): CompletedStep<MEDIUM>, sums: &mut LedgerSums) {
-        record_without_teeth(model, self.acting(), step, sums);
+        record_without_teeth(model, self.applied(), step, sums);
     }
 }

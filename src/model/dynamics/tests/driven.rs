@@ -1,7 +1,7 @@
 //! Tests of inputs that change with time: the parabola that they add equals the equations at the inputs of each time.
 
 use super::shape::{Any, LARGEST, LEAST, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds};
-use super::{Acted, Equations};
+use super::{Equations, FrictionEquations};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::scene::{CarrierDrive, InputDerivatives, Inputs, PlanetSpin};

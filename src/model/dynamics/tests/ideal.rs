@@ -1,7 +1,7 @@
 //! Tests of the equations of ideal gears with effects. Scenes with only half-shafts have separate equations, and other
 //! methods use a larger size.
 
-use super::{Acted, IdealEquations, State};
+use super::{FrictionEquations, IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::ideal_with_effects::{IdealWithEffects, MOST};
 use crate::model::assembly::{Gears, Given, Model};
@@ -107,6 +107,9 @@ fn a_larger_size_changes_no_bit() {
         }
         assert_eq!(narrow(widened.rates(&large.v)), equations.rates(&at.v));
         assert_eq!(narrow(widened.drift(&large, 0.02)), equations.drift(at, 0.02));
-        assert_eq!((widened.energy(&large), widened.rubs()), (equations.energy(at), equations.rubs()));
+        assert_eq!(
+            (widened.energy(&large), widened.has_dry_friction()),
+            (equations.energy(at), equations.has_dry_friction())
+        );
     });
 }
