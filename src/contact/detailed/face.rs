@@ -1,12 +1,12 @@
 //! The face of a tooth pair under load: its loaded part, and the points over which loads are summed.
-//! //!
+//!
 //! A slice at cone distance R penetrates by the arc p = A − e(R, s)/R with the opening e = E + turn R + bend R² of the
 //! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so the loaded part of the face
 //! is one interval on each side of a broken tooth's edge. Its ends follow in closed form.
-//! //!
+//!
 //! Under a linear law, the energy is a polynomial of fourth degree in R, and four Gauss points on that interval are
 //! exact. The load therefore grows and falls smoothly, and force and energy are consistent to the last digit.
-//! //!
+//!
 //! Any other law uses eight points if the load is far from zero, and otherwise twelve points clustered at the ends
 //! (`points`). The ends of a loaded part move with the load, and its points move with them. The derivative of a sum
 //! includes this motion (`carrying`).

@@ -1,11 +1,11 @@
 //! Face load factor: how unevenly a pair's load is distributed over its face.
-//! //!
+//!
 //! The load per width of aligned teeth is w = ωR, with the same ω at every R. If errors or displacements open the
 //! flanks by e(R), ω follows the law of a slice at the arc A − e(R)/R. The face load factor is the largest ω of the
 //! face over its mean. The mean has the weight R², like the torque:
-//! //!
+//!
 //! K_Hβ = ω_max ∫R² dR / ∫ω R² dR
-//! //!
+//!
 //! The smallest value of e/R = E/R + turn + bend R is at an end of the face, at the edge of a broken tooth, or at R² =
 //! E/bend.
 

@@ -6,7 +6,7 @@
 //! Σ_k Σ_j J_j Φ(d_j/R_j, s) over tooth pairs k and points j of the face (`face`). Friction μ F along the flank has the
 //! moment arms R cosδ_b sinψ about both axes. It opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs
 //! sinψ_s), where u are the speeds of both flanks along the line of action.
-//! //!
+//!
 //! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
 //! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 

@@ -1,5 +1,5 @@
 //! Search over the loaded face of a rubbing tooth pair for the largest value of a quantity.
-//! //!
+//!
 //! Sliding speed, sum of speeds and radius are proportional to the cone distance R. The load per width is R ω, where ω
 //! follows the law of a slice at its arc. The points over which loads are summed do not include the ends of the face,
 //! and aligned teeth have only one point. The search therefore evaluates the laws at any R: at both ends of each loaded

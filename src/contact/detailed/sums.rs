@@ -1,12 +1,12 @@
 //! Sums over the face of one tooth pair, from which its forces and their derivatives are computed.
-//! //!
+//!
 //! The arc of a slice p = A − E/R − turn − bend R depends only on the pair's approach A and opening E. The forces are
 //! therefore sums of the slices' torques T with the weights 1 and 1/R:
-//! //!
+//!
 //! Q_A = −ΣT, Q_E = ΣT/R, Q_s = −ΣU_s
-//! //!
+//!
 //! The same is true of their derivatives. T/R is the normal force of a slice.
-//! //!
+//!
 //! If the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part)
 //! and by f′(R) dR·(motion of the point). Loads vanish at moving ends, so both changes together equal the quadrature
 //! error. Including them makes the derivatives exact for the sums, to the last digit.

@@ -1,5 +1,5 @@
 //! Flanks that fit, on rigid gear bodies: the meshes are independent, and each tooth pair has one resultant.
-//! //!
+//!
 //! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm R
 //! ℓ. Its component along the axis is therefore F √(sin²φ − ℓ²) at the polar angle φ. On the path ℓ = sinδ_b, and the
 //! component is F cosδ_b sinψ. At s = 0 it equals the textbook's F sinα sinδ. The remaining component is tangential to

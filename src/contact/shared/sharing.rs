@@ -1,6 +1,6 @@
 //! Shares of the load: the load on each pair of a planet's two meshes, and its changes with the coordinates of both
 //! meshes.
-//! //!
+//!
 //! The solution is compiled separately for the usual numbers of pairs, because arrays of exactly that size need less
 //! clearing.
 

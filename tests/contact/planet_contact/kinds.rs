@@ -1,5 +1,5 @@
 //! Kinds of contact of a planet with both side gears, and the single interface to the library's evaluators.
-//! //!
+//!
 //! A new kind of contact is a line in [`kinds`]. No other file of this suite refers to an evaluator.
 
 use std::sync::{Arc, LazyLock};
