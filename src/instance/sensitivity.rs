@@ -152,7 +152,7 @@ impl<'a> Slopes<'a> {
         let Self { simulation, direction, .. } = *self;
         match source {
             OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
-            OutputSource::Forces(of) | OutputSource::Parts(of) => {
+            OutputSource::Forces(of) | OutputSource::Components(of) => {
                 self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of)
             }
             OutputSource::Reading(place) => {

@@ -21,7 +21,7 @@ pub struct Detailed {
     pub face: Face,
     /// The face under a law that is valid at every cone distance. It is also set if `face` is one point because flanks
     /// fit: friction then still differs over the face.
-    pub(super) rubbed: Option<Face>,
+    pub(super) friction_face: Option<Face>,
     /// True if the mesh has one spring instead of tooth pairs.
     pub is_single: bool,
     /// Friction along the flanks.
@@ -81,7 +81,7 @@ impl Detailed {
             whole,
             spring,
             damping,
-            rubbed: face.is_cut().then_some(face),
+            friction_face: face.is_cut().then_some(face),
             face,
             is_single,
             friction,
@@ -95,12 +95,12 @@ impl Detailed {
 
     /// True if the law is valid at every cone distance, so that the load of aligned teeth grows with the cone distance.
     pub fn is_over_face(&self) -> bool {
-        self.rubbed.is_some()
+        self.friction_face.is_some()
     }
 
-    /// Sums the friction of flanks that fit over every point of the face `rubbed`, over which the law is valid.
-    pub fn rub_over(&mut self, rubbed: Face) {
-        self.rubbed = Some(rubbed);
+    /// Sums the friction of flanks that fit over every point of `face`, over which the law is valid.
+    pub fn set_friction_face(&mut self, face: Face) {
+        self.friction_face = Some(face);
     }
 
     /// Replaces the damping.

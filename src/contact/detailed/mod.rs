@@ -14,25 +14,25 @@ mod carrying;
 mod directions;
 mod face;
 mod face_load;
+mod largest_on_face;
 mod loads;
 mod mesh;
 mod on_bodies;
 mod pair;
 mod points;
-mod rubbed_face;
 mod sums;
 mod totals;
 mod touching;
 
-pub use directions::Arms;
+pub use directions::SlidingGeometry;
 pub use face::Face;
 pub use face_load::KnownSlice;
+pub use largest_on_face::SlidingPoint;
 pub use loads::{DetailedLoad, DetailedState, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, MeshTeeth};
 pub use on_bodies::SharedTeeth;
 pub use pair::PairMotion;
 pub use points::Node;
-pub use rubbed_face::RubbedPlace;
 pub use totals::Totals;
 
 /// Variables of a mesh: q, x, w and their rates.

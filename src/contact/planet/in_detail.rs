@@ -84,7 +84,7 @@ impl<'a> InDetail<'a> {
             depth: slice.arc * slice.cone,
             normal: slice.normal,
             friction: slice.friction,
-            parts: slice.parts,
+            components: slice.components,
             touch: None,
         }
     }

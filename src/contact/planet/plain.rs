@@ -100,13 +100,13 @@ pub(super) fn load(
         depth: pair.depth * mesh.whole.cone,
         normal: force.total,
         friction: 0.0,
-        parts: visit.directions.map_or([0.0; 3], |of| parts(of, mesh, pair)),
+        components: visit.directions.map_or([0.0; 3], |of| components(of, mesh, pair)),
         touch: None,
     }
 }
 
 /// Components of the unit normal of a pair: along the planet's axis, along the side gear's axis, along the rotation.
-pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
+pub fn components(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     let [lever_p, lever_s] = pair.sin_base();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
     let corner = &mesh.engagement.corner;

@@ -192,7 +192,7 @@ impl Placement {
     }
 
     /// Components along a_p, a_s and t of a vector in the rows of a placement.
-    pub fn parts(&self, w: [f64; 3]) -> [f64; 3] {
+    pub fn components(&self, w: [f64; 3]) -> [f64; 3] {
         let w = Vector3::from(w);
         [0, 1, 2].map(|i| self.axes[i].dot(&w))
     }

@@ -29,8 +29,8 @@ pub struct Laws {
     pub solid: Option<Box<SolidMesh>>,
     /// Face over which loads are summed in detail.
     pub face: CutFace,
-    /// Face over which flanks rub, if the law is valid at every cone distance.
-    pub rubbed: Option<CutFace>,
+    /// Face over which friction is summed, if the law is valid at every cone distance.
+    pub friction_face: Option<CutFace>,
     /// Gear bodies that pairs share, if they are elastic.
     pub bodies: Option<Arc<PairCouplings>>,
 }
@@ -62,12 +62,12 @@ impl Laws {
             let laws = Self::of_depth(ImpactSpring { law: impact, cone: pair.mean_cone }, whole(pair.mean_cone, 1.0));
             return Ok(Self { solid: Some(Box::new(solids)), ..laws });
         }
-        let of_face = |(spring, bodies), rubbed: CutFace| Self {
+        let of_face = |(spring, bodies), face: CutFace| Self {
             spring,
             whole: Resultant::new(centroid, moment),
             solid: None,
-            face: if cut { rubbed } else { whole(centroid, moment) },
-            rubbed: Some(rubbed),
+            face: if cut { face } else { whole(centroid, moment) },
+            friction_face: Some(face),
             bodies,
         };
         Ok(match p.contact.law {
@@ -89,7 +89,7 @@ impl Laws {
     /// Law that depends on the penetration at one cone distance.
     fn of_depth(spring: ImpactSpring, face: CutFace) -> Self {
         let whole = Resultant::new(spring.cone, 1.0);
-        Self { spring: AnySpring::Impact(spring), whole, solid: None, face, rubbed: None, bodies: None }
+        Self { spring: AnySpring::Impact(spring), whole, solid: None, face, friction_face: None, bodies: None }
     }
 
     /// Damping of a tooth pair.

@@ -208,8 +208,8 @@ fn teeth(
     let mut detailed =
         Detailed::new(pair, mesh.spring.clone(), damping, laws.face, single, friction.map(|friction| friction.law));
     (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
-    if let Some(rubbed) = laws.rubbed {
-        detailed.rub_over(rubbed);
+    if let Some(face) = laws.friction_face {
+        detailed.set_friction_face(face);
     }
     let contact = Contact {
         mesh,

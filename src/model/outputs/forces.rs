@@ -25,7 +25,7 @@ pub enum Extent {
     /// Normal forces of the meshes in addition.
     Loads,
     /// Spatial components of the normal forces in addition, which cost as much as all other forces.
-    Parts,
+    Components,
 }
 
 /// Forces, torques and accelerations from one evaluation of the tooth forces.
@@ -70,7 +70,7 @@ pub struct Forces {
     /// Readings of the effects that change at any instant.
     pub readings: [f64; INSTANT_READINGS],
     /// True if the spatial components of normal forces are included: thrusts, tangential and pin forces.
-    pub has_parts: bool,
+    pub has_components: bool,
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 if the sum of the torques is below
@@ -129,7 +129,7 @@ pub struct MeshForces {
 
 impl MeshForces {
     fn add(&mut self, load: &ToothLoad) {
-        let [planet, side, forward] = load.parts;
+        let [planet, side, forward] = load.components;
         self.normal += load.normal;
         // a slice counts with its share of the face, so pairs are whole numbers if loads do not differ over the face
         self.pairs += if load.normal > 0.0 { load.share } else { 0.0 };
@@ -204,13 +204,17 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
 
 /// Forces of the differential with teeth, to the requested `extent`.
 pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, extent): (&State, Extent)) -> Forces {
-    let has_parts = extent == Extent::Parts;
+    let has_components = extent == Extent::Components;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
     let ForcesAtInstant { acceleration: a, on_sides, carrier_torque, spin_torque, ledger_rates } =
         equations.instant(point);
-    let mut out =
-        Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], has_parts, ..Forces::default() };
+    let mut out = Forces {
+        carrier_acceleration: a[CARRIER],
+        side_acceleration: [a[0], a[1]],
+        has_components,
+        ..Forces::default()
+    };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
     let brakes = equations.brake_torques(point);
     for s in 0..2 {
@@ -242,7 +246,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
             mesh.transmission_error =
                 teeth.contact.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             let add = &mut |load: &ToothLoad| mesh.add(load);
-            if has_parts {
+            if has_components {
                 equations.tooth_loads(pair, point, g, s, add);
             } else {
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
@@ -348,7 +352,7 @@ fn without_teeth(
         carrier_torque,
         spin_torque,
         shaft_torque,
-        has_parts: true,
+        has_components: true,
         ..Forces::default()
     };
     read_effects(&mut out, model, inputs, state);

@@ -273,7 +273,7 @@ impl Planet {
         let mut detailed = Detailed::new(pair, mesh.spring.clone(), damping, face, is_single, friction);
         detailed.has_seats = contact.is_displaced;
         if let Some(cut) = cut {
-            detailed.rub_over(cut);
+            detailed.set_friction_face(cut);
         }
         let constants = planet::Contact {
             mesh,

@@ -170,7 +170,7 @@ fn components_of_a_normal_force_match_the_normal_in_space() {
             // the remaining component is along the rotation, in which drive flanks push the side gear
             let left = (1.0 - planet * planet - side * side).sqrt();
             let expected = [planet, side, if point.flank == Flank::Drive { left } else { -left }];
-            (0..3).for_each(|i| same(point.parts[i], expected[i], 1e-8));
+            (0..3).for_each(|i| same(point.components[i], expected[i], 1e-8));
         });
         true
     });
