@@ -54,7 +54,7 @@ impl Detailed {
         };
         let pair_friction = friction.map(|law| {
             let geometry = self.directions.sliding_geometry(&arcs);
-            let whole = self.friction_face.as_ref().filter(|_| !OPEN || !self.face.is_cut()).map(Face::nodes);
+            let whole = self.friction_face.as_ref().filter(|_| !OPEN || !self.face.is_distributed()).map(Face::nodes);
             PairFriction { law, speeds: motion.speeds(&geometry), geometry, whole }
         });
         let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));

@@ -91,7 +91,7 @@ impl<'a> InDetail<'a> {
 
     fn face_load_factor_at(&self, at: &PlanetState, slice: &ToothLoad, pair: &Pair) -> f64 {
         let detailed = &self.contact.detailed;
-        if !detailed.face.is_cut() {
+        if !detailed.face.is_distributed() {
             return 1.0;
         }
         let mesh = MeshId { planet: slice.planet, side: slice.side };

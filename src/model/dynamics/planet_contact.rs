@@ -335,6 +335,6 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(in crate::model) fn is_sliced(&self) -> bool {
         S::MAY_ACT
             && (self.teeth.contact.in_detail || self.is_tooth_broken)
-            && self.teeth.contact.detailed.face.is_cut()
+            && self.teeth.contact.detailed.face.is_distributed()
     }
 }

@@ -116,7 +116,7 @@ impl Effect for ToothErrorSpec {
             errors = errors.with_teeth(given)?;
         }
         teeth.individual |= errors.is_individual();
-        teeth.sliced |= !errors.is_uniform_over_face();
+        teeth.distributed |= !errors.is_uniform_over_face();
         let mut gaps = FlankGaps::perfect(pair, count);
         gaps.least = -errors.most_excess(pair.outer_cone);
         gaps.errors = Some(errors);

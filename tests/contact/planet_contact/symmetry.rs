@@ -153,7 +153,7 @@ fn kinds_without_effects_are_the_plain_mesh() {
 #[test]
 fn components_of_a_normal_force_match_the_normal_in_space() {
     let mut spots = [0; 3];
-    let wanted = |of: &Contact| is_perfect(of) && of.face != Face::Cut && of.law == Kind::Line;
+    let wanted = |of: &Contact| is_perfect(of) && of.face != Face::Distributed && of.law == Kind::Line;
     for_each_point(10, 200, those(wanted), |planet, at| {
         let action = LineOfAction::new(&planet.gears.pair);
         let shaft_angle = planet.gears.pair.shaft_angle;
