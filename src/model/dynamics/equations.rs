@@ -21,7 +21,7 @@ use std::ops::Range;
 
 use super::driven::Driven;
 use super::ledger_rates::LedgerRates;
-use super::shape::{Any, ByGroup, LARGEST, Shape};
+use super::shape::{Any, ByGroup, MAX_SIZE, Shape};
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
@@ -46,7 +46,7 @@ pub struct Equations<'a, S, const N: usize> {
 }
 
 /// Equations with teeth in the shape that fits any scene, for computations outside the loop over the steps.
-pub type Largest<'a> = Equations<'a, Any, LARGEST>;
+pub type Largest<'a> = Equations<'a, Any, MAX_SIZE>;
 
 impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Equations under `inputs` with the wrapping of `state`.

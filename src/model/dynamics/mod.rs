@@ -42,7 +42,7 @@ pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
 pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};
 pub use pending_step::Clock;
-pub use shape::LARGEST;
+pub use shape::MAX_SIZE;
 pub use state::State;
 
 /// Evaluates an expression with the equations of any model bound to `$equations`. `N` is their maximum number of
@@ -52,14 +52,14 @@ macro_rules! with_equations {
         match &$model.gears {
             $crate::model::assembly::model::Gears::Ideal(ideal) => {
                 #[allow(unused)]
-                const N: usize = $crate::model::assembly::ideal_with_effects::MOST;
+                const N: usize = $crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
                 #[allow(unused_mut)]
                 let mut $equations = $crate::model::dynamics::ideal::IdealEquations::new(ideal, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {
                 #[allow(unused)]
-                const N: usize = $crate::model::dynamics::LARGEST;
+                const N: usize = $crate::model::dynamics::MAX_SIZE;
                 #[allow(unused_mut)]
                 let mut $equations = $crate::model::dynamics::Largest::new(teeth, $inputs, $state);
                 $body

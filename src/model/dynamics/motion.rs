@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
-use super::shape::{LARGEST, Shape};
+use super::shape::{MAX_SIZE, Shape};
 use super::{Equations, FrictionEquations};
 use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
@@ -188,7 +188,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         let spring_forces = || {
             let free = self.largest().under(&Inputs::ZERO, &InputDerivatives::ZERO);
             let rest = Point::of([&ends[1].q, &[0.0; N]]);
-            let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
+            let (mut sum, mut imposed) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE]);
             free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default());
             std::array::from_fn(|i| sum[i])
         };

@@ -7,7 +7,7 @@ use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, LARGEST, Largest, State};
+use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, Largest, MAX_SIZE, State};
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
@@ -286,7 +286,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 
 /// Accelerations and torques at an instant, from one evaluation.
 struct ForcesAtInstant {
-    acceleration: [f64; LARGEST],
+    acceleration: [f64; MAX_SIZE],
     /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],
     /// Torque of the carrier's drive [N·m].
@@ -297,9 +297,9 @@ struct ForcesAtInstant {
 }
 
 impl Largest<'_> {
-    fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
+    fn instant(&self, at: &Point<MAX_SIZE>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
+        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE], LedgerRates::default());
         let on_sides = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         let carrier_torque = if plan.carrier_imposed {

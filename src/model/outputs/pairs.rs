@@ -13,7 +13,7 @@ use crate::contact::shared::MOST_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::strength::LineContact;
 
 /// Number of pairs that are reported. With a contact ratio below 3, no mesh has more pairs on its path.
@@ -147,7 +147,7 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
 pub fn pair_lines(
     (pair, contact): (&Pair, &LineContact),
     equations: &Largest,
-    at: &Point<LARGEST>,
+    at: &Point<MAX_SIZE>,
     [g, s]: [usize; 2],
 ) -> PairLines {
     let mesh = &equations.teeth.contact.mesh;

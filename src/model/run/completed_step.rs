@@ -1,7 +1,7 @@
 //! Completed steps, and the motion within them.
 
 use crate::integrate::{Extension, Point, SecondOrder, Step};
-use crate::model::dynamics::LARGEST;
+use crate::model::dynamics::MAX_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
 /// A completed step, with the dense output of its pending step and the fraction of that step that was accepted.
@@ -14,7 +14,7 @@ pub struct StepMotion {
     /// Time at the start of the step [s].
     pub begin: f64,
     /// Dense output of the pending step. The completed step may end within it.
-    pub extension: Extension<LARGEST>,
+    pub extension: Extension<MAX_SIZE>,
     /// Fraction of the pending step that was accepted.
     pub accepted_fraction: f64,
 }

@@ -18,13 +18,13 @@ use super::watching::Watched;
 use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
-use crate::model::assembly::ideal_with_effects::{IdealWithEffects, MOST};
+use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
-    Any, DIFFERENT, LEAST, MEDIUM, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
+    Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithEffects, WithEnds,
 };
-use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
+use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Longest interval before positions are wrapped and the integrator's clock is reset [s].
@@ -85,20 +85,20 @@ pub fn integrate_teeth(
     let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
         match (groups, arguments.2.input_derivatives.is_some()) {
-            (1, false) => return integrate_monomorphised::<LEAST, Plain<1>>(arguments),
-            (1, true) => return integrate_monomorphised::<LEAST, PlainDriven>(arguments),
-            (2, false) => return integrate_monomorphised::<DIFFERENT, Plain<2>>(arguments),
+            (1, false) => return integrate_monomorphised::<PLAIN_SIZE, Plain<1>>(arguments),
+            (1, true) => return integrate_monomorphised::<PLAIN_SIZE, PlainDriven>(arguments),
+            (2, false) => return integrate_monomorphised::<TWO_GROUPS_SIZE, Plain<2>>(arguments),
             _ => {}
         }
     }
     match (groups, plain) {
         (1, Some(false)) if is_default || method == Method::FixedStep => {
-            integrate_monomorphised::<LEAST, WithEffects<1>>(arguments)
+            integrate_monomorphised::<PLAIN_SIZE, WithEffects<1>>(arguments)
         }
-        (2, Some(false)) if FULL && is_default => integrate_monomorphised::<DIFFERENT, WithEffects<2>>(arguments),
-        (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<WITH_ENDS, WithEnds>(arguments),
-        _ if FULL && teeth.layout.count() <= MEDIUM => integrate_through_object::<MEDIUM>(arguments),
-        _ => integrate_through_object::<LARGEST>(arguments),
+        (2, Some(false)) if FULL && is_default => integrate_monomorphised::<TWO_GROUPS_SIZE, WithEffects<2>>(arguments),
+        (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<ENDS_SIZE, WithEnds>(arguments),
+        _ if FULL && teeth.layout.count() <= MEDIUM_SIZE => integrate_through_object::<MEDIUM_SIZE>(arguments),
+        _ => integrate_through_object::<MAX_SIZE>(arguments),
     }
 }
 
@@ -109,7 +109,7 @@ type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &
 #[inline(never)]
 fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
-    integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
+    integrate_equations::<IDEAL_SIZE, WithEnds, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates ideal gears through a trait object, with a method that is not monomorphised for them.
@@ -117,9 +117,9 @@ fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWi
 fn integrate_ideal_through_object(
     (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn LedgerEquations<MEDIUM> =
+    let equations: &mut dyn LedgerEquations<MEDIUM_SIZE> =
         &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
-    integrate_equations::<MEDIUM, Any, _>(equations, model, state, integration, budget)
+    integrate_equations::<MEDIUM_SIZE, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates plain teeth, or teeth with effects and planets in one or two groups. Monomorphised for each shape.

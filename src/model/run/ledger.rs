@@ -5,12 +5,12 @@ use super::failure::ExcessiveDeflection;
 use super::watching::{Watched, watch_step};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
-use crate::model::assembly::ideal_with_effects::MOST;
+use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::shaft_means::Cycle;
 use crate::model::dynamics::shaft_means::TorqueMeans;
 use crate::model::dynamics::shape::Shape;
-use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, LARGEST, Largest};
+use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
 use crate::model::effect_kinds::BUILT;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
@@ -85,12 +85,12 @@ fn warm_up<const N: usize>(
     }
 }
 
-impl LedgerEquations<MOST> for IdealEquations<'_> {
-    fn check_deflection(&self, _: &Point<MOST>) -> Result<u8, ExcessiveDeflection> {
+impl LedgerEquations<IDEAL_SIZE> for IdealEquations<'_> {
+    fn check_deflection(&self, _: &Point<IDEAL_SIZE>) -> Result<u8, ExcessiveDeflection> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, (step, _): CompletedStep<IDEAL_SIZE>, sums: &mut LedgerSums) {
         record_without_teeth(model, self.applied(), step, sums);
     }
 }
@@ -129,7 +129,7 @@ impl Largest<'_> {
     /// Elastic energy that deflected pairs gain or lose in a step when they enter or leave contact abruptly, without
     /// corner contact [J].
     #[inline(never)]
-    fn energy_of_jumps(&self, [start, end]: [&Point<LARGEST>; 2]) -> f64 {
+    fn energy_of_jumps(&self, [start, end]: [&Point<MAX_SIZE>; 2]) -> f64 {
         let between = |t: f64| Point {
             q: std::array::from_fn(|i| start.q[i] + t * (end.q[i] - start.q[i])),
             v: std::array::from_fn(|i| start.v[i] + t * (end.v[i] - start.v[i])),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::completed_step::StepMotion;
 use crate::integrate::{Curve, Extension, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, Rated, RatedStep, Rolled, Sample};
 use crate::model::scene::layout::LEFT;
@@ -29,7 +29,7 @@ pub struct Watched {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LastLoads {
     /// Point at the end of the step.
-    pub at: Point<LARGEST>,
+    pub at: Point<MAX_SIZE>,
     /// Number of planet groups, and true if a tooth is broken. Together with the point, both determine the loads.
     pub teeth: (usize, bool),
     /// Loads at this point.
@@ -70,7 +70,7 @@ pub fn count_fatigue(
     let layout = &equations.teeth.layout;
     let groups = layout.groups;
     let first = layout.planet(0);
-    let rolled = |q: &[f64; LARGEST]| {
+    let rolled = |q: &[f64; MAX_SIZE]| {
         let mut rolled = Rolled::default();
         rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
         rolled
@@ -123,7 +123,7 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, his
 }
 
 /// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
-fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
+fn curve(extension: &Extension<MAX_SIZE>, of: impl Fn(&Point<MAX_SIZE>) -> f64) -> Curve {
     let Extension { start, end, coefficients } = extension;
     let nothing = of(&Point::ZERO);
     Curve {
