@@ -60,7 +60,7 @@ impl Misalignment {
     }
 
     /// Upper bound of the excess material caused by displacements at cone distances up to `outer` [m].
-    pub fn most_excess(&self, outer: f64) -> f64 {
+    pub fn max_excess(&self, outer: f64) -> f64 {
         // no component of a normal is longer than 1
         let moved = self.planet.iter().map(|[axial, across]| axial.abs() + across.abs()).fold(0.0, f64::max);
         moved + self.side_axial.abs() + outer * self.tilt.abs()

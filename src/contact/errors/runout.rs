@@ -56,7 +56,7 @@ impl Runout {
     }
 
     /// Upper bound of the excess material of a pair [m].
-    pub fn most_excess(&self) -> f64 {
+    pub fn max_excess(&self) -> f64 {
         self.eccentricity[0].abs() + self.eccentricity[1].abs()
     }
 

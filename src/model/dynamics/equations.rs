@@ -8,7 +8,7 @@
 //! Forces are computed in this order, together with their derivatives:
 //!
 //! 1. contact of each planet with both side gears (`planet_contact`),
-//! 2. forces of the contact on the bodies (`bodies`),
+//! 2. forces of the contact on the bodies (`mesh_transform`),
 //! 3. dry friction under the loads of the contact (`dry_friction`),
 //! 4. effects on bodies (`Equations::act_on_bodies`),
 //! 5. inputs and imposed motions, which have a given acceleration (`Equations::finish`).
@@ -178,7 +178,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         imposed: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
-        self.act_of_teeth(at, sum, ledger_rates);
+        self.add_mesh_forces(at, sum, ledger_rates);
         if S::MAY_ACT {
             self.act_on_bodies(at, sum, imposed, ledger_rates);
         }

@@ -2,8 +2,8 @@
 //!
 //! - `shape`: degrees of freedom of equations with teeth, and their indices;
 //! - `inputs_and_friction`: inputs and dry friction, with and without teeth;
-//! - `planet_contact`: loads of the meshes; `bodies`: their forces on gears, carrier, pins and seats; `dry_friction`:
-//!   friction under these loads;
+//! - `planet_contact`: loads of the meshes; `mesh_transform`: their forces on gears, carrier, pins and seats;
+//!   `dry_friction`: friction under these loads;
 //! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
 //! - `motion`: interface of the equations to an integrator;
 //! - `ideal`: equations without teeth; `ideal_course`: motion of ideal gears without effects, in closed form;
@@ -11,7 +11,6 @@
 //!   resolve;
 //! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
-mod bodies;
 mod driven;
 #[cfg(test)]
 #[path = "tests/driven.rs"]
@@ -30,6 +29,7 @@ mod ideal_course;
 mod ideal_tests;
 pub mod inputs_and_friction;
 pub mod ledger_rates;
+mod mesh_transform;
 mod motion;
 pub mod pending_step;
 pub mod planet_contact;

@@ -84,7 +84,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Adds the forces of all meshes to `sum`, which is zero, sets their heat, and adds the dry friction under them.
     /// Returns the torques of the meshes on the side gears.
     #[inline(never)]
-    pub(in crate::model) fn act_of_teeth(
+    pub(in crate::model) fn add_mesh_forces(
         &self,
         at: &Point<N>,
         sum: &mut [f64; N],

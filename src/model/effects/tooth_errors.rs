@@ -118,7 +118,7 @@ impl Effect for ToothErrorSpec {
         teeth.individual |= errors.is_individual();
         teeth.distributed |= !errors.is_uniform_over_face();
         let mut gaps = FlankGaps::perfect(pair, count);
-        gaps.least = -errors.most_excess(pair.outer_cone);
+        gaps.least = -errors.max_excess(pair.outer_cone);
         gaps.errors = Some(errors);
         let gaps = Arc::new(gaps);
         teeth.gaps = [Some(gaps.clone()), Some(gaps)];

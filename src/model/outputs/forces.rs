@@ -300,7 +300,7 @@ impl Largest<'_> {
     fn instant(&self, at: &Point<MAX_SIZE>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
         let (mut sum, mut imposed, mut ledger_rates) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE], LedgerRates::default());
-        let on_sides = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
+        let on_sides = self.add_mesh_forces(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]

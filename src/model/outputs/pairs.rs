@@ -9,7 +9,7 @@
 //! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth w is
 //! interpolated linearly between the loaded sections, and extrapolated to toe and heel down to zero.
 
-use crate::contact::shared::MOST_PAIRS;
+use crate::contact::shared::MAX_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
@@ -155,7 +155,7 @@ pub fn pair_lines(
     if mesh.is_single {
         return lines;
     }
-    let mut gathered: [Option<Gathered>; MOST_PAIRS] = [None; MOST_PAIRS];
+    let mut gathered: [Option<Gathered>; MAX_PAIRS] = [None; MAX_PAIRS];
     equations.loads_over_the_face(at, g, s, |load, line_load| {
         if load.normal.is_nan() || load.normal <= 0.0 {
             return;

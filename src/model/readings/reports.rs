@@ -178,8 +178,8 @@ impl Simulation {
         if reported.start || self.model.strength().is_none() {
             return None;
         }
-        let Fatigue { utilisation, has_blow, .. } = self.completed().1.fatigue;
-        if !has_blow || utilisation.root.share == 0.0 {
+        let Fatigue { utilisation, counts_start, .. } = self.completed().1.fatigue;
+        if !counts_start || utilisation.root.share == 0.0 {
             return None;
         }
         reported.start = true;

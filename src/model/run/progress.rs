@@ -177,7 +177,7 @@ fn integrate_interval(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched };
-    if let Some(teeth) = model.together.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
+    if let Some(teeth) = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);
         return outcome;

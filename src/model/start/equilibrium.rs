@@ -140,9 +140,9 @@ fn minimum(
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
         }
     }
-    // teeth that are identical all round are in balance in each pitch or in none
-    let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
-    let farthest_spin_angle = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
+    // identical teeth are in balance in each pitch or in none
+    let repeats = equations.gaps().is_none_or(FlankGaps::repeat_every_pitch);
+    let farthest_spin_angle = if along_valley && !repeats { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
     let well = Well { equations, against, point, unknowns: unknowns(equations), farthest_spin_angle };
     let load = torque[0].abs() + torque[1].abs();
     let forward = torque[0] + torque[1];

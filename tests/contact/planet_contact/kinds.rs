@@ -202,7 +202,7 @@ impl Gears {
         let fault = ToothFaultSpec { gear, index, tooth, missing_fraction, depth, ..Default::default() };
         let mut gaps = self.teeth.clone();
         gaps.chip = Chip::new(&fault, &self.pair, PLANETS).unwrap().filter(|_| depth > 0.0);
-        (gaps.least, gaps.errors) = (-errors.most_excess(self.pair.outer_cone), Some(errors));
+        (gaps.least, gaps.errors) = (-errors.max_excess(self.pair.outer_cone), Some(errors));
         Some(Arc::new(gaps))
     }
 }
