@@ -7,8 +7,8 @@
 //!
 //! * [`Line`]: q at a fixed load, Φ = p²/2q.
 //! * [`LineWeber`]: with v = q/B, the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
-//! Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, p(ω) continues along its
-//! tangent, because b exceeds half the depth to the teeth's middles and the logarithm is meaningless.
+//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, p(ω) continues along its
+//!   tangent, because b exceeds half the depth to the teeth's middles and the logarithm is meaningless.
 
 use std::sync::Arc;
 
