@@ -30,6 +30,7 @@ right.load_torque = 400.0
 scene.planet_spin = "imposed"
 spin.command = 20.0
 geometry.module = "4.3 mm"
+geometry.face_width = "21 mm"
 left.brake_torque = 200.0
 """
 PROBLEM = """description = "gears of a turn"
@@ -63,7 +64,8 @@ RUNS = {
     "pattern": (["{}/scene.toml", "--out", "{}/pattern"], [WIDE, UNFELT, STIFFNESS]),
     "sweep": (["--scene", "{}/scene.toml", "--vary", "left.load_torque=300, 400", "--plan", "grid", "--want", "efficiency",
                "--workers", "0"], [WIDE, UNFELT, STIFFNESS]),
-    "spectrum": (["{}/cycle.csv", "--set", "geometry.module=4.3 mm"], [WIDE, STIFFNESS]),
+    "spectrum": (["{}/cycle.csv", "--set", "geometry.module=4.3 mm", "--set", "geometry.face_width=21 mm"],
+                 [WIDE, STIFFNESS]),
     "losses": (["{}/scene.toml", "--torque", "100 N.m, 200 N.m", "--speed", "50 rad/s, 60 rad/s", "--difference", "5 rad/s, 10 rad/s",
                 "--temperature", "80 degC, 90 degC", "--bound", "100,1000", "--unseen", "0", "--workers", "0", "--set",
                 "scene.gear_contact=lumped"], [WIDE]),
@@ -110,7 +112,7 @@ def test_the_package_passes_on_the_same_warnings_about_the_line_that_called_it(f
 
 def test_a_car_passes_on_warnings(fmu_file):
     with pytest.warns(DifferentialWarning, match="geometry.face_width") as caught:
-        Car({"scene.gear_contact": "lumped"}, fmu=fmu_file, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
+        Car({"scene.gear_contact": "lumped", "geometry.face_width": "22 mm"}, fmu=fmu_file, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
             request=10.0, stop=0.002)
     assert {one.filename for one in caught} == {__file__}
 
