@@ -1,5 +1,5 @@
-//! Notation of parameters in all modules: structs with a start value for each field, and enumerations with a name in
-//! the interface for each choice.
+//! Macros that declare parameters: structs with a start value for each field, and enumerations with a name in the
+//! interface for each choice.
 
 /// One literal of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

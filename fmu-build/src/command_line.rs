@@ -75,8 +75,9 @@ fn program() -> Program {
         ],
         end: format!(
             "Without a command: study. Options of a command: {PROGRAM} COMMAND --help\n\
-             What measures and checks is in the laboratory: {LABORATORY} help\n\
-             What users ask of gears and scenes is in the Python package: target/python/bin/bevel-differential --help"
+             Commands that measure and check are in the laboratory: {LABORATORY} help\n\
+             Commands that answer questions about gears and scenes are in the Python package: \
+             target/python/bin/bevel-differential --help"
         ),
     }
 }

@@ -1,4 +1,5 @@
-//! `cargo run --release` runs the study; other commands follow `--`.
+//! `cargo run --release` simulates the study and compares the results with it (docs/study.md). Other commands follow
+//! `--`.
 
 use std::process::ExitCode;
 

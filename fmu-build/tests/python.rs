@@ -21,7 +21,8 @@ fn the_fmu_passes_its_python_tests() -> Result<()> {
     Ok(())
 }
 
-/// Reasons why tests were skipped with their numbers, and the checks that are separate commands.
+/// Line about checks that did not run: the number of skipped tests for each reason, and checks that are separate
+/// commands.
 fn left_out(report: &str) -> String {
     let mut skipped: BTreeMap<&str, usize> = BTreeMap::new();
     for line in report.lines().filter_map(|line| line.strip_prefix("SKIPPED [")) {

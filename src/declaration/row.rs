@@ -68,8 +68,8 @@ pub struct Row<A> {
 }
 
 impl<A: Copy> Row<A> {
-    /// Returns the row of differences between values of this variable, which have no range. Differences are shown in a
-    /// unit with an offset only if they are declared so.
+    /// Returns the row of differences between values of this variable. They have no range. A display unit with an
+    /// offset, such as degC, is dropped.
     pub fn of_differences(&self) -> Self {
         Row {
             unit: self.unit.map(Unit::of_differences),

@@ -60,7 +60,7 @@ impl Unit {
     }
 }
 
-/// An SI unit and, where users expect another one, the unit in which its values are shown.
+/// An SI unit, and the display unit of its values if users expect another unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown(pub Unit, pub Option<DisplayUnit>);
 
@@ -135,7 +135,7 @@ macro_rules! units {
     ($($(#[$doc:meta])* $id:ident = $name:literal, $base:expr, $display:expr;)*) => {
         $($(#[$doc])* pub const $id: Unit =
             Unit { name: $name, base: $base, display: &$display, is_relative: false };)*
-        /// All units of the interface. A unit of differences has the same name as its own unit, and is not listed.
+        /// All units of the interface, except for units of differences, which share the names of other units.
         pub const ALL: &[Unit] = &[$($id),*];
     };
 }
@@ -180,7 +180,7 @@ units! {
     SECOND = "s", base(0, 0, 1, 0), [];
     /// Speed.
     M_PER_S = "m/s", base(0, 1, -1, 0), [KM_PER_H];
-    /// Change per speed.
+    /// Relative change per speed.
     S_PER_METRE = "s/m", base(0, -1, 1, 0), [];
     /// Acceleration.
     M_PER_S2 = "m/s2", base(0, 1, -2, 0), [];
@@ -214,6 +214,6 @@ units! {
     SQUARE_METRE = "m2", base(0, 2, 0, 0), [CM2];
     /// Power per area; pressure times speed.
     W_PER_M2 = "W/m2", base(1, 0, -3, 0), [W_PER_MM2];
-    /// Viscosity.
+    /// Dynamic viscosity.
     PA_S = "Pa.s", base(1, -1, -1, 0), [MILLI_PA_S];
 }

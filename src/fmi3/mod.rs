@@ -1,9 +1,8 @@
-//! The FMI 3.0 interface for co-simulation and model exchange: a C ABI around an instance, as thin as the one of FMI
-//! 2.0.
+//! The FMI 3.0 interface for co-simulation and model exchange: a thin C ABI around an instance, like `fmi2`.
 //!
-//! It has the variables of FMI 2.0 with the same value references, and additional variables (`variables`): the time,
-//! arrays over planets and tooth pairs, event indicators, and the last event. Scheduled execution, clocks and binary
-//! variables are not provided.
+//! The interface contains the variables of FMI 2.0 with the same value references. The module `variables` adds the
+//! time, arrays over planets and tooth pairs, event indicators, and the last event. Scheduled execution, clocks and
+//! binary variables are not provided.
 
 mod calls;
 mod exports;

@@ -25,7 +25,7 @@ fn other_type(reference: u32, wanted: &str) -> CallError {
     CallError::error(format!("{name} is not of type {wanted}"))
 }
 
-/// Name of a variable.
+/// Name of a variable; empty for an unknown value reference.
 fn name(reference: u32) -> String {
     let rows = &table().rows;
     let index = reference as usize;

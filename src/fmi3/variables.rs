@@ -10,7 +10,7 @@ use crate::variables::{Access, index_of, table};
 
 /// Prefix of the variables of the first planet.
 const FIRST: &str = "planet[1].";
-/// Prefix of the variables of its loaded tooth pairs with the left side gear.
+/// Prefix of the variables of loaded tooth pairs between planet 1 and the left side gear.
 const PAIR: &str = "mesh.pair[";
 
 /// Source of a variable's value.
@@ -22,7 +22,7 @@ pub enum Item {
     Time,
     /// Kind of the last event, as a number of [`Happening`].
     EventKind,
-    /// Position of the last event: the number of the side, planet or group, from 1; 0 = none.
+    /// Position of the last event: number of the side gear, wheel or group of planets, from 1; 0 for teeth or no event.
     EventPlace,
     /// Time of the last event.
     EventTime,
@@ -59,7 +59,7 @@ pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
     ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
 ];
 
-/// Index of the row `name`.
+/// Index of the row `name`, or `usize::MAX` if there is none.
 fn place(name: &str) -> usize {
     index_of(name).unwrap_or(usize::MAX)
 }

@@ -8,7 +8,7 @@ use super::c_types::{c_char, c_uint, c_void};
 pub type ComponentPointer = *mut c_void;
 /// Pointer to a snapshot: fmi2FMUstate or fmi3FMUState.
 pub type FmuState = *mut c_void;
-/// A string.
+/// A C string, which ends with NUL, or NULL.
 pub type Text = *const c_char;
 /// Value reference.
 pub type ValueReference = c_uint;

@@ -14,6 +14,7 @@ pub struct Component {
     instance: UnsafeCell<Instance>,
 }
 
+/// Guard of a running call: clears `busy` when it is dropped.
 struct Release<'a>(&'a AtomicBool);
 
 impl Drop for Release<'_> {
@@ -28,13 +29,14 @@ impl Component {
         Box::into_raw(Box::new(Self { busy: AtomicBool::new(false), instance: UnsafeCell::new(instance) })).cast()
     }
 
+    /// Starts a call. Returns `None` if another call is running.
     fn enter(&self) -> Option<Release<'_>> {
         (!self.busy.swap(true, Ordering::Acquire)).then(|| Release(&self.busy))
     }
 }
 
-/// Carries out `call` on the instance behind `component` if its state allows the call. Logs an error and returns the
-/// status.
+/// Runs `body` for `call` on the instance behind `component` if the instance's state allows the call. Logs an error and
+/// returns the status. A NULL pointer, or a call during another call, gives an error without a message.
 ///
 /// # Safety
 /// `component` is NULL or comes from [`Component::into_pointer`] and was not freed.
@@ -90,7 +92,7 @@ fn other_interface(version: u32) -> CallError {
     ))
 }
 
-/// Frees the instance behind `component`.
+/// Frees the instance behind `component`. Does nothing while a call is running.
 ///
 /// # Safety
 /// `component` is NULL or comes from [`Component::into_pointer`] and was not freed. It is not used afterwards.

@@ -12,9 +12,9 @@ use crate::variables::{Access, OutputSource, Table, Variable, accepted, table};
 pub const OUTPUT_ORDER: i32 = 1;
 
 impl Snapshot {
-    /// Copies the inputs that the simulation has reached along their derivatives. Inputs in the mask `not_plain` may
-    /// have passed a limit by rounding, and are then set to the limit. If the mask is empty, the derivatives have not
-    /// changed.
+    /// Copies the inputs that the simulation has reached along their derivatives. Inputs in the mask `not_plain` (see
+    /// [`Instance::check_inputs_within_step`]) may have passed a limit by rounding, and are then set to the limit. If
+    /// the mask is empty, all rates are constant and need no copy.
     pub fn take_reached_inputs(&mut self, not_plain: u32) {
         let Some(simulation) = &mut self.simulation else { return };
         self.inputs = *simulation.inputs();
@@ -54,7 +54,7 @@ pub fn within_ranges(mut inputs: Inputs) -> Inputs {
     inputs
 }
 
-/// Bit of an input in `Snapshot::derivatives_set`.
+/// Bit of an input in the masks `Snapshot::derivatives_set` and `Instance::changing`; 0 for other variables.
 pub fn input_bit(reference: u32) -> u32 {
     let index = table().inputs.iter().position(|&i| i as u32 == reference);
     index.map_or(0, |index| 1 << index)
@@ -123,8 +123,8 @@ impl Instance {
         self.share_input_derivatives(true);
     }
 
-    /// Passes the derivatives to the simulation. Inputs are constant if all derivatives are 0, which is checked only if
-    /// they `may_be_zero`.
+    /// Passes the derivatives to the simulation. Inputs are constant if all derivatives are 0, which is checked only
+    /// with `may_be_zero`.
     fn share_input_derivatives(&mut self, may_be_zero: bool) {
         let now = &mut self.now;
         if self.changing == 0 || may_be_zero && now.input_derivatives.as_ref() == Some(&InputDerivatives::ZERO) {

@@ -78,8 +78,9 @@ impl Instance {
         self.move_to_states(&states)
     }
 
-    /// True if the host may set this variable, because it is a continuous state that the host integrates. It may do so
-    /// between events and, with FMI 3.0, also at events for states that events do not set themselves.
+    /// True if the variable is a continuous state that the host of a model exchange may set now. Between events, the
+    /// host may set all states. At events, it may set only positions, and only with FMI 3.0, because events set
+    /// velocities themselves.
     pub(super) fn may_set_state(&self, reference: u32) -> bool {
         FULL && self.now.kind == Kind::ModelExchange
             && table().state(reference).is_some()

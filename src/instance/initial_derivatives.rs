@@ -15,6 +15,7 @@ const CENTRAL: [Difference; 4] =
 /// One-sided differences, forward.
 const FORWARD: [Difference; 5] =
     [(0.0, [-1.5, -25.0 / 12.0]), (1.0, [2.0, 4.0]), (2.0, [-0.5, -3.0]), (3.0, [0.0, 4.0 / 3.0]), (4.0, [0.0, -0.25])];
+/// One-sided differences, backward.
 const BACKWARD: [Difference; 5] = [
     (0.0, [1.5, 25.0 / 12.0]),
     (-1.0, [-2.0, -4.0]),
@@ -22,19 +23,20 @@ const BACKWARD: [Difference; 5] = [
     (-3.0, [0.0, -4.0 / 3.0]),
     (-4.0, [0.0, 0.25]),
 ];
-/// Maximum step of the differences, relative to the changed value. The initial equilibrium is accurate to about
-/// [`START_NOISE`].
+/// Maximum step of the differences, relative to the changed value. The step is long because the initial equilibrium has
+/// a noise of about [`START_NOISE`].
 const RELATIVE_STEP: f64 = 3e-3;
 /// Relative noise of initial values.
 const START_NOISE: f64 = 1e-9;
 /// Smallest magnitude assumed for a value other than 0, as a fraction of its range or of 1 SI unit, whichever is
 /// smaller.
 const LEAST_SIZE: f64 = 1e-3;
-/// Minimum room on both sides for central differences, as a fraction of the step.
-const LEAST_ROOM: f64 = 0.1;
+/// Minimum step of central differences, as a fraction of the wanted step. If the ranges leave less room, differences are
+/// one-sided.
+const LEAST_CENTRAL_STEP: f64 = 0.1;
 /// Factors of the step, tried in turn until the differences of both orders agree. A long step may pass a kink.
 const REDUCTIONS: [f64; 4] = [1.0, 0.125, 0.015625, 0.001953125];
-/// Factor by which the disagreement of a shorter step must be smaller.
+/// Maximum disagreement of a shorter step, as a fraction of the best one so far, at which the shorter step replaces it.
 const BETTER: f64 = 0.5;
 /// Relative difference between both orders below which they agree.
 const AGREEMENT: f64 = 1e-4;
@@ -72,9 +74,10 @@ pub fn initial_derivatives(
 
 /// Distances over which the known values may change.
 struct Room {
-    /// Step at which the fastest of the values changes by [`RELATIVE_STEP`] of its magnitude.
+    /// Step as a multiple of the requested changes. The value with the largest relative change then changes by
+    /// [`RELATIVE_STEP`] of its magnitude.
     step: f64,
-    /// Number of such steps up to the end of a range, backward and forward.
+    /// Distances to the nearest end of a range, backward and forward, as multiples of the requested changes.
     ends: [f64; 2],
 }
 
@@ -111,7 +114,7 @@ impl Room {
     fn sides(&self, reduction: f64) -> (&'static [Difference], f64) {
         let (step, [backward, forward]) = (self.step * reduction, self.ends);
         let central = backward.min(forward) / 2.0;
-        if central >= LEAST_ROOM * step {
+        if central >= LEAST_CENTRAL_STEP * step {
             (&CENTRAL, step.min(central))
         } else if forward >= backward {
             (&FORWARD, step.min(forward / 4.0))
@@ -121,10 +124,11 @@ impl Room {
     }
 }
 
-/// Derivatives of initial values from differences of order 4. The disagreement is their largest deviation from order 2,
-/// relative to the accepted one.
+/// Derivatives of initial values from finite differences of one step.
 struct Estimate {
+    /// Differences of order 4.
     slopes: Vec<f64>,
+    /// Largest deviation between order 2 and order 4, relative to the tolerated deviation. Below 1, both orders agree.
     disagreement: f64,
 }
 

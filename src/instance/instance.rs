@@ -202,7 +202,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Resets everything to a new instance, except for the settings of the log.
+    /// Resets the data of the instance to those of a new one. The settings of the log, and the features that the host
+    /// allows, stay.
     pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.interface, self.now.kind);
         self.announced = None;
@@ -317,7 +318,7 @@ impl Instance {
         }
         self.now = restored;
         self.changing = u32::MAX;
-        // the snapshot has no published values if its host did not handle events; they must go if this host does not
+        // snapshots contain published values only if their host handled events; only such a host has published values
         let lacks_values = self.now.discrete.is_none() && self.now.phase.is_running();
         if lacks_values || !self.allowed.events { self.publish() } else { Ok(()) }
     }
@@ -372,7 +373,8 @@ pub fn is_tolerance(row: &Variable) -> bool {
     row.name == "solver.relative_tolerance"
 }
 
-/// Compile-time check that instances can run on any thread and share constants, the table of variables and FMU states.
+/// Compile-time check that instances can move between threads, and that threads can share simulations, the table of
+/// variables and FMU states.
 const _: () = {
     const fn movable<T: Send>() {}
     const fn shared<T: Send + Sync>() {}

@@ -5,12 +5,10 @@
 //! Decisions that the standards leave open:
 //! - A refused call changes nothing, so the instance keeps its state. For example, an error for a wrong value reference
 //!   does not end a simulation. Only a failed initialisation and an internal error lead to the state `error`.
-//!   simulation. Only a failed initialisation and an internal error lead to the state `error`.
 //! - The state `fatal` is never entered. Instances share no mutable data, so a reset always restores an instance.
 //! - Parameters and inputs can be read in any state, and outputs from initialisation mode on.
 //! - A stop time and a tolerance announced to an instance take precedence over those of a restored state. The start
 //!   time belongs to the state, like its time.
-//!   belongs to the state, like its time.
 //! - A stop time may equal the start time. The start can then be read and saved, but no step is possible.
 
 mod basic;

@@ -144,10 +144,12 @@ pub struct Slopes<'a> {
 }
 
 impl<'a> Slopes<'a> {
+    /// Prepares derivatives of `simulation` along `direction`.
     pub fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
         Self { simulation, direction, motion: None, forces: None, pairs: None, states: None, rates: None }
     }
 
+    /// Returns the derivative of an output. It is 0 for outputs that change only with time.
     pub fn of(&mut self, source: OutputSource) -> f64 {
         let Self { simulation, direction, .. } = *self;
         match source {

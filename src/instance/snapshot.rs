@@ -254,7 +254,7 @@ fn open(bytes: &[u8]) -> Result<&[u8], String> {
     }
     let version = u32::from_le_bytes(*take(&mut rest).ok_or_else(truncated)?);
     if version != VERSION {
-        return Err(format!("the serialised state has format {version}, this FMU reads format {VERSION}"));
+        return Err(format!("the serialised state has format {version}, but this FMU reads format {VERSION}"));
     }
     if u64::from_le_bytes(*take(&mut rest).ok_or_else(truncated)?) != fnv1a(guid().bytes()) {
         return Err(format!("the serialised state belongs to another version of this FMU than {}", guid()));

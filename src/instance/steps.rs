@@ -199,8 +199,8 @@ impl Instance {
         Ok(Iteration { update, is_needed: self.publish_next()? })
     }
 
-    /// True if an iteration in model exchange only reports an event of earlier iterations. Nothing changes twice at the
-    /// same time, so the iteration ends.
+    /// True if an iteration in model exchange only reports another event, because an earlier iteration at this time has
+    /// already made all changes.
     fn only_reports(&mut self) -> CallResult<bool> {
         let published = self.now.discrete.map(|discrete| discrete.event.count);
         let simulation = self.simulation()?;

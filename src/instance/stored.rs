@@ -82,7 +82,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Restores a state from bytes. Invalid bytes change nothing.
+    /// Stores the state that `bytes` contain in `state`. Invalid bytes change nothing.
     pub unsafe fn deserialize(
         &self,
         host: &HostMemory,

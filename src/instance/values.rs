@@ -48,7 +48,7 @@ pub fn finite(row: &Variable, number: f64) -> CallResult<f64> {
     )))
 }
 
-/// Returns the error of a single value, with unit and range of its variable.
+/// Returns the error of setting a variable to `value`. If the value is not finite, the message also names the range.
 fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
     let Some(range) = row.range.filter(|_| !value.is_finite()) else { return CallError::discard(problem) };
     let unit = row.unit.map_or("", |u| u.name);
@@ -246,8 +246,8 @@ impl Instance {
 
     /// Returns the value that a variable takes if it is set to `value`. Ranges of inputs are checked immediately, but
     /// ranges of parameters only in a running simulation. Before that, parameters must be finite, and initialisation
-    /// checks all their ranges together. A value that `is_checked` already exceeds its range at most by rounding, even
-    /// if one call sets its variable several times.
+    /// checks all their ranges together. With `is_checked`, the value has passed this check before. It then exceeds its
+    /// range at most by rounding and is set to the limit, even if one call sets its variable several times.
     fn accepted_real(&mut self, reference: u32, value: f64, is_checked: bool) -> CallResult<f64> {
         let row = row(reference)?;
         let (last, at_once) = match row.access {

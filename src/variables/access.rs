@@ -18,9 +18,9 @@ pub enum OutputSource {
     Pair(usize, fn(&PairLine) -> f64),
     /// Ledger and statistics of the solver.
     Ledger(fn(&LedgerReadings) -> f64),
-    /// Reading of an effect that changes at any instant, by its index among these.
+    /// Reading of an effect that may change at any instant, by its index among such readings.
     Reading(usize),
-    /// Reading of an effect that changes only with accepted steps, by its index among these.
+    /// Reading of an effect that changes only with accepted steps, by its index among such readings.
     LedgerReading(usize),
     /// Heat, by its index in the ledger.
     Heat(usize),

@@ -89,7 +89,7 @@ impl Condition {
     }
 }
 
-/// Parts of `text` between `word`s outside brackets.
+/// Splits `text` at each `word` outside brackets.
 fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     let (mut parts, mut depth, mut begin) = (Vec::new(), 0, 0);
     for (i, letter) in text.char_indices() {
@@ -107,7 +107,7 @@ fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     parts
 }
 
-/// Number of a word as a value of `row`.
+/// Number of the value `word` of `row`, or `None` if `row` cannot have this value.
 fn number_in(row: &Variable, word: &str) -> Option<f64> {
     match row.access {
         Access::Enumeration(..) | Access::Boolean(_) => number_of(row, word).ok(),
@@ -119,15 +119,20 @@ fn parameter(index: usize, parameters: &mut Parameters) -> Option<f64> {
     number(&table().rows[index], parameters, &mut Inputs::ZERO.clone())
 }
 
-/// Conditions under which the value of a row has an effect: its switch and its condition.
+/// Conditions under which the value of a row has an effect.
 struct Needs {
+    /// Start value; `None` for an output.
     start: Option<f64>,
+    /// Condition that the switch of the row's effect is on; `None` = no switch.
     switch: Option<Condition>,
+    /// Condition [`Row::when`](crate::declaration::Row::when); `None` = always.
     when: Option<Condition>,
+    /// Condition [`Row::acts_when`](crate::declaration::Row::acts_when); `None` = always.
     acts_when: Option<Condition>,
 }
 
 impl Needs {
+    /// Conditions under which anything depends on the value, including outputs that repeat it.
     fn all(&self) -> impl Iterator<Item = &Condition> {
         self.switch.iter().chain(&self.when)
     }
@@ -153,7 +158,7 @@ pub fn has_effect(index: usize, parameters: &mut Parameters, situation: Situatio
     needs()[index].all().all(|condition| condition.holds(parameters, situation))
 }
 
-/// True if anything other than outputs that repeat it depends on the value of row `index` in a scene of `parameters`.
+/// True if the value of row `index` affects more than outputs that repeat it, in a scene of `parameters`.
 pub fn acts(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
     let needed = &needs()[index].acts_when;
     has_effect(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
@@ -181,7 +186,7 @@ pub fn value_without_effect(
     Some(problem!(row.name, "{}{NO_EFFECT}{}", written(row, value), acts.join(", and with ")))
 }
 
-/// Common text of these warnings.
+/// Common text of the warnings about values without effect.
 const NO_EFFECT: &str = " changes nothing in this scene: it acts with ";
 
 /// Returns a value as users write it, with its unit.

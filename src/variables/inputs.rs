@@ -4,8 +4,9 @@ use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Row, row};
 use crate::model::{InputField, effects};
 
-/// Far beyond any differential, but small enough that no intermediate result overflows.
+/// Limit of speeds [rad/s], far beyond any differential, but small enough that no intermediate result overflows.
 const MAX_SPEED: f64 = 1e5;
+/// Limit of torques [N·m], far beyond any differential, but small enough that no intermediate result overflows.
 const MAX_TORQUE: f64 = 1e8;
 
 /// Rows of all inputs.

@@ -11,13 +11,18 @@ const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 /// continue.
 type Report<'a> = Box<dyn FnMut(f64, &str) -> bool + 'a>;
 
-/// Reports progress to the caller and remembers whether the caller stopped the work.
+/// Reports progress to the caller. After the caller has stopped the work, every check fails.
 pub struct Progress<'a> {
     report: Report<'a>,
+    /// Completed fraction of the work, from 0 to 1.
     done: f64,
+    /// Name of the present task.
     task: String,
+    /// Time of the last report; `None` before the first one.
     asked: Option<Instant>,
+    /// True if the caller stopped the work.
     stopped: bool,
+    /// Warnings about the question, without repetitions.
     warnings: Vec<String>,
 }
 

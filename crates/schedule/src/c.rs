@@ -29,7 +29,7 @@ pub unsafe extern "C" fn bd_schedule(question: *const f64, count: usize, rows: *
     if schedule.step.is_some_and(|step| schedule.stop / step > MOST) {
         return -1;
     }
-    if let Some(table) = schedule.countless() {
+    if let Some(table) = schedule.table_with_too_many_stops() {
         return -2 - table as isize;
     }
     let mut rows = rows.chunks_exact_mut(4 + 2 * tables.len());
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_senseless_question_is_refused() {
+    fn a_question_that_is_invalid_or_needs_too_many_steps_is_refused() {
         let square = [3.0, 1e-9, 0.0, 0.0, 5e-10, 5e-10, 1.0, 1.0, 0.0];
         for (question, why) in [
             (vec![1.0, 0.1], 0),

@@ -25,9 +25,13 @@ pub const MOST: f64 = 1e8;
 /// Steps of a run: to multiples of a step, to changes and jumps of inputs, and to the end.
 #[derive(Clone)]
 pub struct Schedule {
+    /// End of the run [s].
     stop: f64,
+    /// Regular step [s]; `None` = steps end only at stops.
     step: Option<f64>,
+    /// Times that differ by less than this are equal [s].
     slack: f64,
+    /// End of the last step [s].
     time: f64,
     /// Number of completed regular steps.
     done: u64,
@@ -61,8 +65,8 @@ impl Schedule {
         self.time >= self.stop
     }
 
-    /// Returns the index of the first table with too many stops, which is a mistake in its period.
-    pub fn countless(&self) -> Option<usize> {
+    /// Returns the index of the first table with more than [`MOST`] stops, which is a mistake in its period.
+    pub fn table_with_too_many_stops(&self) -> Option<usize> {
         let count = |stops: &Stops| stops.times.len() as f64 * stops.period.map_or(1.0, |period| self.stop / period);
         self.stops[1..].iter().position(|stops| count(stops) > MOST)
     }

@@ -7,7 +7,7 @@ pub struct Table {
     pub times: Vec<f64>,
     /// Values at these times.
     pub values: Vec<f64>,
-    /// Time after which the table repeats [s]; none = the last value stays.
+    /// Time after which the table repeats [s]; `None` = the last value stays.
     pub period: Option<f64>,
     /// True if a value is held up to the next point, false if the table is linear between points.
     pub is_held: bool,
@@ -79,7 +79,7 @@ pub(crate) struct Stops {
 }
 
 impl Stops {
-    /// The next time [s].
+    /// The next time [s], or `None` if all times have passed.
     pub(crate) fn upcoming(&self) -> Option<f64> {
         let Some(period) = self.period else { return self.times.get(self.passed).copied() };
         let count = self.times.len();

@@ -6,8 +6,9 @@ use bevel_differential::geometry::{Pair, checks};
 use bevel_differential::model::Parameters;
 use bevel_differential::variables::{Access, table};
 
-/// Facets per flank and strips along a tooth, enough for a smooth picture in a browser window.
+/// Number of facets per flank, enough for a smooth picture in a browser window.
 const FACETS: usize = 10;
+/// Number of strips along a tooth.
 const STRIPS: usize = 2;
 
 /// A parameter, identified by its value reference. Whole numbers, Booleans and literals are converted to numbers.

@@ -6,10 +6,10 @@ use bevel_differential::variables::{Access, OutputSource, Table, Variable, units
 const BY_OWN_LOAD: &str = ".twist";
 /// Suffixes of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
-/// Parts of the names of outputs that depend on positions and speeds but not on torques: outputs of teeth, and of
-/// shafts as well.
+/// Parts of the names of outputs that depend on the motion of teeth, washers or clutches, but not on torques.
 const BY_MOTION_OF_TEETH: [&str; 6] =
     ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing", "pv.washers", "pv.clutch"];
+/// Parts of the names of outputs that depend on the motion of all bodies, including the wheels, but not on torques.
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Output that depends on speeds and on brake torques, and the suffix of these torques.
 const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
@@ -17,7 +17,7 @@ const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
 const COMMANDS: [&str; 2] = ["carrier.speed_command", "spin.command"];
 const FOLLOWERS: [&str; 6] =
     ["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"];
-/// Suffixes for ends of half-shafts with a commanded speed: of the command and of the output, both on one side.
+/// Suffixes of the speed command of a half-shaft's end, and of the output on the same side that follows it immediately.
 const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 
 /// True if speeds follow the input immediately.

@@ -166,8 +166,7 @@ pub fn write(file: &Path) -> Result<()> {
     write_whole(file, model_description(Choices::Enumerations)?.as_bytes())
 }
 
-/// Creates the element for co-simulation or model exchange: first the attributes of only this kind, then those of both
-/// kinds.
+/// Creates the element for co-simulation or model exchange. `own` adds the attributes that only this kind has.
 fn kind_element(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
     own(Element::new(name).with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false))
         .with("canBeInstantiatedOnlyOncePerProcess", false)

@@ -9,8 +9,9 @@ use crate::fmu::licences::LinkedPart;
 use answers::text::numbers::short;
 use answers::text::xml::Element;
 
-/// Significant digits of start values and of limits.
+/// Significant digits of start values.
 const START_DIGITS: u32 = 6;
+/// Significant digits of limits.
 const LIMIT_DIGITS: u32 = 4;
 const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:70em;margin:2em auto;padding:0 1em}\
                      table{border-collapse:collapse;width:100%;font-size:14px}\
@@ -28,21 +29,21 @@ const USE: [&str; 5] = [
      half-shaft.",
     "For a turn, set scene.planet_spin to imposed (2) and spin.command to the spin of the planets.",
     "Parameters of the group effects switch effects on and off; the group with the name of an effect contains its parameters.",
-    "Read the host's log: each warning and error names the variable, its value and what is allowed.",
+    "Read the host's log: each warning and error names the variable, its value and the allowed values.",
 ];
 const UNITS: [&str; 3] = [
-    "Values are SI. The tables give the unit of the interface and in brackets the unit that hosts show; start values and \
-     limits are rounded and in the latter.",
-    "Speeds and angles are positive forwards. Load torques are positive where they resist positive rotation; shaft_torque is \
-     what the half-shaft delivers to the wheel and carrier.torque what the drive delivers to the carrier, both positive when \
+    "Values are in SI units. The tables give the unit of the interface and, in brackets, the unit that hosts show. Start \
+     values and limits are rounded, and in the unit that hosts show.",
+    "Speeds and angles are positive forwards. Load torques are positive if they resist positive rotation. The half-shaft \
+     delivers shaft_torque to the wheel, and the drive delivers carrier.torque to the carrier; both are positive when \
      driving forwards. A positive planet spin speeds the left side up.",
     "Normal forces are magnitudes; the sign of the transmission error shows which flank is loaded. Outputs of planets that a \
      scene does not have and of effects that are off are 0.",
 ];
 const LIMITATIONS: [&str; 4] = [
-    "The shaft angle is 90 degrees. Parameters are checked one by one and together; errors are reported by name when \
-     initialisation ends.",
-    "In co-simulation inputs are constant over a communication step, unless the host sets their first or second derivatives \
+    "The shaft angle is 90 degrees. The end of initialisation checks each parameter and their combinations, and reports \
+     each error with the name of its variable.",
+    "In co-simulation, inputs are constant over a communication step, unless the host sets their first or second derivatives \
      (fmi2SetRealInputDerivatives).",
     "Published laws of friction and strength are also used beyond the ranges in which they were measured, without a warning.",
     "A step that cannot be completed is discarded with the last successful time; restore a state or reset the instance to \
@@ -78,7 +79,7 @@ pub const FIGURES: [Figure; 3] = [
 
 /// Optional files of an archive next to the page.
 pub struct Beside {
-    /// The differential in motion.
+    /// Page with the differential in motion.
     pub live: Option<&'static str>,
     /// Instructions for a test with the evidence.
     pub tests: Option<&'static str>,
@@ -119,7 +120,7 @@ pub fn page(libraries: &[Library], linked: &[LinkedPart], beside: &Beside) -> Re
     }
     body = body
         .child(title("Licences"))
-        .child(paragraph("What is linked into the libraries, and the texts of the licences:"))
+        .child(paragraph("Parts that are linked into the libraries, with the texts of their licences:"))
         .child(table_of(&["Part", "Licence", "Texts"], linked.iter().map(licences)));
     let head = Element::new("head")
         .child(Element::new("meta").with("charset", "utf-8"))

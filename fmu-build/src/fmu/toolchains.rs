@@ -123,7 +123,7 @@ const RUST: DebianToolchain =
 pub const ARM: DebianToolchain =
     DebianToolchain { name: "aarch64", what: "qemu and glibc for ARM (64 MB to download)" };
 /// Linker for macOS.
-pub const DARWIN: DebianToolchain = DebianToolchain { name: "darwin", what: "what links for macOS" };
+pub const DARWIN: DebianToolchain = DebianToolchain { name: "darwin", what: "the linker for macOS" };
 
 impl DebianToolchain {
     /// Returns the tool chain if the present scripts installed it.
@@ -163,7 +163,7 @@ impl DebianToolchain {
         UnpackedToolchain(paths::toolchains().join(self.name))
     }
 
-    /// Text that changes with the scripts and with the oldest supported Rust.
+    /// Content of the stamp file of an up-to-date tool chain: a hash of the scripts and of the oldest supported Rust.
     fn wanted_stamp(&self) -> Result<String> {
         let mut scripts = OLDEST_RUST.as_bytes().to_vec();
         for name in ["debian", self.name] {

@@ -6,14 +6,14 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
-/// Redraw interval of the spinner.
+/// Redraw interval of the display.
 const TICK: Duration = Duration::from_millis(100);
-/// Resolution of the bar.
-const FULL: u64 = 1000;
-/// Maximum completed fraction of a step that takes longer than expected.
-const ALMOST: f64 = 0.95;
-/// Share of the whole from which the measured pace outweighs the expected one.
-const FIRST: f64 = 0.1;
+/// Number of positions of the bar.
+const BAR_LENGTH: u64 = 1000;
+/// Maximum completed fraction of the present step. A step that takes longer than expected remains incomplete.
+const MAX_STEP_FRACTION: f64 = 0.95;
+/// Weight of the expected pace, as a share of the whole work. The measured pace outweighs it once this share is done.
+const EXPECTED_WEIGHT: f64 = 0.1;
 
 /// Present display, which notes must not overwrite.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
@@ -27,7 +27,7 @@ pub struct Progress {
 impl Progress {
     /// Starts the display with a first stage.
     pub fn start(stage: &str) -> Self {
-        let progress = Self::shown(None);
+        let progress = Self::new(None);
         progress.style("{spinner} {msg}");
         progress.stage(stage);
         progress
@@ -35,13 +35,13 @@ impl Progress {
 
     /// Starts work in steps, whose durations are `expected` on a machine with two cores [s].
     pub fn of_steps(expected: Vec<f64>) -> Self {
-        let progress = Self::shown(Some(Arc::new(Mutex::new(Steps::new(expected)))));
+        let progress = Self::new(Some(Arc::new(Mutex::new(Steps::new(expected)))));
         progress.style("{spinner} {place}, {msg}, {left}");
         progress
     }
 
-    fn shown(steps: Option<Arc<Mutex<Steps>>>) -> Self {
-        let bar = ProgressBar::new(FULL);
+    fn new(steps: Option<Arc<Mutex<Steps>>>) -> Self {
+        let bar = ProgressBar::new(BAR_LENGTH);
         bar.enable_steady_tick(TICK);
         *held(&SHOWN) = Some(bar.clone());
         Self { bar, steps }
@@ -74,11 +74,11 @@ impl Progress {
         self.stage(stage);
     }
 
-    /// Shows the completed fraction of the stage, from 0 to 1.
+    /// Shows the completed fraction of the step, or of the stage if there are no steps, from 0 to 1.
     pub fn advance(&self, fraction: f64, what: &str) {
         match &self.steps {
             Some(steps) => held(steps).fraction = Some(fraction.clamp(0.0, 1.0)),
-            None => self.bar.set_position((fraction.clamp(0.0, 1.0) * FULL as f64) as u64),
+            None => self.bar.set_position((fraction.clamp(0.0, 1.0) * BAR_LENGTH as f64) as u64),
         }
         self.bar.set_message(what.to_owned());
     }
@@ -158,11 +158,12 @@ impl Steps {
         if seconds < 1.5 { "almost done".to_owned() } else { format!("about {seconds:.0} s left") }
     }
 
-    /// Completed share of the whole. The fraction of the present step is the reported one, or follows from the clock.
+    /// Completed share of the whole work. The fraction of the present step is the reported one. If none was reported, it
+    /// is the elapsed share of the expected duration.
     fn share(&self) -> f64 {
         let Some(at) = self.begun.checked_sub(1).filter(|&at| at < self.expected.len()) else { return 0.0 };
         let by_clock = || self.start_of_step.elapsed().as_secs_f64() / self.expected[at];
-        let done = self.expected[at] * self.fraction.unwrap_or_else(by_clock).min(ALMOST);
+        let done = self.expected[at] * self.fraction.unwrap_or_else(by_clock).min(MAX_STEP_FRACTION);
         (self.expected[..at].iter().sum::<f64>() + done) / self.expected.iter().sum::<f64>()
     }
 }
@@ -170,7 +171,7 @@ impl Steps {
 /// Estimates the remaining time [s] of work whose expected time is `total`, if a `share` of it took the time `elapsed`.
 /// The estimate starts with the expected pace and moves to the measured one.
 fn time_left(total: f64, share: f64, elapsed: f64) -> f64 {
-    let pace = (elapsed + FIRST * total) / ((share + FIRST) * total);
+    let pace = (elapsed + EXPECTED_WEIGHT * total) / ((share + EXPECTED_WEIGHT) * total);
     (1.0 - share) * total * pace
 }
 

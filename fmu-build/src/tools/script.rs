@@ -9,8 +9,9 @@ use anyhow::{Context, Result, bail};
 use crate::tools::program::{FINDING, Finding};
 use crate::tools::progress::Progress;
 
-/// Runs a command, called `name`, to its end and returns its standard output. Lines "progress <fraction> <what>" on
-/// standard error move the bar. Other lines there are the error if the command fails.
+/// Runs `command` to its end and returns its standard output. Lines "progress <fraction> <what>" on standard error move
+/// the bar. If the command fails, the error consists of `name` and the other lines on standard error. The error is a
+/// [`Finding`] if the exit status says so.
 pub fn follow(command: &mut Command, name: &str, progress: &Progress) -> Result<String> {
     let mut child = command
         .stdout(Stdio::piped())
@@ -43,10 +44,10 @@ pub fn follow(command: &mut Command, name: &str, progress: &Progress) -> Result<
         bail!("{name} failed: {}", why.trim_end());
     }
     let printed = printed.and_then(|thread| thread.join().ok()).transpose();
-    Ok(printed.with_context(|| format!("what {name} printed cannot be read"))?.unwrap_or_default())
+    Ok(printed.with_context(|| format!("the output of {name} cannot be read"))?.unwrap_or_default())
 }
 
-/// Parses a line `progress <fraction> <what>`.
+/// Parses a line `progress <fraction> <what>`. Returns `None` for any other line.
 fn progress_in(line: &str) -> Option<(f64, &str)> {
     let (fraction, what) = line.strip_prefix("progress ")?.split_once(' ')?;
     Some((fraction.parse().ok()?, what))

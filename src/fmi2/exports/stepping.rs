@@ -3,7 +3,7 @@
 use super::*;
 use crate::instance::Phase;
 
-/// fmi2DoStep. The last flag is ignored, because snapshots are complete even if the host goes back in time.
+/// fmi2DoStep. The flag `_never_back` is ignored, because snapshots are complete even if the host goes back in time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(c: ComponentPointer, point: f64, size: f64, _never_back: Boolean) -> Status {
     call!(c, DoStep, |instance, _| instance.do_step(point, size))
@@ -29,7 +29,7 @@ pub unsafe extern "C" fn fmi2GetStatus(c: ComponentPointer, kind: c_int, value: 
     })
 }
 
-/// fmi2GetRealStatus.
+/// fmi2GetRealStatus. The only real status is the last successful time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: ComponentPointer, kind: c_int, value: *mut f64) -> Status {
     call!(c, GetRealStatus, |instance, host| {

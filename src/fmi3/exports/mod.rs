@@ -1,4 +1,4 @@
-//! The C functions. Each checks its pointers, calls the instance and returns a status.
+//! The C functions. Each checks its pointers and calls the instance. Most functions return a status.
 //!
 //! # Safety
 //! These rules apply to all functions. An instance comes from `fmi3Instantiate…` and was not freed. Every pointer that

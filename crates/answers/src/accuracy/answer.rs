@@ -15,9 +15,9 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
 
-/// Maximum cost of all runs, in reference runs. The second value is for an uncertain reference, where more runs decide
-/// little.
+/// Maximum cost of all runs, as a multiple of the cost of the reference run.
 const BUDGET: f64 = 30.0;
+/// The same maximum if the reference is uncertain, because more runs would then decide little.
 const BUDGET_UNCERTAIN: f64 = 15.0;
 /// Shortest time to judge, in communication steps: a mean over time needs two points.
 const LEAST_POINTS: f64 = 2.5;
@@ -41,7 +41,7 @@ pub struct Answer {
     pub scales: Vec<f64>,
     /// All runs.
     pub trials: Vec<Trial>,
-    /// Index of the chosen run; none if nothing is accurate enough.
+    /// Index of the chosen run; `None` if nothing is accurate enough.
     pub chosen: Option<usize>,
     /// The next cheaper run, which fails.
     pub too_coarse: Option<usize>,
@@ -65,8 +65,8 @@ pub enum Role {
         /// True if the chosen setting has the effect.
         chosen: bool,
     },
-    /// Has no influence, because its parameters are zero or the part it acts on is missing. Typical values may have
-    /// one.
+    /// No influence, because the parameters are zero or the part on which the effect acts is missing. Typical values
+    /// may have an influence.
     Neutral {
         /// The parameters that the scene leaves at zero, with typical values.
         typical: Vec<(&'static Variable, f64)>,
@@ -76,7 +76,7 @@ pub enum Role {
         now: f64,
     },
     /// Not part of the chosen plainer level, which is accurate enough without it.
-    NotKnown,
+    NotOnLevel,
     /// Part of the question, because it says what is built in, broken or driven, but not in this scene.
     NotInScene,
     /// Switched off by the scene.
@@ -172,7 +172,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
             },
             (Some(Err(why)), _) => Role::Kept(why.clone()),
             (None, Status::NotAsked) => Role::NotAsked,
-            (None, _) if in_rich => Role::NotKnown,
+            (None, _) if in_rich => Role::NotOnLevel,
             (None, Status::SetOff) => Role::SetOff,
             (None, Status::NotInScene) => Role::NotInScene,
             (None, Status::On | Status::Off) => Role::Refused(
@@ -181,9 +181,9 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
         };
         // the scene may have left parameters at zero that belong to effects missing on the plainer level
         let role = match (role, found.rich) {
-            (Role::NotKnown, Some(rich)) => {
+            (Role::NotOnLevel, Some(rich)) => {
                 let typical = switch.typical(&bench.trials[rich].scene);
-                if typical.is_empty() { Role::NotKnown } else { neutral(bench, &switch, rich, typical, 0.0) }
+                if typical.is_empty() { Role::NotOnLevel } else { neutral(bench, &switch, rich, typical, 0.0) }
             }
             (role, _) => role,
         };
@@ -211,7 +211,8 @@ fn change(bench: &Bench, run: usize, other: usize) -> f64 {
     pairs.fold(0.0, |most, ((&a, &b), &scale)| f64::max(most, Want::error(a, b, scale)))
 }
 
-/// Role of an effect that changes nothing, or only `now`, with the change by typical values.
+/// Role of an effect that changes nothing, or only by `now` through other step sizes. If the budget allows it, a run with
+/// typical values shows their influence.
 fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'static Variable, f64)>, now: f64) -> Role {
     if !bench.has_room(bench.trials[rich].cost) {
         return Role::Neutral { typical, by: None, now };

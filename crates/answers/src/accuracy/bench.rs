@@ -9,8 +9,9 @@ use super::want::Want;
 use crate::progress::Progress;
 use crate::scene::Scene;
 
-/// Limits of a run: a multiple of the reference's cost, but at least this number of evaluations.
+/// Maximum cost of a run, as a multiple of the reference's cost.
 const MOST_REFERENCE_RUNS: f64 = 1.5;
+/// Number of evaluations that a run may always use, whatever they cost.
 const ALWAYS_ALLOWED: f64 = 1e4;
 
 /// A run that finished.

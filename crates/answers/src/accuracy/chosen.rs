@@ -1,5 +1,5 @@
-//! Scene file with the chosen setting. It is the file of the scene, changed only where the setting differs. Values that
-//! have no influence are removed, and relative paths are adapted to the new folder.
+//! Scene file with the chosen setting. It is a copy of the scene's file in which only values of the setting differ.
+//! Values that have no influence are removed, and relative paths are adapted to the new folder.
 
 use std::fs;
 use std::path::{Path, absolute};
@@ -51,7 +51,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         }
     }
     let head = format!(
-        "# Made from scene {}: {}.\n# Error {} where {} % is wanted, against the richest model.\n\n",
+        "# Made from scene {}: {}.\n# Error {} relative to the richest model; {} % is allowed.\n\n",
         answer.scene.name,
         setting(&chosen.scene.parameters),
         percent(chosen.error()),

@@ -17,7 +17,7 @@ pub struct Gears {
     pub level: GearContact,
     /// Law; only used on the level with teeth.
     pub law: ContactLaw,
-    /// Gear bodies are elastic.
+    /// True if gear bodies are elastic.
     pub has_bodies: bool,
 }
 

@@ -3,8 +3,8 @@
 //! 1. The **reference** is the richest model that the question admits, at a tolerance whose own error does not matter.
 //! 2. Every plainer level and law, and the richest model without each effect, is compared with the reference.
 //! 3. The search starts from the plainest gears that are accurate enough. It leaves out effects and loosens the
-//! tolerance step by
-//!    step, as long as the *combination* stays within the accuracy. The chosen setting was itself run and compared.
+//!    tolerance step by step, as long as the *combination* stays within the accuracy. The chosen setting was itself run
+//!    and compared.
 //! 4. A scene with fixed steps keeps them: the search then looks for the longest step instead of the loosest tolerance.
 //!
 //! The choice depends only on counted work, so it is the same on every machine. Measured times are for information

@@ -24,7 +24,7 @@ struct Price {
 
 impl Price {
     /// Price of an evaluation, without its share of the cost that a communication step has even without teeth.
-    fn evaluation_alone(&self) -> f64 {
+    fn net_evaluation(&self) -> f64 {
         self.per_evaluation * (1.0 - step_without_teeth() / self.per_step).max(0.0)
     }
 }
@@ -62,7 +62,7 @@ fn price_of_evaluation(p: &Parameters) -> f64 {
         (_, ContactLaw::LineWeber) => "line_weber",
         _ => "nothing",
     };
-    let price = |on: &str| measured(on).map_or(0.0, Price::evaluation_alone);
+    let price = |on: &str| measured(on).map_or(0.0, Price::net_evaluation);
     let effect = |name: &str| match name {
         // measured together with the law `line`
         "body_compliance" => price(name) - price("line"),

@@ -15,15 +15,16 @@ use crate::problem::question_error;
 use crate::progress::Progress;
 use crate::scene::Scene;
 
-/// Tolerance of the first run, as a fraction of the accuracy, and its upper bound.
+/// Tolerance of the first run, as a fraction of the accuracy.
 const FIRST: f64 = 1e-4;
+/// Maximum tolerance of the first run.
 const COARSEST: f64 = 1e-6;
 /// Each further pair of runs multiplies the previous tolerance by these factors. Differences of the last three runs are
 /// the integrator's error.
 const FINER: [f64; 2] = [0.3, 0.1];
-/// Tolerances become finer while the reference is uncertain by more than this fraction of the accuracy, at most this
-/// number of times.
+/// Tolerances become finer while the reference is uncertain by more than this fraction of the accuracy.
 const STEADY: f64 = 0.1;
+/// Maximum number of pairs of runs with finer tolerances.
 const REFINED: usize = 2;
 
 /// The richest scene, and effects that had to be left out.
@@ -32,7 +33,7 @@ pub struct Richest {
     pub scene: Scene,
     /// Effects that do not fit the scene, with the reason.
     pub refused: Vec<(&'static str, String)>,
-    /// Its level and law.
+    /// Level and law of the scene.
     pub gears: Gears,
 }
 

@@ -11,8 +11,9 @@ use super::switches::{Switch, effects, settled};
 use crate::scene::Scene;
 use crate::scene::set::Setting;
 
-/// Tolerance at which levels, laws and effects are compared, as a fraction of the accuracy, and its bounds.
+/// Tolerance at which levels, laws and effects are compared, as a fraction of the accuracy.
 const SCREEN: f64 = 1e-3;
+/// Bounds of this tolerance.
 const SCREENS: [f64; 2] = [1e-7, 1e-4];
 /// Maximum error of the comparisons themselves, as a fraction of the accuracy.
 const SCREEN_ERROR: f64 = 0.2;
@@ -23,12 +24,13 @@ const TOGETHER: f64 = 0.3;
 /// An effect that on its own changes a quantity by more than this multiple of the accuracy is not tried again in a
 /// combination.
 const HOPELESS: f64 = 3.0;
-/// Number of the plainest accurate gears that are optimised. The result with richer gears must cost less than this
-/// fraction.
+/// Number of accurate gears that are optimised, the plainest first.
 const STARTS: usize = 2;
+/// Maximum cost of a result with richer gears, as a fraction of the cost with plainer gears, at which it is preferred.
 const CHEAPER: f64 = 0.5;
-/// Factor from one tolerance to the next looser one, and the loosest tolerance.
+/// Factor from one tolerance to the next looser one.
 const LOOSER: f64 = 10.0;
+/// Loosest tolerance.
 const LOOSEST: f64 = 1e-2;
 /// Parameter of the fixed step size.
 const STEP: &str = "solver.fixed_step";
@@ -52,7 +54,7 @@ pub struct Found {
     pub base: Option<usize>,
     /// Runs of the plainest accurate gears without each of their effects.
     pub effects: Vec<Single<Switch>>,
-    /// Run of the chosen combination; none if all runs fail or no fixed step is accurate enough.
+    /// Run of the chosen combination; `None` if all runs fail or no fixed step is accurate enough.
     pub chosen: Option<usize>,
 }
 
@@ -126,8 +128,8 @@ fn without_each(bench: &mut Bench, base: usize) -> Vec<Single<Switch>> {
     .collect()
 }
 
-/// Removes parts of the chosen setting one by one until every remaining part is needed. These runs are cheap, and the
-/// failed ones show the next coarser settings.
+/// Makes the gears of the chosen setting plainer and removes its effects, one by one, until every remaining part is
+/// needed. These runs are cheap, and the failed ones show the next coarser settings.
 fn minimal(bench: &mut Bench, mut chosen: usize, plainer: &[Gears], written: &Scene, within: f64) -> usize {
     loop {
         let scene = bench.trials[chosen].scene.clone();

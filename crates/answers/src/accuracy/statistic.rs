@@ -16,7 +16,7 @@ pub enum Statistic {
     Min,
     /// Largest value.
     Max,
-    /// Largest less smallest value.
+    /// Largest minus smallest value.
     PeakToPeak,
     /// Value at the end.
     Final,
@@ -65,7 +65,7 @@ const WORDS: [(&str, Statistic); 7] = [
 /// All names, for messages.
 pub const KNOWN: &str =
     "mean, rms, min, max, peak_to_peak, final, time_of_peak, mesh_order_1 (any whole number), shaft_order_1";
-/// Maximum phase between two communication points [rad]: an amplitude needs four points per period.
+/// Maximum change of phase between two communication points [rad]: an amplitude needs four points per period.
 const COARSEST: f64 = 0.5 * PI;
 
 impl fmt::Display for Statistic {

@@ -5,7 +5,7 @@ use bevel_differential::model::{Method, Parameters};
 use super::gears::Gears;
 use super::switches::effects;
 
-/// Changes from this ratio on are shown as multiples.
+/// Fraction from which [`percent`] shows a multiple instead of a percentage.
 const MANY: f64 = 10.0;
 
 /// Formats a fraction as a percentage with two significant digits.

@@ -45,6 +45,7 @@ pub struct AccuracyQuestion {
 pub struct StatisticsQuestion {
     /// Number of samples in the times and in each series.
     points: usize,
+    /// Requested statistics.
     figures: Vec<FigureQuestion>,
 }
 
@@ -130,7 +131,7 @@ fn role_json(answer: &Answer, switch: &Switch, role: &Role) -> Value {
         Role::Acts { by, chosen: true } => ("kept", Some(*by), None),
         Role::Acts { by, chosen: false } => ("out", Some(*by), None),
         Role::Neutral { by, .. } => ("neutral", *by, None),
-        Role::NotKnown => ("not_known", None, None),
+        Role::NotOnLevel => ("not_known", None, None),
         Role::NotInScene => ("not_there", None, None),
         Role::SetOff => ("set_off", None, None),
         Role::NotAsked => ("not_asked", None, None),

@@ -1,4 +1,4 @@
-//! Questions about scenes.
+//! Questions about scenes: values, plans, runs, exports, tooth loads, contact patterns, and former names of variables.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -202,7 +202,7 @@ fn values(settings: &[Setting]) -> Map<String, Value> {
     settings.iter().map(|setting| (setting.row.name.to_owned(), setting.json())).collect()
 }
 
-/// Values of `scene` that differ from the FMU, and all values that the scene sets explicitly.
+/// Values of `scene` that differ from the FMU's start values, and all values that the scene sets explicitly.
 pub(super) fn changed(scene: &Scene) -> Map<String, Value> {
     values(&changed_values(scene))
 }

@@ -1,4 +1,4 @@
-//! Requested gears: settings by name and unit as in scenes, with the checks of the FMU.
+//! Design of gears: settings as in scenes, each with name, value and unit, and the checks of the FMU.
 
 use bevel_differential::geometry::{GearSpec, Pair, Tredgold, assembly, checks};
 use bevel_differential::model::{Inputs, Parameters};
@@ -8,8 +8,8 @@ use bevel_differential::variables::{Causality, Variable, table};
 use crate::problem::{self, Problems};
 use crate::scene::set::{Setting, value};
 
-/// Parameter that may be set in addition to `geometry.*`: it removes the backlash.
-const PLAY: &str = "effects.backlash";
+/// Parameter that may be set in addition to `geometry.*`: the value false removes the backlash.
+const BACKLASH_SWITCH: &str = "effects.backlash";
 /// Parameters that act only with the value `explicit` of [`SYSTEM`].
 const COEFFICIENTS: [&str; 4] =
     ["geometry.planet_addendum", "geometry.side_addendum", "geometry.planet_dedendum", "geometry.side_dedendum"];
@@ -18,7 +18,7 @@ const SYSTEM: &str = "geometry.addendum_system";
 /// Gears that can be built.
 #[derive(Clone)]
 pub struct Design {
-    /// All parameters. Only the geometry is used.
+    /// All parameters. Those that do not determine the geometry have their start values.
     pub parameters: Parameters,
     /// Parameters set by the user, in the given order.
     pub settings: Vec<Setting>,
@@ -61,11 +61,11 @@ impl Design {
 
 /// Parameters that determine the geometry.
 pub fn parameters() -> impl Iterator<Item = &'static Variable> {
-    table().rows.iter().filter(|row| row.causality == Causality::Parameter && counts(row.name))
+    table().rows.iter().filter(|row| row.causality == Causality::Parameter && is_of_geometry(row.name))
 }
 
-fn counts(name: &str) -> bool {
-    name.starts_with("geometry.") || name == PLAY
+fn is_of_geometry(name: &str) -> bool {
+    name.starts_with("geometry.") || name == BACKLASH_SWITCH
 }
 
 fn settings<T: AsRef<str>>(assignments: &[T]) -> Result<Vec<Setting>, Problems> {
@@ -93,7 +93,7 @@ fn setting(assignment: &str) -> Result<Setting, problem::Problem> {
         return Err(format!("\"{assignment}\" is not of the form name=value, such as geometry.module=4mm").into());
     };
     let setting = Setting::new(name.trim(), &value(text.trim()))?;
-    if counts(setting.row.name) {
+    if is_of_geometry(setting.row.name) {
         Ok(setting)
     } else {
         let reason = "does not change the geometry; parameters that do";

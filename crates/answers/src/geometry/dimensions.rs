@@ -1,7 +1,7 @@
 //! Table of all derived dimensions. Text, JSON and documentation are generated from its rows.
 //!
-//! Terms and symbols come from ISO 23509:2016 if it has the quantity, or from ISO 10300-1 for virtual cylindrical
-//! gears; each row names its source. In the standard's terms, these are straight bevel gears (β = 0) without offset.
+//! Each row names the standard of its term and symbol, if there is one: ISO 23509:2016, or ISO 10300-1 for virtual
+//! cylindrical gears. In the standard's terms, these are straight bevel gears (β = 0) without offset.
 //! Their tip, pitch and root cones meet in one apex, which is the crossing point of the axes.
 
 pub use super::dimension::{Dimension, DimensionGroup, QuantityKind};

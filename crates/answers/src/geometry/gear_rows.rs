@@ -37,11 +37,11 @@ pub fn groups() -> Vec<DimensionGroup> {
         dimensions!("cones", DimensionValue::Gear,
             "number_of_teeth_z" "z" Count ISO_23509, "given", |d, i| f64::from(d.pair.gears[i].teeth);
             "pitch_angle_delta" "δ" Angle ISO_23509, "half angle of the pitch cone", |d, i| d.pair.gears[i].pitch;
-            "face_angle_delta_a" "δ_a" Angle ISO_23509, "of the tip cone, its apex in the pitch apex",
+            "face_angle_delta_a" "δ_a" Angle ISO_23509, "half angle of the tip cone, whose apex is the pitch apex",
                 |d, i| d.pair.gears[i].tip;
-            "root_angle_delta_f" "δ_f" Angle ISO_23509, "of the root cone, its apex in the pitch apex",
+            "root_angle_delta_f" "δ_f" Angle ISO_23509, "half angle of the root cone, whose apex is the pitch apex",
                 |d, i| d.pair.gears[i].root;
-            "base_angle_delta_b" "δ_b" Angle None, "of the base cone that the involute unrolls from",
+            "base_angle_delta_b" "δ_b" Angle None, "half angle of the base cone, from which the involute unrolls",
                 |d, i| d.pair.gears[i].base;
             "addendum_angle_theta_a" "θ_a" Angle ISO_23509, "from pitch cone to tip cone",
                 |d, i| d.pair.gears[i].tip - d.pair.gears[i].pitch;
@@ -65,7 +65,7 @@ pub fn groups() -> Vec<DimensionGroup> {
                 |d, i| root_diameter(d, i) * mean_ratio(d);
             "inner_root_diameter_d_fi" "d_fi" Length ISO_23509, "at the toe", |d, i| root_diameter(d, i) * toe_ratio(d);
         ),
-        dimensions!("diameters, on the spheres R_e and R_i that the teeth of the solids end on", DimensionValue::Gear,
+        dimensions!("diameters, on the spheres R_e and R_i at the ends of the solids' teeth", DimensionValue::Gear,
             "outer_tip_diameter_on_sphere" "" Length None, "at the heel, 2 R_e sin δ_a",
                 |d, i| 2.0 * d.pair.outer_cone * sin(d.pair.gears[i].tip);
             "inner_tip_diameter_on_sphere" "" Length None, "at the toe, 2 R_i sin δ_a",

@@ -58,7 +58,7 @@ fn comparison(found: &TredgoldComparison) -> Ordered {
     ])
 }
 
-/// A parameter with the FMU's unit and range.
+/// Value of a parameter. Numbers also have their unit in the FMU.
 fn parameter(design: &Design, row: &'static Variable) -> Ordered {
     // all variables of the geometry are parameters
     let setting = Setting::of(row, &design.parameters, &Inputs::default());

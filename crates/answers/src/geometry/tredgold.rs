@@ -24,7 +24,7 @@ pub struct TredgoldComparison {
 }
 
 impl TredgoldComparison {
-    /// Relative error of the approximation; none if the exact value is zero.
+    /// Relative error of the approximation; `None` if the exact value is zero.
     pub fn error(&self) -> Option<f64> {
         (self.exact.abs() > f64::EPSILON).then(|| self.planar / self.exact - 1.0)
     }
@@ -32,7 +32,9 @@ impl TredgoldComparison {
 
 /// Line of action of the virtual gears.
 struct Plane {
+    /// Pitch radii [m].
     radius: [f64; 2],
+    /// Base radii [m].
     base: [f64; 2],
     /// Distances from each tangent point to the gear's own tip [m].
     leg: [f64; 2],

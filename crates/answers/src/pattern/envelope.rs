@@ -23,6 +23,7 @@ pub struct Envelope {
     pub polars: Vec<f64>,
     /// Pressure by cone distance, then polar angle [Pa].
     pub pressure: Vec<Vec<f64>>,
+    /// Pitch angle of the planet [rad].
     pitch: f64,
 }
 
@@ -77,7 +78,7 @@ impl Envelope {
 }
 
 /// Polar angle on the planet, pressure and half-width of a contact line at `cone`. Sections of the line are within
-/// `face`. Returns none if the line does not reach `cone`.
+/// `face`. Returns `None` if the line does not reach `cone`.
 fn between(line: &[&LoadedSection], cone: f64, face: [f64; 2]) -> Option<[f64; 3]> {
     let (first, last) = (line.first()?, line.last()?);
     // within the face, a line ends where the load of the next section would be zero

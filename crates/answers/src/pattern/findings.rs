@@ -102,8 +102,9 @@ pub fn centroid(line: &[LoadedSection]) -> f64 {
     line.iter().map(|c| c.force() * c.cone).sum::<f64>() / force
 }
 
-/// Number of columns of the table, and of the table in the document.
+/// Number of columns of the table.
 const CELLS: usize = 9;
+/// Number of columns of the table in the document.
 const IN_DOCUMENT: usize = 7;
 const HEAD: [&str; CELLS] = [
     "case",
@@ -114,7 +115,7 @@ const HEAD: [&str; CELLS] = [
     "pressure, MPa",
     "peak, MPa at R, mm",
     "face in contact, %",
-    "carries at heights, mm",
+    "loaded heights, mm",
 ];
 
 /// Table of all cases.

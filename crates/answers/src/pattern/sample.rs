@@ -2,7 +2,7 @@
 //!
 //! The followed pair is the first pair of planet 1's left mesh that comes into contact after the start and separates
 //! again. Teeth with a contact law may lift off and touch again in between. Their pair therefore counts only if it was
-//! loaded over a base pitch; every pair is, if the mesh never separates. If no pair completes its engagement, as on a
+//! loaded over a base pitch. Every pair is loaded over a base pitch if the mesh never separates. If no pair completes its engagement, as on a
 //! straight road, the most loaded pair is followed instead and a warning is given.
 //!
 //! The steps are those of the scene. They are shorter if a pair would pass in fewer than `INSTANTS` of them.
@@ -42,7 +42,7 @@ pub struct Engagement {
     pub contacts: Vec<LoadedSection>,
     /// Pair with the complete engagement.
     pub followed: PairName,
-    /// Cone distances beyond which only the outermost section of the face remains [m]; none for solid teeth, whose
+    /// Cone distances beyond which only the outermost section of the face remains [m]; `None` for solid teeth, whose
     /// sections move.
     pub ends: Option<[f64; 2]>,
 }
@@ -144,7 +144,7 @@ impl Engagement {
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
-            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries; its pressure is calculated",
+            "followed: the pair whose engagement is whole; corner: 1 if a tip corner is loaded; its pressure is calculated",
             "with the radii at the end of the path, and the real one is higher",
             "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
         ];

@@ -25,14 +25,19 @@ const TIME: &str = "time";
 
 /// Column of an input.
 struct Column {
-    /// Index of the column, and its header as written.
+    /// Index of the column.
     place: usize,
+    /// Header as written.
     header_cell: String,
+    /// The input.
     row: &'static Variable,
+    /// Unit as written; empty if it is missing.
     unit: String,
+    /// Values in the unit of the interface.
     values: Vec<f64>,
-    /// First problem of the values, and the number of problems.
+    /// First problem of the values.
     wrong: Option<String>,
+    /// Number of problems of the values.
     wrong_count: usize,
 }
 

@@ -119,8 +119,8 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
     let tables = input_tables.iter().map(|driven| &driven.table);
-    if let Some(countless) = Schedule::new(stop_time, Some(step), Vec::new(), tables).countless() {
-        let InputTable { row, table } = &input_tables[countless];
+    if let Some(index) = Schedule::new(stop_time, Some(step), Vec::new(), tables).table_with_too_many_stops() {
+        let InputTable { row, table } = &input_tables[index];
         let (end, period) = (six_digits(stop_time), table.period.unwrap_or_default());
         problems.push(format!(
             "{} jumps more than {MOST:e} times in {end} s; its period is {period} s: give a longer one",

@@ -19,8 +19,11 @@ const SAME: f64 = 1e-6;
 
 /// Columns of the load. Columns of its position and direction on each gear follow.
 const LOAD: &str = "time,planet,side,flank,spot,planet_tooth,side_tooth,share,s,cone,normal,friction";
+/// Units of the columns of the load.
 const LOAD_UNITS: &str = "s,-,-,-,-,-,-,1,rad,m,N,N";
+/// Columns of a gear: point, normal, force.
 const VECTORS: [&str; 9] = ["x", "y", "z", "nx", "ny", "nz", "Fx", "Fy", "Fz"];
+/// Units of the columns of a gear.
 const VECTOR_UNITS: &str = "m,m,m,1,1,1,N,N,N";
 
 /// Force of a tooth pair on one gear, in the gear's own frame.

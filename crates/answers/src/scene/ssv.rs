@@ -9,7 +9,9 @@ use super::set::start_values;
 use super::set::{Setting, SettingValue, literal};
 use crate::text::xml::Element;
 
+/// XML namespace of parameter sets.
 const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+/// XML namespace of units and enumerations.
 const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 /// Version of the standard.
 const VERSION: &str = "1.0";

@@ -127,7 +127,7 @@ fn a_mean_speed_calls_for_no_teeth() {
 }
 
 #[test]
-fn values_of_its_own_make_a_law_part_of_the_question() {
+fn a_scene_that_sets_the_stiffness_of_its_law_keeps_this_law() {
     let found = asked(&format!("{TEETH}contact.stiffness = 1e10\n"), &["left.speed:peak_to_peak"], 0.05);
     let gears = Gears::of(&found.reference.scene.parameters);
     assert_eq!((gears.law, gears.has_bodies), (ContactLaw::Impact, false));

@@ -12,17 +12,18 @@ use crate::fmu::toolchains::{self, Compiler, DARWIN_TARGETS, UnpackedToolchain};
 use crate::tools::files::write_whole;
 use crate::tools::paths;
 
-/// FMI 2.0's name of the platform, and FMI 3.0's names of its two kinds of processors.
+/// FMI 2.0's name of the platform.
 const PLATFORM: &str = "darwin64";
+/// FMI 3.0's names of the platform with each of the two kinds of processors.
 const IN_FMI3: [&str; 2] = ["x86_64-darwin", "aarch64-darwin"];
-/// Oldest macOS for each kind, which is the oldest that Rust supports.
+/// Oldest macOS that Rust supports, on x86-64 and on ARM.
 const OLDEST: [&str; 2] = ["10.12", "11.0"];
 
-/// First word of a universal file, and of a file for one 64-bit processor, whose numbers are in the byte order of that
-/// processor.
+/// First word of a universal file, whose numbers are big-endian.
 const UNIVERSAL: u32 = 0xCAFE_BABE;
+/// First word of a file for one 64-bit processor, whose numbers are in the byte order of that processor.
 const SINGLE: u32 = 0xFEED_FACF;
-/// Alignment of the code of a processor, as a power of 2: a page of ARM, which has the larger pages.
+/// Exponent of 2 of the alignment of each file [bytes]: a page of ARM, which has the larger pages.
 const ALIGNMENT: u32 = 14;
 
 /// True if the tool chain is installed.

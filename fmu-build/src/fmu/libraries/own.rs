@@ -14,7 +14,7 @@ use super::library::{CRATES, HOST, Library};
 use crate::tools::files::make_whole;
 use crate::tools::{paths, progress};
 
-/// FMI 3.0's name of this machine's platform, if the FMU was ever built there.
+/// FMI 3.0's name of this machine's platform.
 const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes()) {
     (false, b"win64") => "x86_64-windows",
     (false, b"darwin64") => "x86_64-darwin",
@@ -24,15 +24,16 @@ const HOST_IN_FMI3: &str = match (cfg!(target_arch = "aarch64"), HOST.0.as_bytes
     (true, _) => "aarch64-linux",
 };
 
-/// Minimum number of separators in a folder that is replaced. `/src` may be in the middle of any path and reveals
-/// nothing about a machine.
+/// Minimum number of separators in a folder that [`overwrite`] replaces. A short folder such as `/src` may be in the
+/// middle of any path, and reveals nothing about a machine.
 const FEWEST_SEPARATORS: usize = 2;
 
 /// Returns the library for this machine. If the one built together with this program cannot be used, it is compiled
 /// again.
 pub fn for_this_machine() -> Result<Library> {
     let needs = match HOST.0 {
-        "linux64" => "Linux on x86-64 as new as the machine that the library was built on",
+        "linux64" if cfg!(target_arch = "aarch64") => "Linux on 64-bit ARM, as new as the machine that built the library",
+        "linux64" => "Linux on x86-64, as new as the machine that built the library",
         "win64" => "Windows on x86-64",
         _ => "macOS",
     };
@@ -108,9 +109,9 @@ fn sign(library: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Replaces each `folder` that is followed by a separator with `name`. Strings in a library follow each other without a
-/// gap, so the start of a path cannot be recognised. Repeated separators, which count as one, fill the length so that
-/// nothing moves.
+/// Overwrites each `folder` in the library `content` with `name`, if a separator follows. Separators fill the remaining
+/// length, so that nothing moves; repeated separators count as one. The start of a path cannot be checked, because
+/// strings in a library follow each other without a gap.
 fn overwrite(content: &mut [u8], folder: &[u8], name: &[u8]) {
     let is_separator = |byte: &u8| *byte == b'/' || (cfg!(windows) && *byte == b'\\');
     if folder.iter().filter(|&byte| is_separator(byte)).count() < FEWEST_SEPARATORS {

@@ -10,16 +10,16 @@ use crate::fmu::toolchains;
 /// A platform to build the library for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Platform {
-    /// Linux on x86-64, old systems too
+    /// Linux on x86-64, including old systems
     Linux64,
     /// Windows on x86-64
     Win64,
-    /// Linux on 64-bit ARM, old systems too
+    /// Linux on 64-bit ARM, including old systems
     #[value(name = "aarch64-linux")]
     ArmLinux,
     /// macOS on x86-64 and on ARM
     Darwin64,
-    /// This machine, and systems as new as it
+    /// This machine, and systems that are at least as new
     ThisMachine,
 }
 

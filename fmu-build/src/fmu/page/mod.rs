@@ -25,9 +25,9 @@ pub const FILE: &str = "BevelDifferential.html";
 const COMMAND: &str = "cargo run --release -- page";
 /// The crate of the library for browsers.
 const CRATE: &str = "bevel-differential-page";
-/// Compiler settings for users, and for a faster build: number of codegen units, and level of optimisation. They do not
-/// affect results.
+/// Number of codegen units, and level of optimisation, for users. These settings do not affect results.
 const FOR_USERS: [&str; 2] = ["1", "3"];
+/// Number of codegen units, and level of optimisation, for a faster build.
 const QUICK: [&str; 2] = ["16", "1"];
 /// Compresses a file with Python's own library, with the checksum that unpackers of browsers support.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
@@ -113,7 +113,7 @@ pub fn made() -> Result<(Option<Vec<u8>>, String)> {
     let is_of_today = |text: &[u8]| text.windows(guid().len()).any(|window| window == guid().as_bytes());
     match fs::read(&file) {
         Ok(text) if is_of_today(&text) => Ok((Some(text), format!("with the page {FILE}"))),
-        Ok(_) => Ok((None, format!("the page is left out, it has other variables; renew it: {COMMAND}"))),
+        Ok(_) => Ok((None, format!("the page is left out, because its variables are out of date; renew it: {COMMAND}"))),
         Err(error) if error.kind() == ErrorKind::NotFound => {
             Ok((None, format!("the page is left out; make it: {COMMAND}")))
         }

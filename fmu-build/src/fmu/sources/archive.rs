@@ -20,7 +20,7 @@ const INDEX: &str = "documentation/index.html";
 /// Parts of the FMU that are left out: libraries, their evidence, and the page, which contains a library.
 const LEFT_OUT: [&str; 4] = ["binaries/", "extra/", "documentation/fmi-ls-ref", "documentation/BevelDifferential.html"];
 /// Requirements of the sources, as text.
-const NEEDS: &str = "A compiler of C99 with IEEE 754 arithmetic, and of its library setjmp, string functions, roots and rounding. Co-simulation \
+const NEEDS: &str = "A C99 compiler with IEEE 754 arithmetic, and from its library setjmp, string functions, roots and rounding. Co-simulation \
                      with the methods fixed_step and adaptive; gears ideal, lumped or tooth; all effects; no derivatives of outputs";
 
 /// Writes the archive with the sources next to `fmu` and returns its path.

@@ -1,5 +1,5 @@
-//! Unit as sources in C: wasm2c translates the library for WebAssembly to C. The C files in `fmu-build/sources/c`
-//! surround it, and an archive contains all of them.
+//! FMU with sources in C instead of libraries. wasm2c translates the library, compiled to WebAssembly, to C. The C files
+//! in `fmu-build/sources/c` connect the result to the functions of FMI 2.0.
 
 mod archive;
 mod translate;
@@ -44,7 +44,8 @@ impl Tools {
         }
     }
 
-    /// Creates all files of the sources. With quick packing, they give the same results with more instructions.
+    /// Creates all files of the sources. With quick packing, the compiler uses more codegen units: it finishes sooner,
+    /// and the sources give the same results with more instructions.
     pub fn files(&self, packing: Packing) -> Result<Vec<File>> {
         let _alone = Lock::of(&paths::target().join("cross").join(FOLDER))?;
         let library = WasmCrate {

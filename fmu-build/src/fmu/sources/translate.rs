@@ -14,9 +14,9 @@ const FILE: usize = 1_000_000;
 const NAMED: &str = "w2c_bd_";
 /// Start of every memory access.
 const ACCESS: &str = "_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(";
-/// A global that the library changes. Other globals only contain the end of its data.
+/// Prefix of globals that the library changes. Other globals only contain the end of its data.
 const GLOBAL: &str = "instance->w2c_g";
-/// Unused lines: a register of x86 that may contain the base of memory, copies of its base and size, counts of calls.
+/// Starts of lines that are dropped: comments, directives, copies of the memory's base and size, and counts of calls.
 const DROPPED: [&str; 9] = [
     "#",
     "wasm_rt_segue_write_base(",
@@ -72,9 +72,11 @@ struct Parts<'a> {
     entries: Vec<&'a str>,
     /// Name and bytes of the data segments.
     data: Vec<(&'a str, &'a str)>,
-    /// Initial sizes of table and memory.
+    /// Line that contains the initial size of the table of functions.
     table: &'a str,
+    /// Line that contains the initial size of the memory.
     memory: &'a str,
+    /// Lines that copy data segments into the memory.
     loads: Vec<&'a str>,
 }
 
