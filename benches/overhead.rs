@@ -17,8 +17,9 @@ use common::reference;
 
 type Component = *mut c_void;
 
-/// Number of steps of a run, and number of runs. The median is reported.
+/// Number of steps of a run.
 const STEPS: u32 = 20_000;
+/// Number of runs. The median is reported.
 const RUNS: usize = 41;
 
 const INPUTS: [&str; 3] = ["carrier.speed_command", "left.load_torque", "right.load_torque"];

@@ -23,7 +23,16 @@ const EVENT: u16 = Phase::Event.bit();
 const CONTINUOUS: u16 = Phase::ContinuousTime.bit();
 const TERMINATED: u16 = Phase::Terminated.bit();
 const ERROR: u16 = Phase::Error.bit();
-const ALWAYS: u16 = INSTANTIATED | CONFIGURATION | INITIALIZATION | STEP | INTERMEDIATE | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
+const ALWAYS: u16 = INSTANTIATED
+    | CONFIGURATION
+    | INITIALIZATION
+    | STEP
+    | INTERMEDIATE
+    | FAILED
+    | EVENT
+    | CONTINUOUS
+    | TERMINATED
+    | ERROR;
 /// States in which a variable may be set.
 const CAN_SET: u16 = INSTANTIATED | CONFIGURATION | INITIALIZATION | STEP | EVENT;
 /// States in which directional and adjoint derivatives have values.

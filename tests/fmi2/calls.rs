@@ -44,8 +44,8 @@ fn host_in(kind: usize, phase: usize) -> Host {
 type Call = (&'static str, &'static str, &'static str, fn(ComponentPointer) -> Status);
 
 /// Table of calls: name, legal phases for co-simulation and for model exchange, and the call with valid arguments.
-/// Marks: x, legal; o, legal in the state but not for this kind of instance; e, no values after a failed
-/// initialisation; ?, not specified.
+/// Marks: x, legal; -, illegal in the state; o, legal in the state but not for this kind of instance; e, no values after
+/// a failed initialisation; ?, not specified.
 #[rustfmt::skip] // a table
 fn calls() -> Vec<Call> {
     const N: usize = EVENT_INDICATORS;

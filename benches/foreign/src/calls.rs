@@ -50,7 +50,7 @@ pub unsafe extern "C" fn foreign_scale(run: &mut Run, magnitudes: *const f64) {
     run.magnitudes = unsafe { std::slice::from_raw_parts(magnitudes, run.size()) }.to_vec();
 }
 
-/// Returns the time of the start, and writes its u.
+/// Returns the time of the start [s], and writes the scaled unknowns u at the start.
 ///
 /// # Safety
 /// `u` has room for the run's size.
@@ -91,7 +91,7 @@ pub extern "C" fn foreign_inertias(run: &Run, out: &mut [f64; 3]) {
     *out = [inertias.carrier, inertias.side[0], inertias.planets * inertias.planet];
 }
 
-/// Right-hand side: rates of u.
+/// Computes the right-hand side: the rates of the scaled unknowns u.
 ///
 /// # Safety
 /// The arrays have the run's size and do not overlap.
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn foreign_rhs(_time: f64, u: *const f64, rate: *mut f64, 
     unsafe { run.rates(u, rate) };
 }
 
-/// Jacobian of the right-hand side, row by row.
+/// Computes the Jacobian of the right-hand side, row by row.
 ///
 /// # Safety
 /// Like [`foreign_rhs`], with size² numbers in `rows`.
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn foreign_jacobian(_time: f64, u: *const f64, rows: *mut 
     unsafe { run.jacobian(u, false, rows) };
 }
 
-/// Outputs at u.
+/// Computes the outputs at the scaled unknowns u.
 ///
 /// # Safety
 /// `u` has the run's size.

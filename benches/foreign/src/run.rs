@@ -19,12 +19,13 @@ pub type Entries = unsafe extern "C" fn(*mut c_void) -> *mut f64;
 
 /// A run with the data that solvers need.
 pub struct Run {
-    /// The simulation at the start of the run, and the present inputs.
+    /// Simulation at the start of the run.
     pub start: Simulation,
+    /// Present inputs.
     pub inputs: Inputs,
     /// Natural magnitudes of positions and velocities.
     pub magnitudes: Vec<f64>,
-    /// Access to the entries of SUNDIALS' vectors and matrices.
+    /// Access to the entries of SUNDIALS' vectors and matrices; `None` until `foreign_sundials` is called.
     pub entries: Option<[Entries; 2]>,
     /// Numbers of evaluations of the right-hand side and of the Jacobian since the last reading.
     pub counts: [u64; 2],

@@ -82,7 +82,7 @@ impl AllCommand {
         }
         progress.finish();
         print!("{}", for_terminal(&table.markdown()));
-        println!("\nwhat each printed: {}", paths::shown(&folder));
+        println!("\noutput of each command: {}", paths::shown(&folder));
         if failed.is_empty() { Ok(()) } else { Err(Finding(format!("these failed: {}", failed.join(", "))).into()) }
     }
 }

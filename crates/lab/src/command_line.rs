@@ -51,7 +51,7 @@ fn program() -> Program {
             .subcommand(help.arg(Arg::new("command").value_name("COMMAND").help("A command"))),
         groups: vec![("Measuring:", group(measure::commands())), ("Checking:", group(check::commands()))],
         end: format!(
-            "All of them in one go, in short forms, and one table: {LABORATORY} all\n\
+            "All commands in short form, with one table of the results: {LABORATORY} all\n\
              Options of a command: {LABORATORY} COMMAND --help"
         ),
     }

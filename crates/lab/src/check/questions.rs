@@ -114,7 +114,7 @@ fn asked(count: usize, seed: u64) -> Tally {
     tally
 }
 
-/// Kind of a reply; none if the reply is invalid or contains no problem.
+/// Kind of a reply; `None` if the reply is invalid or contains no problem.
 fn kind(reply: &str) -> Option<String> {
     let value: Value = serde_json::from_str(reply).ok()?;
     if value.get("answer").is_some_and(Value::is_object) {

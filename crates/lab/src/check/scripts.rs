@@ -98,7 +98,7 @@ pub const SOURCES: Script = Script {
     about: "Checks that the unit as sources in C gives the same bits with several compilers, on x86-64 and on ARM under qemu",
     more: Some(
         "It needs the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu \
-         libc6-dev-arm64-cross qemu-user. What is not there is left out.",
+         libc6-dev-arm64-cross qemu-user. Missing compilers are left out.",
     ),
     options: || {
         vec![
@@ -203,7 +203,7 @@ pub const HOSTS: Script = Script {
     ..DEFAULTS
 };
 
-/// Comparison of the libraries for all platforms that something here can run: bits of all outputs, and times.
+/// Comparison of the libraries that can run here, if necessary under wine or qemu: bits of all outputs, and times.
 pub const PLATFORMS: Script = Script {
     name: "platforms",
     about: "Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects the one for macOS",

@@ -131,8 +131,8 @@ pub const PATTERNS: Script = Script {
     ..DEFAULTS
 };
 
-/// Times of levels, laws and effects: each alone, each pair, all together; or the ratios of the times of two builds. The command
-/// `accuracy` and the page use the prices of each alone.
+/// Times of levels, laws and effects: each separately, each pair, and all together; or the ratios of the times of two builds.
+/// The command `accuracy` and the page use the separate prices.
 pub const PRICES: Script = Script {
     name: "prices",
     about: "Times levels, laws and effects, or compares the FMUs of two builds (an idle machine, some minutes)",

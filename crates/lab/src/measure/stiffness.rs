@@ -14,14 +14,17 @@ const DOCUMENT: &str = "docs/inside/stiffness.md";
 const MARKS: [&str; 2] = ["<!-- stiffness:begin -->", "<!-- stiffness:end -->"];
 /// Reference values.
 const ROWS: &str = include_str!("../../../../tests/data/golden_fe3d_pairs.csv");
-/// Fillet [modules], modulus [Pa], Poisson's ratio and line load [N/m] of the reference.
+/// Fillet radius of the reference [modules].
 const FILLET: f64 = 0.40;
+/// Young's modulus of the reference [Pa].
 const YOUNG: f64 = 2.07e11;
+/// Poisson's ratio of the reference.
 const POISSON: f64 = 0.25;
+/// Line load of the reference [N/m].
 const LINE_LOAD: f64 = 400e3;
 /// Stiffness of IMPACT in the study [N/m^1.5], and its exponent.
 const IMPACT: [f64; 2] = [5.77e5 * 31_622.776_601_683_79, 1.5];
-/// Pa per N/(mm·µm).
+/// Number of Pa in 1 N/(mm·µm).
 const PER_MM_UM: f64 = 1e9;
 
 /// Compares the stiffness of each law with 3-D finite elements of several gears
@@ -34,10 +37,12 @@ pub struct StiffnessCommand {
 
 /// Rows of one gear set on one support.
 struct Set {
+    /// Cells that describe the gear set and its support.
     columns: Vec<String>,
-    /// s [rad] and c [Pa] of single pairs.
+    /// Position s on the path of contact [rad] and stiffness c [Pa] of single pairs.
     single: Vec<[f64; 2]>,
-    /// s [rad] of the first of two pairs, c of both [Pa], and its ratio to that of two separate pairs.
+    /// Position s of the first of two pairs [rad], stiffness c of both [Pa], and the ratio of c to the stiffness of two
+    /// separate pairs.
     double: Vec<[f64; 3]>,
 }
 

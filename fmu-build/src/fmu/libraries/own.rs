@@ -32,7 +32,9 @@ const FEWEST_SEPARATORS: usize = 2;
 /// again.
 pub fn for_this_machine() -> Result<Library> {
     let needs = match HOST.0 {
-        "linux64" if cfg!(target_arch = "aarch64") => "Linux on 64-bit ARM, as new as the machine that built the library",
+        "linux64" if cfg!(target_arch = "aarch64") => {
+            "Linux on 64-bit ARM, as new as the machine that built the library"
+        }
         "linux64" => "Linux on x86-64, as new as the machine that built the library",
         "win64" => "Windows on x86-64",
         _ => "macOS",

@@ -113,7 +113,9 @@ pub fn made() -> Result<(Option<Vec<u8>>, String)> {
     let is_of_today = |text: &[u8]| text.windows(guid().len()).any(|window| window == guid().as_bytes());
     match fs::read(&file) {
         Ok(text) if is_of_today(&text) => Ok((Some(text), format!("with the page {FILE}"))),
-        Ok(_) => Ok((None, format!("the page is left out, because its variables are out of date; renew it: {COMMAND}"))),
+        Ok(_) => {
+            Ok((None, format!("the page is left out, because its variables are out of date; renew it: {COMMAND}")))
+        }
         Err(error) if error.kind() == ErrorKind::NotFound => {
             Ok((None, format!("the page is left out; make it: {COMMAND}")))
         }

@@ -58,7 +58,7 @@ type Setup<B> = unsafe extern "C" fn(ComponentPointer, B, f64, f64, B, f64) -> S
 type Completed<B> = unsafe extern "C" fn(ComponentPointer, B, *mut B, *mut B) -> Status;
 type Logging<B> = unsafe extern "C" fn(ComponentPointer, B, usize, *const Text) -> Status;
 
-// SAFETY of all calls below: the component is alive or one that the library must refuse, and so are the pointers.
+// SAFETY of all calls below: the component and the pointers are valid, or the library must refuse them.
 // Lengths are those of the arrays, or larger than the library may ever accept.
 
 /// Calls a function that needs only an instance.

@@ -29,7 +29,7 @@ pub struct FuzzedInstance {
 }
 
 impl FuzzedInstance {
-    /// Creates an instance; none if it is refused.
+    /// Creates an instance; `None` if it is refused.
     pub fn new(interface: &'static Interface, options: InstanceOptions) -> Option<Self> {
         let host = Box::new(Host {
             recorder: Recorder::default(),
@@ -65,7 +65,7 @@ impl FuzzedInstance {
         (status == Status::Ok).then_some(now)
     }
 
-    /// Complete state as bytes; none if the standard forbids reading it (after an error).
+    /// Complete state as bytes; `None` if the standard forbids reading it (after an error).
     pub fn bytes(&mut self) -> Option<Vec<u8>> {
         // SAFETY: a live component; the state is NULL or this instance's own
         let status = unsafe { (self.interface.get_state)(self.component, &mut self.comparison_state) };

@@ -14,7 +14,7 @@ pub struct Interface {
     pub free: unsafe fn(ComponentPointer),
     /// Resets an instance.
     pub reset: unsafe fn(ComponentPointer) -> Status,
-    /// Logs all categories, but only errors.
+    /// Selects all log categories and switches debug logging off, so that only calls without the status OK are logged.
     pub log_all: unsafe fn(ComponentPointer) -> Status,
     /// Initialises an instance with its present start values.
     pub initialise: unsafe fn(ComponentPointer) -> [Status; 2],

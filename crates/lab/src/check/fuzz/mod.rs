@@ -1,12 +1,14 @@
 //! Random calls of the C functions of FMI 2.0 and 3.0: in any order, with valid and invalid arguments, on several
-//! instances of both kinds. Every result is checked against the promises of the FMU.
+//! instances of both kinds. Every result is checked against the promises of the FMU: numbers are finite, each refusal is
+//! logged, a refused call leaves the state unchanged, and a reset instance behaves like a new one.
 //!
-//! Rounds are independent: `fuzz --seed S --calls 500` repeats the round with the seed S. Even seeds are rounds of FMI
-//! 2.0, odd ones of FMI 3.0. Workers are separate processes of this program, started by python/fuzz.py. A crash or a
+//! Rounds are independent: `fuzz --seed S --calls 500` repeats the round with the seed S. Without `--fmi`, even seeds are
+//! rounds of FMI 2.0 and odd seeds are rounds of FMI 3.0. Workers are separate processes of this program, started by python/fuzz.py. A crash or a
 //! hang can therefore be reported with its seed.
 //!
-//! `fmi2` and `fmi3` are tables of functions. `calls` and `states` call them by signature at a `site`, and `round`
-//! checks the promises.
+//! The modules `fmi2` and `fmi3` contain tables of functions, each with its random call. `calls` and `states` contain
+//! these calls, one for each signature. `site` contains the instance and the arguments of a call. `round` makes the
+//! calls and checks the promises.
 
 mod arguments;
 mod calls;
@@ -46,7 +48,7 @@ pub struct FuzzCommand {
     /// Number of calls
     #[arg(long, value_name = "N", default_value_t = MANY)]
     calls: usize,
-    /// Seed of the first round; each further round has the next one
+    /// Seed of the first round; it rises by 1 from round to round
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Version of FMI: 2 or 3 [default: alternating with the seed]

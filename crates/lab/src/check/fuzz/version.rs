@@ -12,7 +12,7 @@ pub struct Function {
     pub name: &'static str,
     /// Relative frequency of calls.
     pub weight: usize,
-    /// Kind of instance for this function; none for both kinds.
+    /// Kind of instance for this function; `None` for both kinds.
     pub kind: Option<Kind>,
     /// Prefix of its messages: its name, or the name of a family of functions.
     pub message_prefix: &'static str,
