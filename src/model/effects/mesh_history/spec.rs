@@ -18,7 +18,7 @@ macro_rules! peaks {
             description: concat!(
                 "Peak-to-peak value of ",
                 $what,
-                " over the last whole mesh cycle; 0 before, and in model exchange"
+                " over the last whole mesh cycle; 0 before the first cycle has ended, and in model exchange"
             ),
         }
     };
