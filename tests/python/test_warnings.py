@@ -1,4 +1,4 @@
-"""Each warning of the FMU is printed once by each command, to standard error, and is a Python warning in the package."""
+"""Each command prints each warning of the FMU once, to standard error, and the package raises it as a Python warning."""
 
 import subprocess
 import sys
@@ -14,9 +14,9 @@ from bevel_differential.command import COMMANDS, main
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "design"
-# a warning of unusual gears, and one of a value that changes nothing
+# a warning about unusual gears, and one about a value that changes nothing
 WIDE, UNFELT = "geometry.face_width: ", "left.brake_torque: 200 N.m changes nothing in this scene: "
-# gears that are not the study's, with the study's stiffness
+# gears that differ from the study's but have its stiffness
 STIFFNESS = "contact.law: impact has the stiffness of the study's gears"
 SCENE = """description = "a turn"
 stop_time = 0.02
@@ -52,7 +52,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-# arguments after the command's name, {} for the folder; the warnings that are printed once
+# arguments after the command's name, with {} for the folder; the warnings that are printed once
 RUNS = {
     "run": (["{}/scene.toml", "--csv", "{}/a.csv", "--plot", "{}/a.png"], [WIDE, UNFELT, STIFFNESS]),
     "plan": (["{}/scene.toml"], [WIDE, UNFELT, STIFFNESS]),
@@ -68,11 +68,11 @@ RUNS = {
                 "--temperature", "80 degC, 90 degC", "--bound", "100,1000", "--unseen", "0", "--workers", "0", "--set",
                 "scene.gear_contact=lumped"], [WIDE]),
 }
-# what needs more than a second is checked by what it is made of: sweeps, scenes and runs by the package
+# commands that need more than a second; their sweeps, scenes and runs are tested in the package
 ELSEWHERE = {"variables", "optimise", "tolerance", "bench", "study", "verify", "examples", "page"}
 
 
-def test_all_commands_are_here():
+def test_all_commands_are_covered():
     assert RUNS.keys() | ELSEWHERE == COMMANDS.keys()
 
 

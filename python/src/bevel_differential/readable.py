@@ -1,20 +1,20 @@
-"""Numbers and texts as people read them in pictures."""
+"""Numbers and texts for pictures."""
 
 import textwrap
 
 import numpy as np
 
-# units of the interface as they are printed
+# printed forms of units of the interface
 UNITS = {"N.m": "N·m", "m/s2": "m/s²"}
 
 
 def spaced(value):
-    """A large number in groups: 16 078."""
+    """Large number with grouped digits: 16 078."""
     return f"{value:,.0f}".replace(",", " ")
 
 
 def percent(error):
-    """A relative error in percent, short."""
+    """Short text of a relative error in percent."""
     value = 100.0 * error
     if not np.isfinite(value):
         return "–"
@@ -24,7 +24,7 @@ def percent(error):
 
 
 def with_unit(value, unit):
-    """A value with its unit, small ones in a smaller unit."""
+    """Text of a value with its unit; small values have a smaller unit."""
     if unit == 1.0:
         return f"{100.0 * value:.3g} %"
     for whole, factor, part in [("m", 1e6, "µm"), ("s", 1e3, "ms"), ("J", 1e3, "mJ")]:
@@ -35,7 +35,7 @@ def with_unit(value, unit):
 
 
 def ratio(value):
-    """A ratio with two digits."""
+    """Text of a ratio with two digits."""
     return f"{value:.2g}" if value < 100.0 else spaced(float(f"{value:.2g}"))
 
 
@@ -43,13 +43,13 @@ def wrapped(text, width):
     return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False))
 
 
-# groups of variables that name the quantity, not the body
+# groups of variables whose name is a quantity instead of a body
 QUANTITIES = ("safety", "heat", "stress", "damage", "power", "life")
 STATISTICS = {"peak_to_peak": "{}, peak to peak", "min": "least {}", "max": "largest {}"}
 
 
 def in_words(name):
-    """A variable, or a wanted figure of one, in words: "planet[1].left_force_max:mean" is "largest force, planet 1 left, mean"."""
+    """Name of a variable, or of a statistic of it, in words: "planet[1].left_force_max:mean" is "largest force, planet 1 left, mean"."""
     name, _, statistic = str(name).partition(":")
     group, _, last = name.rpartition(".")
     body = group.replace("[", " ").replace("]", "")
