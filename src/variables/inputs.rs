@@ -35,7 +35,7 @@ pub fn rows() -> Vec<Row<InputField>> {
         )
         .when("scene.right_drive = torque")
         .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.load_torque[1]),
-        row("spin.command", "Imposed planet spin relative to the carrier; positive spin accelerates the left side")
+        row("spin.command", "Imposed planet spin relative to the carrier; positive spin makes the left side faster")
             .when("scene.planet_spin = imposed")
             .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.planet_spin),
         row("left.speed_command", "Imposed speed of the wheel side of the left half-shaft when it is speed-driven")

@@ -190,7 +190,7 @@ impl Effect for BearingDragSpec {
         }
         vec![Problem::new(
             "effects.bearing_drag",
-            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
+            "there is no drag: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
              switch the effect off",
         )]
     }

@@ -113,7 +113,7 @@ impl Declare for StrengthSpec {
             row(
                 "strength.bending_strength",
                 "Bending strength of the tooth roots under pulsating load at the knee of the S-N curve (carburised \
-                 MQ, ISO 6336-5: 2 x 500 MPa)",
+                 MQ, 2 x 500 MPa in ISO 6336-5)",
             )
             .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.bending_strength),
             row("strength.bending_cycles", "Number of cycles at the knee of the S-N curve for bending").real(
@@ -133,7 +133,7 @@ impl Declare for StrengthSpec {
             ),
             row(
                 "strength.contact_strength",
-                "Contact strength of the flanks at the knee of the S-N curve (carburised MQ, ISO 6336-5: 1500 MPa)",
+                "Contact strength of the flanks at the knee of the S-N curve (carburised MQ, 1500 MPa in ISO 6336-5)",
             )
             .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.contact_strength),
             row("strength.contact_cycles", "Number of cycles at the knee of the S-N curve for pitting").real(
