@@ -1,4 +1,4 @@
-"""Drive cycle of the scene drive_cycle: a car on a course, its carrier torque and wheel speeds. Writes scenes/drive_cycle.csv.
+"""Drive cycle of the scene drive_cycle: the course of a car, with torque and speeds of its axle. Writes scenes/drive_cycle.csv.
 
 usage, from the top of the repository:
     target/python/bin/python docs/scripts/drive_cycle.py

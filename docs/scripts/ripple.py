@@ -3,7 +3,7 @@
 usage, from the top of the repository, after `cargo run --release`:
     target/python/bin/python docs/scripts/ripple.py [FMU]
 
-Prints the table of docs/study.md. All columns except the last two are measured through the FMU.
+Prints the table of docs/study.md. The FMU gives all columns except the last two.
 """
 
 import sys
@@ -76,7 +76,7 @@ def quasi_static(te_one, exponent):
 
 
 def steepest(exponent):
-    """κ = max dy/du of y^e + (y − u²)^e = 1, dimensionless: steepest growth of the deflection as a corner leaves contact."""
+    """Steepest growth κ of the deflection as a corner leaves, dimensionless: max dy/du of y^e + (y − u²)^e = 1."""
     u = np.linspace(0.0, 1.0, 2001)[:-1]
     low, high = np.maximum(u**2, 0.5 ** (1 / exponent)), np.ones_like(u)
     for _ in range(60):
@@ -88,14 +88,14 @@ def steepest(exponent):
 
 
 def square_root(te_one, exponent):
-    """Ripple, peak to peak [%], by the short formula κ √(a₁ c), with c = g/Δ² where the gap is the single pair's approach a₁."""
+    """Ripple by the short formula κ √(a₁ c). The coefficient c = g/Δ² is taken at a gap equal to the single pair's approach a₁."""
     one = te_one / R_M
     slope = steepest(exponent) * sum(one / np.interp(one, table, DELTA) for table in (GAP_P, GAP_S))
     return [100.0 * DIFFERENCE / speed * slope for _, speed in SIDES]
 
 
 def turn(changes, step=1e-4):
-    """Record of the turn with changed start values, from the second tooth on."""
+    """Returns a record of the turn with changed start values, from the end of the first tooth on."""
     values = {"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"), "carrier.speed_command": (CARRIER, "deg/s")}
     outputs = [f"{side}.speed" for side, _ in SIDES] + ["planet[1].left_transmission_error"]
     with Differential(values | changes, fmu=FMU) as differential:

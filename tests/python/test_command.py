@@ -78,7 +78,7 @@ def test_sweep_prints_its_results_which_are_those_of_the_package(tmp_path, capsy
         expected = sweep(scene, {"left.load_torque": "700 N.m..900 N.m", "contact.law": "line, line_weber"}, "sobol", 5, 1,
                          ["left.speed:mean"], ["efficiency >= 0.9"], "0.14 s", workers=0)
     assert SweepResult.load(out).digest() == expected.digest()
-    assert "8 (5 asked for" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
+    assert "8 (5 requested" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
 
 
 def test_a_plan_file_says_the_same_as_options_and_options_come_first(tmp_path):

@@ -120,7 +120,7 @@ def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
     (lambda d: d.set({"effects.strength": 2}), ["effects.strength", "true or false"]),
     (lambda d: d.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
     (lambda d: d.run(outputs=["left.sped"]), ["left.sped", "did you mean left.speed"]),
-    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "no input"]),
+    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "not an input"]),
     (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), ["left.load_torque", "2 times for 1"]),
     (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), ["left.load_torque", "must not fall"]),
     (lambda d: d.run(stop=-0.1), ["stop"]),

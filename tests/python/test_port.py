@@ -175,7 +175,7 @@ def test_a_wrong_number_of_values_is_refused_by_the_names_of_the_inputs(opened, 
     with pytest.raises(DifferentialError) as refused:
         port.step(values, SIZE, rates)
     said = str(refused.value)
-    assert said.startswith("right.load_torque, carrier.torque_command: ") and f"the number of {what} is {count}," in said
+    assert said.startswith("right.load_torque, carrier.torque_command: ") and f"there are {count} {what} for 2 inputs" in said
     assert port.read() == before and opened.time == 0.0
 
 

@@ -158,7 +158,7 @@ def test_judder_grows_until_the_wheel_sticks(drive):
 
 @pytest.mark.parametrize(("name", "value", "words"), [
     ("limited_slip.cold_temperature", 360.0, ["limited_slip.cold_temperature", "360 K", "limited_slip.reference_temperature"]),
-    ("limited_slip.hot_temperature", 300.0, ["limited_slip.hot_temperature", "300 K", "in order"]),
+    ("limited_slip.hot_temperature", 300.0, ["limited_slip.hot_temperature", "300 K", "must increase"]),
     ("limited_slip.hot_temperature", 700.0, ["limited_slip.hot_temperature", "700", "673.15"]),
     ("oil.temperature", 200.0, ["oil.temperature", "200", "213.15"]),
     ("limited_slip.pv_limit", -1.0, ["limited_slip.pv_limit", "-1"]),

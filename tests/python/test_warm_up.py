@@ -193,7 +193,7 @@ def test_a_start_with_steady_heat_balances_the_heat_of_the_clutch(drive, contact
     assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(expected, rel=10.0 * tolerance)
 
 
-def test_a_start_with_steady_heat_remains_if_friction_depends_on_temperature(drive):
+def test_a_start_with_steady_heat_stays_where_friction_depends_on_temperature(drive):
     values = STEADY | {"scene.gear_contact": "lumped", "limited_slip.hot_factor": 0.5, "limited_slip.cold_factor": 1.5,
                        **theory.DRAG, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.2}
     driven = drive(values)

@@ -32,7 +32,7 @@ class Plan:
     def __init__(self, name: str, description: str, scene: Scene, task: Task, study: Study):
         self.name, self.description, self.scene, self.task, self.study = name, description, scene, task, study
         self._check_ranges()
-        self._check_effects()
+        self._check_effect()
         self.notes = self._remarks()
 
     @classmethod
@@ -66,17 +66,17 @@ class Plan:
         """Result of the study, whose runs a `Farm` evaluates."""
         return self.study.run(lambda designs: farm.evaluate(self.task, designs))
 
-    def _check_effects(self):
-        """Refuses factors that have no effect on the scene in any draw."""
-        unfelt = []
+    def _check_effect(self):
+        """Refuses a factor that has no effect in any draw."""
+        without_effect = []
         for _, values in self.study.designs()[:TRIED]:
             # the results show a design that the FMU refuses
             with contextlib.suppress(DifferentialError):
-                unfelt.append(self.scene.unfelt_of(values))
+                without_effect.append(self.scene.unfelt_of(values))
         for name in self.study.factors:
-            if unfelt and all(name in each for each in unfelt):
-                raise DifferentialError(f"{name} has a tolerance, but {unfelt[0][name]}; set that in the scene or in [set], or leave "
-                                        "the factor out")
+            if without_effect and all(name in each for each in without_effect):
+                raise DifferentialError(f"{name} has a tolerance, but {without_effect[0][name]}; set that in the scene or in [set], "
+                                        "or leave the factor out")
 
     def _remarks(self):
         factors = self.study.factors
