@@ -1,6 +1,6 @@
 """One style for all pictures of the project: colours, fonts, widths, caption and file.
 
-`apply` makes it that of the process, `styled` that of a block. Units are written the same everywhere: N·m, deg/s, N/mm; a
+`apply` makes it that of the process, `styled` that of a block. Units are written the same everywhere: N·m, rpm, N/mm; a
 label is "quantity, unit". Every picture ends with a caption that says what to see.
 """
 
@@ -11,9 +11,11 @@ from pathlib import Path
 import matplotlib
 from cycler import cycler
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from PIL import Image
 
 from .output_file import checked
+from .readable import plain
 from .values import DifferentialError
 from .writing import write_whole
 
@@ -72,6 +74,21 @@ def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
                  color=TEXT, linespacing=1.3)
 
 
+def plain_decades(axis):
+    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000."""
+    axis.set_major_locator(LogLocator(numticks=12))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def in_rpm(axes):
+    """Adds a second y axis in rpm to axes in deg/s."""
+    second = axes.secondary_yaxis("right", functions=(lambda speed: speed / 6.0, lambda speed: speed * 6.0))
+    second.set_ylabel("rpm")
+    second.spines["right"].set_visible(True)
+    return second
+
+
 def note(axes, x, y, text, **options):
     """A remark at a place in shares of the panel, right-aligned."""
     axes.text(x, y, text, transform=axes.transAxes, **{"ha": "right", "va": "center", "color": TEXT, **options})
@@ -87,9 +104,11 @@ def save(picture, path, shaded=False):
         picture.savefig(drawn, format=kind)
     except ValueError as error:
         raise DifferentialError(f"{path}: {error}", kind="failed") from None
-    if not shaded and kind == "png":
+    if kind == "png":
         with Image.open(drawn) as image:
-            few = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+            smaller = image.convert("RGB")
+        if not shaded:
+            smaller = smaller.quantize(COLOURS, dither=Image.Dither.NONE)
         drawn = io.BytesIO()
-        few.save(drawn, format=kind, optimize=True)
+        smaller.save(drawn, format=kind, optimize=True)
     write_whole(path, drawn.getvalue())

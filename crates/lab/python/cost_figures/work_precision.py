@@ -16,8 +16,9 @@ MOTIONS = {"turn": "Turn: one tooth, 0.18 s", "blow": "Turn from mid-gap: teeth\
            "clunk": "Clunk: lash crossed,\nshafts wind up, 20 ms"}
 FIDELITIES = {"ideal": "ideal: no teeth", "lumped": "lumped: spring per mesh",
               "impact": "tooth pairs, law impact", "line": "tooth pairs, law line"}
-# smaller errors are rounding errors and are drawn at this value
-FLOOR = 1.5e-13
+# smaller errors are rounding errors and are drawn at this value; the lower end of the axes is below it
+FLOOR = 1e-13
+LOWEST = 1e-14
 HEIGHT = 10.6
 
 
@@ -99,12 +100,12 @@ def panels():
 
 
 def draw_case(axes, rows, work, column, span, spread=False):
-    axes.set(xscale="log", yscale="log", xlim=span, ylim=(1e-13, 3.0))
+    axes.set(xscale="log", yscale="log", xlim=span, ylim=(LOWEST, 3.0))
     if not rows:
         return
     floor = rows[0]["reference_" + column]
     if floor > 0.0:
-        axes.axhspan(1e-16, floor, color=PALE_GREY, lw=0, zorder=0)
+        axes.axhspan(LOWEST, floor, color=PALE_GREY, lw=0, zorder=0)
     if "own" in rows[0]["reference"]:
         style.note(axes, 0.985, 0.94, "*", fontsize=15, color=FAINT)
     for method, (color, marker, label) in METHODS.items():

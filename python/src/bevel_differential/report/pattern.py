@@ -88,7 +88,7 @@ def section(run: Simulated) -> Section:
     if not loaded:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
         return found
-    caption = " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)
+    caption = " ".join(_caption(name, contacts, run.time[-1]) for name, contacts in loaded) + _reading(pair, loaded)
     found.add(Picture("pattern", _draw(run, pair, loaded), caption))
     return found
 
@@ -150,14 +150,14 @@ def _draw(picture, run, pair: Pair, loaded):
         loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
 
 
-def _caption(name, contacts):
+def _caption(name, contacts, end):
     low, high = MM * contacts.height.min(), MM * contacts.height.max()
     sound = np.where(contacts.in_seam & ~np.all(contacts.in_seam), 0.0, contacts.pressure.max(axis=1))
     k = int(np.argmax(sound))
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
     widest = 2.0 * MM * contacts.half_width.max()
     peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
-            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch line, {words.quantity(contacts.time[k], 's')})")
+            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch line, {words.moment(contacts.time[k], end)})")
     teeth = len(np.unique(contacts.tooth))
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
