@@ -77,10 +77,10 @@ def against_cost(axes, exact, solids):
         own = [row for row in solids if row["smoothing"] == smoothing]
         axes.plot([1.0 / row["real_time"] for row in own], [RPM * row["speed_rms_deg_s"] for row in own], color=color, marker=marker,
                   ms=5, label=name)
-        # labels of the patch are above the line, those of the deepest point below
-        above = smoothing == 1.0
         for row in own:
             if row["facets"] in MARKED:
+                # away from the other line, which crosses this one between 32 and 64 facets
+                above = (smoothing == 1.0) == (row["facets"] <= 32)
                 axes.annotate(f"{row['facets']:.0f}", (1.0 / row["real_time"], RPM * row["speed_rms_deg_s"]),
                               xytext=(6, 3) if above else (-5, -5), ha="left" if above else "right",
                               va="bottom" if above else "top", textcoords="offset points", color=color, fontsize=style.SMALL)

@@ -15,7 +15,7 @@ def spaced(value):
 
 def plain(value):
     """A number with three digits and without an exponent: 0.001, 25, 10 000."""
-    return spaced(value) if value >= 1e4 else np.format_float_positional(value, 3, fractional=False, trim="-")
+    return spaced(float(f"{value:.3g}")) if value >= 1e4 else np.format_float_positional(value, 3, fractional=False, trim="-")
 
 
 def time_scale(duration):

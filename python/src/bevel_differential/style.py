@@ -5,6 +5,7 @@ label is "quantity, unit". Every picture ends with a caption that says what to s
 """
 
 import io
+import re
 import textwrap
 from pathlib import Path
 
@@ -66,6 +67,8 @@ def panels(rows, columns, height, **options):
 
 def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
     """Adds a caption in lines under the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
+    # a number and its unit stay on one line
+    text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", text)
     lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
     share = 0.99 - height - above / picture.get_figheight()
@@ -84,7 +87,7 @@ def plain_decades(axis):
 def in_rpm(axes):
     """Adds a second y axis in rpm to axes in deg/s."""
     second = axes.secondary_yaxis("right", functions=(lambda speed: speed / 6.0, lambda speed: speed * 6.0))
-    second.set_ylabel("rpm")
+    second.set_ylabel("speed, rpm")
     second.spines["right"].set_visible(True)
     return second
 

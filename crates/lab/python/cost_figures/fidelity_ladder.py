@@ -42,7 +42,7 @@ def errors(axes, rows, rungs, title):
     texts = [["failed" if cell[rung, quantity]["status"] == "failed" else percent(cell[rung, quantity]["error"])
               for quantity in quantities] for rung in rungs[:-1]]
     last = [cell[rungs[-1], quantity] for quantity in quantities]
-    texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1] for row in last])
+    texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1].replace("-", "−") for row in last])
     # a failed run has no error: its cells have the colour of the largest errors
     draw_cells(axes, np.where(np.isfinite(found), found, 1e8), texts, COLORS, LIMITS, lambda error: error < 1e-3 or error >= 0.5)
     axes.set_title(title, fontsize=TITLE, loc="left")

@@ -23,14 +23,14 @@ HEIGHT = 10.6
 
 
 def speeds(folder):
-    against_time(folder, "speed_error", "work_precision", "speed of the side gears")
+    against_time(folder, "speed_error", "work_precision", "speed", "speed of the side gears")
 
 
 def forces(folder):
-    against_time(folder, "force_error", "work_precision_force", "normal force of the meshes")
+    against_time(folder, "force_error", "work_precision_force", "mesh force", "normal force of the meshes")
 
 
-def against_time(folder, column, name, what):
+def against_time(folder, column, name, short, what):
     machine, rows = read(folder / "work_precision.csv")
     good = [row for row in rows if row["status"] == "ok"]
     costs = [row["cost"] for row in good]
@@ -43,13 +43,16 @@ def against_time(folder, column, name, what):
                 draw_case(grid[i][j], own, lambda row: row["cost"], column, span, spread=True)
     for j, title in enumerate(FIDELITIES.values()):
         grid[0 if j else 2][j].set_title(title, fontsize=11.5)
-    finish(figure, grid, "time, × the default's", f"error in {what}")
+    finish(figure, grid, "time, × the default's", f"relative error of {short}")
+    for axes in filter(None, grid[-1]):
+        style.plain_decades(axes.xaxis)
+        axes.tick_params(axis="x", labelsize=style.SMALL)
     runs = sorted({int(row["runs"]) for row in good})
     times = str(runs[0]) if runs[0] == runs[-1] else f"{runs[0]} to {runs[-1]}"
     style.caption(figure, f"What accuracy costs: error in the {what} (largest at any compared time, relative) against time on the processor; "
                   "further down and further left is better. Tolerances run from loose (left) to tight (right); the ring marks the "
                   "default, adaptive at 1e-6, whose time is 1 in every panel. Crosses at the top: settings that fail. Grey band: "
-                  f"smaller than the error of the reference. {sources(rows)}Results are compared every 10 ms (turn), or every 0.25 "
+                  f"smaller than the error of the reference; errors below {FLOOR:g} are drawn at {FLOOR:g}. {sources(rows)}Results are compared every 10 ms (turn), or every 0.25 "
                   f"to 2 ms (others), so that the host does not dictate the steps. Median of {times} runs in turn, quartiles as bars. "
                   f"{machine}.")
     style.save(figure, folder / f"{name}.png")
@@ -68,11 +71,11 @@ def counts(folder):
     for i, motion in enumerate(MOTIONS):
         for j, (fidelity, count) in enumerate(kinds):
             own = [row for row in rows if row["case"] == f"{motion}/{fidelity}"]
-            draw_case(axes[i][j], own, lambda row: row[count], "speed_error", (30, 1e7))
+            draw_case(axes[i][j], own, lambda row: row[count], "speed_error", (10, 1e7))
     for j, (fidelity, count) in enumerate(kinds):
         what = "evaluations of forces" if count == "rhs_calls" else "Jacobians, each factorised"
         axes[0][j].set_title(f"{FIDELITIES[fidelity]}:\n{what}", fontsize=11.5)
-    finish(figure, axes, "number", "error in speed of the side gears")
+    finish(figure, axes, "number", "relative error of speed")
     legend = handles(axes[0][1])
     figure.legend(legend.values(), legend.keys(), loc="outside upper center", ncols=5, fontsize=style.SMALL)
     style.caption(figure, "Counts that hold on any machine: error in the speed of the side gears against evaluations of "

@@ -1,4 +1,4 @@
-"""The axes of a map as pictures, tables and sentences show them: in SI and °C, unless the scene prefers other units."""
+"""The axes of a map as pictures, tables and sentences show them: in N·m, rpm and °C, unless the scene prefers other units."""
 
 from typing import TypeVar
 
@@ -20,9 +20,11 @@ class Axis:
     torques."""
 
     def __init__(self, fmu: Fmu, axis: int):
+        if "rad/s" not in fmu.display_units:
+            fmu = fmu.displaying(["rpm"])
         variable = fmu.variable(VARIABLES[axis])
         self._variable = variable.differences() if axis == SLIP_AXIS else variable
-        # temperatures are read in °C, whatever else is SI
+        # temperatures are read in °C, whatever other units are preferred
         self._preferred = {self._variable.unit or "": ""} if axis == TEMPERATURE_AXIS else fmu.display_units
         unit, _ = self._variable.in_files(0.0, self._preferred)
         self.unit = words.unit_text(unit).replace("degC", "°C")

@@ -146,7 +146,10 @@ def _draw_error(picture, run, part, orders, sizes):
         panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
         # a logarithmic axis within a decade has no round numbers to tell
         if sizes.max() > 10.0 * sizes.min():
+            from .. import style
+
             panels[1].set(yscale="log", ylim=(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0))
+            style.plain_decades(panels[1].yaxis)
 
 
 def _over_time(run):
