@@ -46,13 +46,15 @@ def against_time(folder, column, name, short, what):
     finish(figure, grid, "time, × the default's", f"relative error of {short}")
     for axes in filter(None, grid[-1]):
         style.plain_decades(axes.xaxis)
-        axes.tick_params(axis="x", labelsize=style.SMALL)
+        # labels of every decade would not fit
+        axes.xaxis.set_major_locator(LogLocator(base=100.0))
     runs = sorted({int(row["runs"]) for row in good})
     times = str(runs[0]) if runs[0] == runs[-1] else f"{runs[0]} to {runs[-1]}"
     style.caption(figure, f"What accuracy costs: error in the {what} (largest at any compared time, relative) against time on the processor; "
                   "further down and further left is better. Tolerances run from loose (left) to tight (right); the ring marks the "
                   "default, adaptive at 1e-6, whose time is 1 in every panel. Crosses at the top: settings that fail. Grey band: "
-                  f"smaller than the error of the reference; errors below {FLOOR:g} are drawn at {FLOOR:g}. {sources(rows)}Results are compared every 10 ms (turn), or every 0.25 "
+                  f"smaller than the error of the reference; errors below {FLOOR:g} are drawn at {FLOOR:g}. {sources(rows)}"
+                  "Results are compared every 10 ms (turn), or every 0.25 "
                   f"to 2 ms (others), so that the host does not dictate the steps. Median of {times} runs in turn, quartiles as bars. "
                   f"{machine}.")
     style.save(figure, folder / f"{name}.png")

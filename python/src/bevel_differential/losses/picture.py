@@ -17,6 +17,8 @@ MOST_CURVES = 4
 NAMES = ["left torque", "right torque", "loss"]
 # ratio from which its axis is logarithmic
 DECADE = 10.0
+# smallest error of interest, as a fraction of the bound
+SMALLEST = 1e-4
 
 
 def draw(made: MeasuredMap, file: FileName) -> Path:
@@ -48,7 +50,7 @@ def draw(made: MeasuredMap, file: FileName) -> Path:
             style.plain_decades(ratio.yaxis)
         else:
             # 1 is no bias
-            ratio.set_ylim(bottom=1.0)
+            ratio.set_ylim(1.0, 1.0 + 1.2 * max(ratio.get_ylim()[1] - 1.0, 0.05))
         loss.set(xlabel=of_slip.label, ylabel="power loss, kW",
                  title=f"Loss at {of_torque.text(middle[0])},\n{of_speed.text(middle[1], 3)}")
         for column, name in zip(made.errors.T, NAMES):
@@ -56,6 +58,7 @@ def draw(made: MeasuredMap, file: FileName) -> Path:
         error.axvline(1.0, color=style.RED, ls="--")
         error.set(xscale="log", xlabel=f"error over the bound, {str(made.bound).replace('.m', '·m')}", ylabel="share of the unseen points, %",
                   title="Measured error")
+        error.set_xlim(left=max(error.get_xlim()[0], SMALLEST))
         style.plain_decades(error.xaxis)
         for axes in (ratio, loss, error):
             axes.legend()

@@ -21,6 +21,8 @@ THINNEST = 0.006
 # pressure is twice as high there
 LEAST_RADIUS = 0.25
 MM, MPA = 1e3, 1e6
+# room above and below a flank, mm
+EDGE = 0.3
 FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 
 
@@ -138,7 +140,7 @@ def _draw(picture, run, pair: Pair, loaded):
         flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=svg_style.GREY, fontsize=8, va="center")
         flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=svg_style.GREY, fontsize=8, va="bottom")
         flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
-                  xlim=(ends[0] - 1.0, ends[1] + 3.0))
+                  xlim=(ends[0] - 1.0, ends[1] + 3.0), ylim=(MM * root * cones[-1] / mean - EDGE, MM * tip * cones[-1] / mean + EDGE))
         flank.set_aspect("equal")
         flank.grid(False)
         bar = picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither")
@@ -146,7 +148,7 @@ def _draw(picture, run, pair: Pair, loaded):
         scale, unit = svg_style.unit_prefix([contacts.force])
         loads.plot(contacts.force / scale, MM * contacts.height, ".", color=svg_style.BLUE, ms=4)
         loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
-                                                                             "mm", ylim=(MM * root, MM * tip))
+                                                                             "mm", ylim=(MM * root - EDGE, MM * tip + EDGE))
         loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
 
 
